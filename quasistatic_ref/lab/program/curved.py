@@ -71,7 +71,7 @@ def farthest(shape, direction):
         a = np.array(shape["half_axes"])
         return a * a * direction / np.linalg.norm(a * direction)
     r = np.hypot(direction[0], direction[1])
-    rim = shape["radius"] * (direction / r if r > 1e-12 else AXES[0]) * [1, 1, 0]
+    rim = shape["radius"] * (direction / r if r > 0 else AXES[0]) * [1, 1, 0]
     half = shape["length"] / 2
     if kind == "cone":
         ends = [np.array([0, 0, half]), rim - half * AXES[2]]

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .mechanism import slices
-from .number import angle_of, coefficients, cos_sin, root, sign
+from .number import coefficients, cos_sin, root
 from .rotation import AXES, quaternion_product, rotation, skew, unit
 
 
@@ -38,9 +38,9 @@ def difference(body, target, q):
     if kind == "floating":
         back = np.append(-q[3:6], q[6])
         p = unit(quaternion_product(back, target[3:]))
-        p = -p if sign(p[3]) < 0 else p
+        p = -p if p[3] < 0 else p
         s = root(p[:3] @ p[:3])
-        w = p[:3] * (2 * angle_of(s, p[3]) / s if sign(s) else 2)
+        w = p[:3] * (2 * np.arctan2(s, p[3]) / s if s else 2)
         _, b, c = coefficients(root(w @ w))
         W = skew(w)
         V = AXES + b * W + c * W @ W
@@ -48,7 +48,7 @@ def difference(body, target, q):
     if kind in ("planar", "continuous"):
         c, s = q[-2:]
         c1, s1 = target[-2:]
-        w = angle_of(c * s1 - s * c1, c * c1 + s * s1)
+        w = np.arctan2(c * s1 - s * c1, c * c1 + s * s1)
         if kind == "continuous":
             return np.array([w])
         a, b, _ = coefficients(abs(w))

@@ -10,12 +10,6 @@ import numpy as np
 
 
 @singledispatch
-def sign(x):
-    """-1, 0 or 1."""
-    return np.sign(x)
-
-
-@singledispatch
 def root(x):
     """Square root."""
     return np.sqrt(x)
@@ -25,12 +19,6 @@ def root(x):
 def cos_sin(angle):
     """Cosine and sine."""
     return np.cos(angle), np.sin(angle)
-
-
-@singledispatch
-def angle_of(sine, cosine):
-    """Angle of a cosine and a sine that have a factor in common, -pi to pi."""
-    return np.arctan2(sine, cosine)
 
 
 @singledispatch

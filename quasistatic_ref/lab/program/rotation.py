@@ -42,18 +42,3 @@ def quaternion_product(p, q):
     return np.append(
         p[3] * q[:3] + q[3] * p[:3] + np.cross(p[:3], q[:3]), p[3] * q[3] - p[:3] @ q[:3]
     )
-
-
-def quaternion_of(R):
-    """Unit quaternion of a rotation, its largest entry positive, the first of equals."""
-    (a, b, c), (d, e, f), (g, h, i) = R
-    # Four times the square of each entry, and its products with the others.
-    table = np.array(
-        [
-            [1 + a - e - i, b + d, c + g, h - f],
-            [b + d, 1 - a + e - i, f + h, c - g],
-            [c + g, f + h, 1 - a - e + i, d - b],
-            [h - f, c - g, d - b, 1 + a + e + i],
-        ]
-    )
-    return unit(table[np.argmax(table.diagonal())])

@@ -46,8 +46,8 @@ def contacts_of(case, at):
 def loads(case, at):
     """M, and tau of gravity (un-actuated only) and of the wrenches."""
     _, n_a, n_v = slices(case["mechanism"])
-    M = np.zeros((n_v, n_v), dtype=int)
-    weight = np.zeros(n_v, dtype=int)
+    M = np.zeros((n_v, n_v))
+    weight = np.zeros(n_v)
     centre = {}
     for body in case["mechanism"]["bodies"]:
         R, t, _ = at[body["name"]]
@@ -57,7 +57,7 @@ def loads(case, at):
         v, w = point_jacobian(at[body["name"]], centre[body["name"]])
         M = M + mass * v.T @ v + w.T @ inertia @ w
         weight = weight + mass * v.T @ np.array(case["gravity"])
-    tau = np.append(np.zeros(n_a, dtype=int), weight[n_a:])
+    tau = np.append(np.zeros(n_a), weight[n_a:])
     for load in case.get("wrenches", []):
         point = centre[load["body"]]
         v, w = point_jacobian(at[load["body"]], point)
@@ -76,7 +76,7 @@ def objective(case, M, tau):
     if "tau" in case:
         g = g + h * case["tau"]
     g[:n_a] += h * tau_k
-    H = np.zeros(M.shape, dtype=g.dtype)
+    H = np.zeros(M.shape)
     H[:n_a, :n_a] = h * K_q
     H[n_a:, n_a:] = M[n_a:, n_a:] / h
     return H, g

@@ -1,4 +1,7 @@
-"""The folder of vectors from its inputs: every output computed, identical bytes on any machine."""
+"""The folder of vectors from its inputs, with identical bytes on any machine.
+
+Outputs are computed, or copied where they were made once.
+"""
 
 import hashlib
 import json
@@ -15,13 +18,13 @@ from quasistatic_ref.lab.vectors.files import (
     inputs_read,
     lines,
 )
-from quasistatic_ref.lab.vectors.layers import COMPUTED, LAYERS, layer
+from quasistatic_ref.lab.vectors.layers import COMPUTED, FILES, LAYERS, layer
 from quasistatic_ref.lab.vectors.versions import FORMAT, FORMAT_VERSION, MANIFEST, RELEASE
 from quasistatic_ref.simulate.progress import progress_bar
 
 COPIED = (
     "README.md", "CITATION.cff", "LICENSE*", "inputs/*.json", "schemas/*.json",
-    "expected/derivative.json",
+    *(f"expected/{name}.json" for name in FILES),
 )  # fmt: skip
 """What is taken over as it is."""
 
@@ -36,7 +39,7 @@ def expected_record(name: str, case: Case) -> dict[str, Json]:
 
 
 def generate_folder(source: Path, out: Path, progress: bool = True) -> dict[str, int]:
-    """Compute every output of the inputs in a folder, and write the whole folder.
+    """Compute or copy every output of the inputs in a folder, and write the whole folder.
 
     Parameters
     ----------
@@ -55,19 +58,20 @@ def generate_folder(source: Path, out: Path, progress: bool = True) -> dict[str,
     Raises
     ------
     InputError
-        If an input is bad, or the answers of derivatives, which are copied, are not there.
+        If an input is bad, or answers that are copied are not there.
     """
-    answers = source / "expected" / "derivative.json"
-    if (source / "inputs" / "derivative.json").exists() and not answers.exists():
-        problem = "is missing: answers of derivatives are files, which are copied"
-        raise InputError(problem, file=answers)
+    counts = {name: len(inputs_read(source, name)) for name in LAYERS}
+    for name in FILES:
+        answers = source / "expected" / f"{name}.json"
+        if not answers.exists():
+            problem = "is missing: the answers of this layer are a file, which is copied"
+            raise InputError(problem, file=answers)
     writable_folder(out)
     files = {
         path.relative_to(source).as_posix(): bytes_read(path)
         for pattern in COPIED
         for path in sorted(source.glob(pattern))
     }
-    counts = {name: len(inputs_read(source, name)) for name in LAYERS}
     for name in COMPUTED:
         cases = inputs_read(source, name)
         records = [expected_record(name, case) for case in _with_progress(cases, name, progress)]

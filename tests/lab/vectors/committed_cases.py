@@ -11,7 +11,7 @@ from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
-from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.layers import FILES, LAYERS
 from quasistatic_ref.lab.vectors.trees import mapped
 
 ROOT = Path(__file__).parents[3]
@@ -68,6 +68,13 @@ def inputs_file(folder, layer, chosen):
     head = {"format": "quasistatic-ref/vectors-inputs", "version": 1, "layer": layer}
     text = json.dumps(head | {"cases": [vars(case) for case in chosen]})
     text_written(folder / "inputs" / f"{layer}.json", text)
+
+
+def expected_files(folder, names=FILES):
+    """Copy what is expected of layers whose answers are files."""
+    for name in names:
+        path = f"expected/{name}.json"
+        text_written(folder / path, (VECTORS / path).read_text("utf-8"))
 
 
 def answer_file(folder, layer, outputs, **head):

@@ -7,7 +7,7 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from tests.lab.vectors.committed_cases import VECTORS, by_size, cases, inputs_file
+from tests.lab.vectors.committed_cases import by_size, cases, expected_files, inputs_file
 
 
 @pytest.fixture
@@ -17,8 +17,7 @@ def few(tmp_path):
         # The first quadratic programs have a solution.
         chosen = cases("qp") if layer == "qp" else by_size(layer)
         inputs_file(tmp_path / "source", layer, chosen[:2])
-    files = VECTORS / "expected" / "derivative.json"
-    text_written(tmp_path / "source" / "expected" / "derivative.json", files.read_text("utf-8"))
+    expected_files(tmp_path / "source")
     source = str(tmp_path / "source")
     out = str(tmp_path / "vectors")
     assert main(["vectors", "generate", "--vectors", source, "--out", out]) == 0
@@ -71,9 +70,9 @@ def test_a_bad_file_of_inputs_is_refused_by_name(record, says, tmp_path, cli):
 
 
 def test_a_case_that_cannot_be_answered_is_named(few, cli):
-    path = few / "inputs" / "distance.json"
+    path = few / "inputs" / "integrate.json"
     content = json.loads(path.read_text())
-    content["cases"][0]["input"]["alpha"] = {"kind": "blob"}
+    content["cases"][0]["input"]["mechanism"]["bodies"][0]["joint"] = "screw"
     path.write_text(json.dumps(content))
     assert (
         content["cases"][0]["id"]

@@ -13,7 +13,7 @@ from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.files import line
 from quasistatic_ref.lab.vectors.generate import expected_record, generate_folder, manifest_text
-from quasistatic_ref.lab.vectors.layers import COMPUTED, LAYERS
+from quasistatic_ref.lab.vectors.layers import COMPUTED, FILES, LAYERS
 from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, cone_step, step_of
 from quasistatic_ref.lab.vectors.versions import MANIFEST
 from tests.lab.vectors.committed_cases import (
@@ -22,6 +22,7 @@ from tests.lab.vectors.committed_cases import (
     answer_file,
     by_size,
     cases,
+    expected_files,
     expected_of,
     inputs_file,
     right_answers,
@@ -29,8 +30,7 @@ from tests.lab.vectors.committed_cases import (
 
 MEBIBYTES = 25
 """Promised size of the folder."""
-FILE_ALONE = "expected/derivative.json"
-EVERY = {"distance": 24, "qp": 12, "step": 48}
+EVERY = {"qp": 12}
 """Every so many cases of a layer are computed again; of the others, which take no time, all."""
 
 
@@ -77,9 +77,12 @@ def test_what_is_computed_again_is_what_is_committed_byte_for_byte(layer):
         assert line(expected_record(layer, case)) in records, case.id
 
 
-def test_derivatives_without_their_answers_are_refused(tmp_path):
-    inputs_file(tmp_path / "a", "derivative", by_size("derivative")[:1])
-    with pytest.raises(InputError, match=r"expected/derivative\.json.*is missing"):
+@pytest.mark.parametrize("layer", FILES)
+def test_cases_without_the_answers_that_are_copied_are_refused(layer, tmp_path):
+    for name in LAYERS:
+        inputs_file(tmp_path / "a", name, by_size(name)[:1])
+    expected_files(tmp_path / "a", {*FILES} - {layer})
+    with pytest.raises(InputError, match=rf"expected/{layer}\.json.*is missing"):
         generate_folder(tmp_path / "a", tmp_path / "b", progress=False)
     assert not (tmp_path / "b").exists()
 
@@ -103,7 +106,8 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
 def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
     for layer in LAYERS:
         inputs_file(tmp_path / "a", layer, by_size(layer)[:3])
-    for path in ("README.md", "LICENSE.md", "schemas/rows.schema.json", FILE_ALONE):
+    expected_files(tmp_path / "a")
+    for path in ("README.md", "LICENSE.md", "schemas/rows.schema.json"):
         text_written(tmp_path / "a" / path, (VECTORS / path).read_text())
     counts = generate_folder(tmp_path / "a", tmp_path / "b", progress=False)
     assert counts == dict.fromkeys(LAYERS, 3)

@@ -7,8 +7,9 @@ on a box or a ball, and of a box or a cloud on a plane, several points nearly to
 
 import numpy as np
 
-from quasistatic_ref.lab.program.mechanism import slices
+from quasistatic_ref.lab.program.mechanism import kinematics, slices
 from quasistatic_ref.lab.program.rotation import quaternion_product, rotation
+from quasistatic_ref.lab.program.step import pose_in_world
 from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
     KINDS,
@@ -20,8 +21,8 @@ from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
     random_tree,
 )
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.layers.step import shape_pose
 from quasistatic_ref.lab.vectors.tables import GRAVITY, free_body, link, on, scene
+from quasistatic_ref.step.data import Array
 
 CONES = ("pyramid", "pyramid", "pyramid", "product", "facets-6", "facets-8", "frictionless")
 GAPS = (0.0005, 0.0, -0.0005, 0.01)
@@ -92,7 +93,7 @@ def _pair(rng: Rng, name: str, alpha: str, beta: str, k: int = 1) -> Json:
     return {**pair, "mu_omega": friction[1]}
 
 
-def _plane(rng: Rng, through: list[float], depth: float) -> Json:
+def _plane(rng: Rng, through: list[float] | Array, depth: float) -> Json:
     """A half-space whose surface is `depth` [m] below a point; its normal has any length."""
     normal = np.array(few_digits(rng.uniform([-1.0, -1.0, -0.5], [1.0, 1.0, 1.5]), 2))
     if rng.integers(4) == 0:  # d1 is the first of equal axes
@@ -107,7 +108,7 @@ def _touch(rng: Rng, case: Json, body: str, hard: bool) -> None:
     radius = few_digits(rng.uniform(0.02, 0.08, 1), 3)[0]
     ball = on(body, {"kind": "sphere", "radius": radius}, few_digits(rng.uniform(0, 0.1, 1))[0])
     case["shapes"]["ball"] = ball
-    centre = shape_pose(case, ball)["xyz"]
+    _, centre = pose_in_world(ball, kinematics(case["mechanism"], np.array(case["q"])))
     gap = float(rng.choice(GAPS))
     if rng.integers(3):
         case["shapes"]["floor"] = on(None, _plane(rng, centre, radius + gap))

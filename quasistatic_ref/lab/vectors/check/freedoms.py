@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from quasistatic_ref.lab.program.candidates import selection
+from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.vectors.check.compare import CONTACT, differences, tolerance_of
 from quasistatic_ref.lab.vectors.check.multipliers import (
     multipliers_problem,
@@ -16,7 +17,7 @@ from quasistatic_ref.lab.vectors.check.multipliers import (
     wrench_problem,
 )
 from quasistatic_ref.lab.vectors.check.other_contacts import contacts_problem, record_from
-from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
+from quasistatic_ref.lab.vectors.check.valid_witness import each_solid, witness_problem
 from quasistatic_ref.lab.vectors.check.verdict import Difference, Verdict, acceptance, failure
 from quasistatic_ref.lab.vectors.converters import quaternion_places
 from quasistatic_ref.lab.vectors.expected import Json
@@ -46,7 +47,8 @@ def another_witness(case: Json, record: Json, answer: Json, failing: Failing) ->
     tolerance = max(tolerance_of(record["tolerance"], name) for name in ("phi", *WITNESS))
     phi = np.atleast_1d(np.array(record["output"]["phi"], dtype=np.float64))
     points = {name: np.array(answer[name], dtype=np.float64).reshape(-1, 3) for name in WITNESS}
-    for i, solid in enumerate(solid_cases(case)):
+    sides = {side: (case[side], frame(case[f"pose_{side}"])) for side in ("alpha", "beta")}
+    for i, solid in enumerate(each_solid(sides)):
         alpha, beta, n = (points[name][i] for name in WITNESS)
         problem = witness_problem(solid, float(phi[i]), alpha, beta, n, tolerance)
         if problem:

@@ -2,24 +2,31 @@
 
 Which of several points at the same distance are kept, where the closest points of parallel faces
 lie, and along which axis d1 points where two of them are as far from n, is decided by rounding
-in float64. Such contacts are checked by what they have to be; J, A, b and the answer are then
-computed from them without rounding.
+in float64. Such contacts are checked by what they have to be, the candidates being the plain
+program's; J, A, b and the answer are then computed from them without rounding.
 """
 
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
+from quasistatic_ref.lab.program.candidates import candidates
+from quasistatic_ref.lab.program.distance import closest_points, corners
+from quasistatic_ref.lab.program.mechanism import kinematics
+from quasistatic_ref.lab.program.step import SHOWN, pose_in_world
 from quasistatic_ref.lab.vectors.check.compare import tolerance_of
-from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
-from quasistatic_ref.lab.vectors.distances.candidates import FIELDS, Candidate, candidates
+from quasistatic_ref.lab.vectors.check.valid_witness import Sides, each_solid, witness_problem
 from quasistatic_ref.lab.vectors.exact.compliant import compliant_forces
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.layers.qp import matrices
-from quasistatic_ref.lab.vectors.layers.step import of_pair, shape_pose, step_output, with_rows
+from quasistatic_ref.lab.vectors.layers.rows import by_contact
 from quasistatic_ref.step.data import Array
 
+FIELDS = ("phi", "alpha", "beta", "n")
+SAME_WAY = 1e-12
+"""Normals that differ by no more, in any component, are one [-]."""
 TIED = 1e-9
 """Components of n that are that near to each other may be exchanged by rounding, unless the n that
 is answered has them equal: d1 is a function of it."""
@@ -38,15 +45,13 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         As many as are expected, of the same pairs in the same order.
     """
     wanted = record["output"]["contacts"]
-    allowed = max(
-        tolerance_of(record["tolerance"], f"contacts.{name}")
-        for name in ("phi", "alpha", "beta", "n")
-    )
+    allowed = max(tolerance_of(record["tolerance"], f"contacts.{name}") for name in FIELDS)
     if [c["pair"] for c in contacts] != [c["pair"] for c in wanted]:
         return "they are of other pairs"
     for one, other in pairwise(contacts):
         if one["pair"] == other["pair"] and one["index"] > other["index"]:
             return f"those of {one['pair']} do not stand in the order of index"
+    at = kinematics(case["mechanism"], np.array(case["q"]))
     for pair in case["pairs"]:
         of_pair_contacts = [c for c in contacts if c["pair"] == pair["name"]]
         due = sorted(c["phi"] for c in wanted if c["pair"] == pair["name"])
@@ -55,12 +60,9 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         depths = sorted(float(c["phi"]) for c in of_pair_contacts)
         if any(abs(one - other) > 2 * allowed for one, other in zip(depths, due, strict=True)):
             return f"the distances of {pair['name']} are others"
-        sides: dict[str, Json] = {}
-        for side in ("alpha", "beta"):
-            entry = case["shapes"][pair[side]]
-            sides |= {side: entry["shape"], f"pose_{side}": shape_pose(case, entry)}
-        of_sides = candidates(sides, pair["k"])
-        known = {one.index: one for one in (*of_sides.about, *of_sides.filling)}
+        entries = {side: case["shapes"][pair[side]] for side in ("alpha", "beta")}
+        sides = {side: (e["shape"], pose_in_world(e, at)) for side, e in entries.items()}
+        known = _known_candidates(sides, pair["k"])
         for contact in of_pair_contacts:
             if contact["index"] not in known:
                 return f"{pair['name']} has no candidate {contact['index']}"
@@ -72,18 +74,61 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
     return None
 
 
+@dataclass(frozen=True)
+class Candidate:
+    """One that may be a contact.
+
+    Parameters
+    ----------
+    numbers : dict
+        ``phi``, ``alpha``, ``beta`` and ``n``.
+    closest : Sides, optional
+        The two solids whose closest points it is; None if it bears along another way.
+    """
+
+    numbers: Json
+    closest: Sides | None
+
+
+def _known_candidates(sides: Sides, k: int) -> dict[int, Candidate]:
+    """The candidates of a pair by their index."""
+    *numbers, index, _ = candidates(*sides["alpha"], *sides["beta"], k)
+    every = [dict(zip(FIELDS, values, strict=True)) for values in zip(*numbers, strict=True)]
+    return {
+        i: Candidate(one, _closest(sides, k, i, one["n"]))
+        for i, one in zip(index.tolist(), every, strict=True)
+    }
+
+
+def _closest(sides: Sides, k: int, index: int, n: Array) -> Sides | None:
+    """The two solids whose closest points a candidate is; None if it bears along another way."""
+    cloud = "cloud" in (shape["kind"] for shape, _ in sides.values())
+    last = 0
+    for side, (shape, pose) in sides.items():
+        points = shape.get("points", ()) if cloud or k == 1 else corners(shape)
+        if last <= index < last + len(points):
+            point = {"kind": "cloud", "points": [points[index - last]]}
+            alone = {**sides, side: (point, pose)}
+            (solids,) = each_solid(alone)
+            if cloud:
+                return solids
+            *_, way = closest_points(*alone["alpha"], *alone["beta"])
+            return solids if np.abs(way - n).max() <= SAME_WAY else None
+        last += len(points)
+    return sides if index < last + min(k, last + 9) else None
+
+
 def _contact_problem(candidate: Candidate, contact: Json, allowed: float) -> str | None:
     alpha, beta, n, d1, d2 = (
         np.array(contact[name], dtype=np.float64) for name in ("alpha", "beta", "n", "d1", "d2")
     )
-    fixed = ["phi"] if candidate.is_closest else FIELDS
-    for key in fixed:
+    for key in ("phi",) if candidate.closest else FIELDS:
         if np.abs(np.subtract(contact[key], candidate.numbers[key])).max() > 2 * allowed:
             return f"its {key} is another"
-    if candidate.is_closest:
+    if candidate.closest:
         gap = float((beta - alpha) @ n)  # also of what fills the number, whose phi is none
-        (solids,) = solid_cases(candidate.case)
-        if problem := witness_problem(solids, gap, alpha, beta, n, 2 * allowed):
+        problem = witness_problem(candidate.closest, gap, alpha, beta, n, 2 * allowed)
+        if problem:
             return problem
     sizes = np.abs(n)
     near = np.flatnonzero(sizes <= sizes.min() + TIED)
@@ -102,13 +147,34 @@ def _tangent_along_axis(axis: int, n: Array) -> Array:
 def record_from(case: Json, record: Json, contacts: Json) -> Json:
     """What is expected of a step with these contacts: H, g and all tolerances stay."""
     pairs = {pair["name"]: pair for pair in case["pairs"]}
-    whole = [{**of_pair(case, pairs[contact["pair"]]), **contact} for contact in contacts]
-    entries, _, rows = with_rows(case, whole)
-    qp_case = {key: record["output"][key] for key in ("H", "g")} | rows.output
+    entries = [{**_of_pair(case, pairs[contact["pair"]]), **contact} for contact in contacts]
+    place = {key: case[key] for key in ("mechanism", "q")}
+    blocks = layer("jacobian").expected({**place, "contacts": entries}).output["J"]
+    entries = [{**entry, "J": J} for entry, J in zip(entries, blocks, strict=True)]
+    rows = layer("rows").expected({"cone": case["cone"], "contacts": entries}).output
+    qp_case = {key: record["output"][key] for key in ("H", "g")} | rows
     solved = layer("qp").expected(qp_case)
-    output, _, _ = step_output(case, entries, qp_case, solved)
+    output = {**qp_case, "contacts": [{key: entry[key] for key in SHOWN} for entry in entries]}
+    unique = record["flags"]["unique_multipliers"] and solved.flags["unique_multipliers"]
+    flags = {**record["flags"], "unique_multipliers": unique}
+    if "farkas" in solved.output:
+        farkas = solved.output["farkas"]
+        return {**record, "output": {**output, "farkas": farkas}, "flags": flags}
+    output |= {name: solved.output[name] for name in ("delta_q", "lam", "A_lam")}
+    shares = by_contact(output["lam"], case["cone"], entries)
+    loaded = [{**entry, "lam": lam} for entry, lam in zip(entries, shares, strict=True)]
+    loads = {"h": case["h"], "cone": case["cone"], "contacts": loaded, "bodies": {}}
+    output["wrench"] = layer("wrench").expected(loads).output["wrench"]
+    moved = {**place, "delta_q": output["delta_q"]}
+    output["q_next"] = layer("integrate").expected(moved).output["q"]
     if "forces" in record["output"]:
         forces, _ = compliant_forces(matrices(qp_case), case, entries, output["lam"])
         output["forces"] = forces
-    unique = record["flags"]["unique_multipliers"] and solved.flags["unique_multipliers"]
-    return {**record, "output": output, "flags": {**record["flags"], "unique_multipliers": unique}}
+    return {**record, "output": output, "flags": flags}
+
+
+def _of_pair(case: Json, pair: Json) -> Json:
+    """What all contacts of a pair have in common."""
+    bodies = {f"{side}_body": case["shapes"][pair[side]]["body"] for side in ("alpha", "beta")}
+    friction = {k: pair[k] for k in ("mu_v", "mu_omega", "rows", "compliance") if k in pair}
+    return {"pair": pair["name"], **bodies, **friction}

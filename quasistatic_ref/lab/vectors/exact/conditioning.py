@@ -20,7 +20,7 @@ and a slack by sqrt((A H^-1 A')_ii).
 """
 
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
 from typing import Any
@@ -60,20 +60,7 @@ class Bounds:
     slack: Fraction
 
 
-@dataclass(frozen=True)
-class Errors:
-    """Largest error of an entry of H, g, A and b before the program is solved, in SI units."""
-
-    H: Fraction = Fraction(0)
-    g: Fraction = Fraction(0)
-    A: Fraction = Fraction(0)
-    b: Fraction = Fraction(0)
-
-
-NO_ERRORS = Errors()
-
-
-def bounds(form: ExactForm, working: Sequence[int], errors: Errors = NO_ERRORS) -> Bounds:
+def bounds(form: ExactForm, working: Sequence[int]) -> Bounds:
     """The bounds of a program at its optimum.
 
     Parameters
@@ -82,8 +69,6 @@ def bounds(form: ExactForm, working: Sequence[int], errors: Errors = NO_ERRORS) 
         In which y is lam.
     working : sequence of int
         Independent rows that the optimum follows from.
-    errors : Errors
-        Of a program that was formed from other numbers; none by default.
     """
     n = form.n
     size = form.n + len(working)
@@ -95,28 +80,22 @@ def bounds(form: ExactForm, working: Sequence[int], errors: Errors = NO_ERRORS) 
     x, lam = (np.abs(rationals(solution.in_fractions(v))) for v in numbers)
     K = np.block([[H, -A[rows].T], [A[rows], np.zeros((len(rows),) * 2, dtype=int)]])
     share = fmpq(ROUNDINGS * size, UNIT.denominator)
-    of_H, of_g, of_A, of_b = (fmpq(e.numerator, e.denominator) for e in astuple(errors))
-    x_sum, lam_sum = sum(x), sum(lam)
     residual = share * (np.abs(K) @ np.append(x, lam) + np.abs(np.append(g, b[rows])))
-    residual[:n] += of_H * x_sum + of_A * lam_sum + of_g
-    shift = of_A * x_sum + of_b
-    residual[n:] += shift
     away = np.abs(inverse(K)) @ residual
 
     def image(M: Any, v: Any) -> Any:
         """Error of M x - v: from that of x, and from the rounding of its own sum."""
         return share * (np.abs(M) @ x + np.abs(v)) + np.abs(M) @ away[:n]
 
-    net = largest(image(H, g)) + largest([of_H * x_sum + of_g])
     x_floor, net_floor, slack_floor = floors(form)
-    net = max(net, net_floor)
+    net = max(largest(image(H, g)), net_floor)
     # Multipliers that change A'lam by no more than that are as good.
     steepest = largest(A)
     return Bounds(
         x=max(largest(away[:n]), x_floor),
         lam=max(largest(away[n:]), net / steepest if steepest else Fraction(0)),
         net=net,
-        slack=max(largest(image(A, b) + shift), slack_floor),
+        slack=max(largest(image(A, b)), slack_floor),
     )
 
 

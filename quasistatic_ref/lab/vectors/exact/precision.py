@@ -8,7 +8,7 @@ is 0, and one of relative radius < 2^-200 that contains a midpoint is that midpo
 rational answers on the way to which a root or a sine cancelled.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
 from math import inf, isqrt, nextafter
@@ -25,10 +25,6 @@ from quasistatic_ref.precision import working_precision
 
 Real: TypeAlias = Any
 """An fmpq or an arb. They mix freely, which their type hints cannot say."""
-Vector: TypeAlias = Any
-"""An array of such numbers, shape (n,): NumPy's operators work entry by entry."""
-Matrix: TypeAlias = Any
-
 PRECISION = 320
 """Bits of a ball's midpoint at first."""
 
@@ -83,38 +79,12 @@ def sign(x: Real) -> int:
     raise Undecided
 
 
-def vector(values: Iterable[float | Real]) -> Vector:
-    """Numbers as a vector, each exactly.
-
-    Parameters
-    ----------
-    values : iterable of float or number
-        [any unit].
-    """
-    return np.array([number(x) for x in values], dtype=object)
-
-
-def length(x: Vector) -> Real:
-    """Length of a vector."""
-    return root(x @ x)
-
-
-ZERO: Vector = vector([0, 0, 0])
-IDENTITY: Matrix = np.array([vector(row) for row in np.eye(3)])
-
-
 def cos_sin(angle: Real) -> tuple[Real, Real]:
     """Cosine and sine of an angle; of zero, exactly."""
     if angle == 0:
         return fmpq(1), fmpq(0)
     sine, cosine = ball(angle).sin_cos()
     return cosine, sine
-
-
-def _angle_of(sine: Real, cosine: Real) -> Real:
-    if sign(sine) == 0 and sign(cosine) > 0:
-        return fmpq(0)
-    return arb.atan2(ball(sine), ball(cosine))
 
 
 def _coefficients(t: Real) -> tuple[Real, Real, Real]:
@@ -131,10 +101,8 @@ def _part_of_turn(like: Real, k: int, K: int) -> tuple[Real, Real]:
 
 
 for _kind in (fmpq, arb):
-    kinds.sign.register(_kind, sign)
     kinds.root.register(_kind, root)
     kinds.cos_sin.register(_kind, cos_sin)
-    kinds.angle_of.register(_kind, _angle_of)
     kinds.coefficients.register(_kind, _coefficients)
     kinds.part_of_turn.register(_kind, _part_of_turn)
 
@@ -193,7 +161,7 @@ def _each(leaf: Callable[[Real], Any]) -> Callable[[Any], Any]:
 def _nearest(x: Real) -> float:
     if isinstance(x, fmpq):
         return nearest_fraction(x)
-    if is_zero(x):
+    if _is_zero(x):
         return 0.0
     value = nearest_in(x)
     if value is not None:
@@ -209,7 +177,7 @@ def _nearest(x: Real) -> float:
 def _decimal(x: Real) -> str:
     if isinstance(x, fmpq):
         return decimal_string(Fraction(int(x.p), int(x.q)), DIGITS)
-    if is_zero(x):
+    if _is_zero(x):
         return decimal_string(Fraction(0), DIGITS)
     low, high = (decimal_string(dyadic_fraction(end), DIGITS) for end in (x.lower(), x.upper()))
     if low == high:
@@ -225,19 +193,11 @@ def _is(x: arb, halfway: fmpq) -> bool:
     return bool(x.contains(halfway) and x.rad() < _threshold() * abs(arb(halfway)))
 
 
-def is_zero(x: Real) -> bool:
+def _is_zero(x: Real) -> bool:
     """Whether a number counts as 0: exactly, or a ball of radius < 2^-200 around it."""
     if isinstance(x, fmpq):
         return x == 0
     return bool(x.contains(0)) and bool(x.rad() < _threshold())
-
-
-def rational_near(x: Real) -> fmpq:
-    """A rational number near x, or x itself where it is one."""
-    if isinstance(x, fmpq):
-        return x
-    m, e = x.mid().man_exp()
-    return fmpq(int(m) << max(int(e), 0), 1 << max(-int(e), 0))
 
 
 @lru_cache(maxsize=1)

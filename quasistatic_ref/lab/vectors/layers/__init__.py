@@ -3,14 +3,13 @@
 `expected` is the oracle, with the tolerance of each field, and `own` one of the programs that are
 held against it. The oracle is
 
-- in ``selection``, ``jacobian``, ``rows``, ``wrench`` and ``integrate``, and for poses, tangents,
-  H, g and forces of a ``step``: the plain program (``lab/program``) over exact numbers. Against it,
-  the plain program in float64 tests rounding alone. Its formulas are tested by `own` and by the
-  ports of ``validation/ports``, which share no line with it;
-- for distances: ``vectors/distances``, which shares with the plain program rotations, the corners
-  of shapes and the rules by which contacts are kept, and no distance;
+- in ``selection``, ``jacobian``, ``rows``, ``wrench`` and ``integrate``: the plain program
+  (``lab/program``) over exact numbers. Against it, the plain program in float64 tests rounding
+  alone. Its formulas are tested by `own` and by the ports of ``validation/ports``, which share no
+  line with it;
 - for optima: the core's exact method. The plain program checks the conditions of each optimum;
-- for derivatives: the files, which were made once.
+- for distances, steps and derivatives: the files, which were made once. The package, the plain
+  program and the port are held to them.
 """
 
 from importlib import import_module
@@ -32,12 +31,14 @@ LAYERS = (
 """In the order in which a step goes through them; `step` is all of them at once."""
 
 
-COMPUTED = LAYERS[:-1]
-"""Those whose answers are computed; the answers of `derivative` are files."""
+FILES = ("distance", "step", "derivative")
+"""Those whose answers are files."""
+COMPUTED = tuple(name for name in LAYERS if name not in FILES)
+"""Those whose answers are computed."""
 
 
 class Layer(Protocol):
-    """What each module of this package offers; that of `derivative` has no `expected`."""
+    """What each module of this package offers; those of FILES have no `expected`."""
 
     def expected(self, case_input: Json, /) -> Expected:
         """The answer, exact or in high precision and rounded correctly."""

@@ -20,7 +20,7 @@ from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
-from quasistatic_ref.lab.vectors.exact.conditioning import NO_ERRORS, Bounds, Errors, bounds
+from quasistatic_ref.lab.vectors.exact.conditioning import Bounds, bounds
 from quasistatic_ref.lab.vectors.exact.enclosed import enclosed_optimum
 from quasistatic_ref.lab.vectors.exact.entered import exact_case
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
@@ -39,11 +39,8 @@ FARKAS = 1e-9
 """Relative size of A'y at which y counts as a proof: solvers stop at 1e-8 to 1e-12."""
 
 
-def expected(case_input: Json, errors: Errors = NO_ERRORS) -> Expected:
-    """The exact optimum, correctly rounded; or a Farkas vector; or an enclosure.
-
-    Its tolerances are those of a program that is formed with such errors.
-    """
+def expected(case_input: Json) -> Expected:
+    """The exact optimum, correctly rounded; or a Farkas vector; or an enclosure."""
     if "second_order" in case_input:
         return enclosed_optimum(cone_step(case_input))
     form = form_of(case_input)
@@ -51,7 +48,7 @@ def expected(case_input: Json, errors: Errors = NO_ERRORS) -> Expected:
     if isinstance(optimum, Farkas):
         return _infeasible(form, optimum)
     exact = _checked_optimum(case_input, form, optimum.working_set)
-    bound = bounds(form, optimum.working_set, errors)
+    bound = bounds(form, optimum.working_set)
     return Expected(
         output={
             "delta_q": optimum.delta_q.tolist(),

@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, contact_forces, load_scenario
+from quasistatic_ref import contact_forces, load_scenario
 from quasistatic_ref.lab.program import step as program
 from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.vectors.check.case import case_verdict
-from quasistatic_ref.lab.vectors.distances.candidates import chosen_points
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.own.step import own_step, posed_case
-from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN, free_body, on, scene
+from quasistatic_ref.lab.vectors.tables import FLOOR, free_body, on, scene
 from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
 from tests.oracles.compliant_forces import forces as independent_forces
@@ -19,42 +18,21 @@ from tests.tolerances import ROUNDING
 BOX = {"kind": "box", "size": [0.2, 0.2, 0.2]}
 
 
-def test_a_box_on_a_floor_keeps_its_lower_corners_in_order():
-    pose = {"xyz": [0.0, 0.0, 0.25], "quaternion": [0.01, 0.02, 0.0, 1.0]}
-    found = chosen_points(FLOOR, BOX, ORIGIN, pose, 4)
-    assert [contact["index"] for contact in found.contacts] == [0, 1, 2, 3]  # z < 0; x first
-    assert found.clear
-    assert found.unique
+def box_on(pose, k):
+    """A step of a box on a floor."""
+    body = {**free_body("body"), "mass": 1.0, "com": [0.0] * 3, "inertia": np.eye(3).tolist()}
+    pair = {"name": "pair", "alpha": "floor", "beta": "box", "mu_v": 0.5, "mu_omega": 0.01}
+    shapes = {"floor": on(None, FLOOR), "box": on("body", BOX)}
+    q = [0.0, 0.0, 0.25, *pose]
+    return scene([body], shapes, q, pairs=[pair | {"rows": 6, "k": k}])
 
 
-def test_a_closest_pair_comes_after_corners_that_are_as_near():
-    nearly_level = {"xyz": [0.0, 0.0, 0.25], "quaternion": [1e-10, 0.0, 0.0, 1.0]}
-    found = chosen_points(FLOOR, BOX, ORIGIN, nearly_level, 4)  # the lower edge is 4e-11 m nearer
-    assert [contact["index"] for contact in found.contacts] == [0, 1, 2, 3]
-    assert found.clear
-
-
-def test_where_rounding_decides_what_is_kept_it_is_said():
-    level = {"xyz": [0.0, 0.0, 0.25], "quaternion": [0.0, 0.0, 0.0, 1.0]}
-    for k in (2, 4):
-        assert chosen_points(FLOOR, BOX, ORIGIN, level, k).clear  # equal ranks: by index
-    tilted = {**level, "quaternion": [0.1, 0.0, 0.0, 1.0]}  # an edge is parallel to the floor
-    assert chosen_points(FLOOR, BOX, ORIGIN, tilted, 1).unique is False
-    assert chosen_points(FLOOR, BOX, ORIGIN, tilted, 3).clear
-    # Ranks are multiples of 1e-9 of 0.2 m: this gap is half a multiple beyond one.
-    between = {**level, "xyz": [0.0, 0.0, 0.25 + 1e-10]}
-    assert chosen_points(FLOOR, BOX, ORIGIN, between, 2).clear is False
-
-
-def test_where_edges_cross_at_an_end_rounding_decides_what_is_kept():
-    # The brick's corner is nearest, and to a point of an edge: its own edge there, which is level,
-    # crosses that one at s = 1, but for rounding. Four candidates are left, and five with it.
-    brick = {"kind": "box", "size": [0.07, 0.05, 0.06]}
-    under = {"kind": "box", "size": [0.06, 0.09, 0.16]}
-    pose = {"xyz": [0.073, -0.012, 0.11362], "quaternion": [0.0, 0.0458, 0.0216, 0.9989]}
-    assert chosen_points(brick, under, pose, ORIGIN, 8).clear is False
-    steep = {**pose, "quaternion": [0.2, 0.1, 0.0, 1.0]}  # no edge at its corner is level
-    assert chosen_points(brick, under, steep, ORIGIN, 8).clear
+# Tilted, the lower edge of a nearly level box is 4e-11 m nearer; the closest pair comes last.
+@pytest.mark.parametrize("pose", [(0.01, 0.02, 0.0, 1.0), (1e-10, 0.0, 0.0, 1.0), (0, 0, 0, 1.0)])
+@pytest.mark.parametrize("step", [program.step, own_step])
+def test_a_box_on_a_floor_keeps_its_lower_corners_in_order(step, pose):
+    contacts = step(box_on(pose, 4))["contacts"]
+    assert [contact["index"] for contact in contacts] == [0, 1, 2, 3]  # z < 0; x first
 
 
 def test_tilted_boxes_keep_corners_of_one_normal_alone():
@@ -71,21 +49,12 @@ def test_tilted_boxes_keep_corners_of_one_normal_alone():
     case = scene([body], shapes, [0.0, 0.0, 0.3, *quaternion.tolist()], pairs=pairs)
     signs = 2 * ((np.arange(8)[:, None] >> np.arange(3)) & 1) - 1
     heights = 0.3 + 0.1 * signs @ rotation(quaternion)[2] - 0.1
-    for contacts in (
-        layer("step").expected(case).output["contacts"],
-        program.step(case)["contacts"],
-        own_step(case)["contacts"],
-    ):
+    for contacts in (program.step(case)["contacts"], own_step(case)["contacts"]):
         found = {contact["index"]: contact for contact in contacts}
         assert list(found) == [*range(8, 16), *range(17, 21)]
         assert_within([found[8 + i]["phi"] for i in range(8)], heights, ROUNDING)
         assert_within([one["n"] for one in contacts], np.tile([0.0, 0.0, 1.0], (12, 1)), ROUNDING)
         assert [found[i]["phi"] for i in range(17, 21)] == [1e6] * 4
-
-
-def test_corners_that_depend_on_the_other_solid_make_one_contact_only():
-    with pytest.raises(InputError, match="use k = 1"):
-        chosen_points(FLOOR, {"kind": "cylinder", "radius": 0.1, "length": 0.2}, ORIGIN, ORIGIN, 2)
 
 
 def test_a_step_of_a_scenario_is_that_of_the_simulator():
