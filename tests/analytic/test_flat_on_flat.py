@@ -21,14 +21,14 @@ from tests.oracles.bodies_by_hand import (
     wrong_words,
 )
 
-LAST, EVERY = 60, 60
-"""Of the scenes by hand: one of each family, at another number of contacts, inset and depth."""
+EVERY = 37
+"""Which scenes by hand are tried of each family, from another one on: 2 or 3 of 80."""
 
 
 @pytest.mark.parametrize(("number", "name"), [*enumerate(FAMILIES)], ids=FAMILIES)
 def test_forces_are_those_by_hand(number, name):
     rng = np.random.default_rng(number)
-    scenes = islice(attempts(name), number % 5, LAST, EVERY)
+    scenes = islice(attempts(name), number, None, EVERY)
     said = [wrong_words(elsewhere(scene, rng), *contacts) for scene, *contacts in scenes]
     assert set(said) == {""}
 

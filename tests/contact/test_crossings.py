@@ -8,13 +8,12 @@ from quasistatic_ref import Box, Capsule, Cone, Cylinder
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from tests.closeness import assert_within
-from tests.oracles.bodies_by_hand import FLAT, HALF, UP, Scene, wrong_words
+from tests.oracles.bodies_by_hand import BOX, HALF, UP, Scene, hull, wrong_words
 from tests.tolerances import ROUNDING
 
 ORIGIN = np.zeros(3)
 STRAIGHT = np.eye(3)
-CUBE = FLAT["box"](HALF)
-HULL = FLAT["hull"](HALF)
+HULL = hull(HALF)
 TABLE = Box((0.2, 0.2, 0.01))
 RAIL = Box((0.02, 0.2, 0.01))
 BOOK = Box((0.1, 0.07, 0.01))
@@ -35,12 +34,12 @@ RESTING = {
     "a puck over an edge": (TABLE, PUCK, STRAIGHT, (0.19, 0.0, 0.02), 4),
     "a cone over an edge": (TABLE, Cone(0.07, 0.01), STRAIGHT, (0.19, 0.0, 0.02), 4),
     "a puck on a puck": (PUCK, Cylinder(0.05, 0.01), STRAIGHT, (0.04, 0.0, 0.02), 4),
-    "a box on a puck": (PUCK, CUBE, STRAIGHT, (0.03, 0.04, 0.06), 4),
+    "a box on a puck": (PUCK, BOX, STRAIGHT, (0.03, 0.04, 0.06), 4),
     "a capsule on a rail": (RAIL, CAPSULE, ALONG_X, (0.01, 0.0, 0.04), 2),
     "a capsule over an edge": (TABLE, CAPSULE, ALONG_X, (0.19, 0.0, 0.04), 2),
     "a log on a rail": (RAIL, LOG, ALONG_X, (0.01, 0.0, 0.04), 2),
     "a log on a puck": (PUCK, LOG, ALONG_X, (0.02, 0.01, 0.04), 2),
-    "a box on its edge": (RAIL, CUBE, ON_EDGE, (0.01, 0.0, 0.01 + np.sqrt(2) * HALF), 2),
+    "a box on its edge": (RAIL, BOX, ON_EDGE, (0.01, 0.0, 0.01 + np.sqrt(2) * HALF), 2),
     "a cone on its side": (RAIL, SPIRE, ON_SIDE, (0.0, 0.0, 0.01 + 0.015 * np.cos(SLANT)), 2),
 }
 
