@@ -18,6 +18,7 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Cylinder
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import Extension
 from tests.helpers import random_step
 from tests.tolerances import ROUNDING
@@ -80,6 +81,7 @@ def without(monkeypatch):
             monkeypatch.delitem(sys.modules, name)
         finder = SimpleNamespace(find_spec=find_spec)
         monkeypatch.setattr(sys, "meta_path", [finder, *sys.meta_path])
+        cone.cache_clear()  # it may have the ellipsoid from an earlier test
 
     return hide
 
