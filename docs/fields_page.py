@@ -1,4 +1,4 @@
-"""The fields of a file, of a scenario or of a study, as the pages about them list them."""
+"""The fields of a file, as the page about it lists them."""
 
 from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.formats.files import json_text

@@ -36,7 +36,7 @@ COMMANDS = {
     "figures": "run the scripts of the gallery, and write their figures",
     "bench": "measure what a step costs, plain and fast, unproved and proved, next to MuJoCo's",
     "backends": "list the solvers that can be chosen here",
-    "schema": "print the JSON Schema of scenario or study files, for editors, or of an opinion",
+    "schema": "print the JSON Schema of scenario files, for editors, or of an opinion",
 }
 SWEEP = "sweep"
 """What does ``run`` with ``--sweep``."""

@@ -57,7 +57,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--jobs", type=int, metavar="N", help="with --sweep: runs at once (default: all cores)"
     )
-    parser.add_argument("--scheduler", metavar="ADDRESS", help="with --sweep: a Dask scheduler")
     parser.add_argument(
         "--strict", action="store_true", help="end with status 1 if a finding is grave"
     )

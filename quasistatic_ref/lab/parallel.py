@@ -1,59 +1,76 @@
-"""Many calls of a function, some at once."""
+"""Many calls of a function, some at once, by any executor of ``concurrent.futures``."""
 
+import os
+import sys
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
-from multiprocessing import get_context
-from os import cpu_count
-from typing import Any, TypeVar
+from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
+from multiprocessing import get_context, parent_process
+from threading import Thread
+from types import ModuleType
+from typing import TypeVar
 
 Result = TypeVar("Result")
 
 
-class InThisProcess(Executor):
-    """An executor that makes each call when it is submitted."""
+@contextmanager
+def workers(jobs: int | None) -> Iterator[Executor | None]:
+    """What makes `jobs` calls at once: processes, which end with this one; None for a single job.
 
-    def submit(self, fn: Callable[..., Result], /, *args: Any, **kwargs: Any) -> Future[Result]:
-        """Make a call; what it raises is raised where its result is taken, but for Ctrl-C."""
-        future: Future[Result] = Future()
-        try:
-            future.set_result(fn(*args, **kwargs))
-        except Exception as error:
-            future.set_exception(error)
-        return future
-
-
-def workers(jobs: int | None) -> Executor:
-    """What makes `jobs` calls at once: processes, or this one for a single job.
+    A call must be a function of a module: scripts need no ``__main__`` guard, since these processes
+    do not import them.
 
     Parameters
     ----------
     jobs : int or None
         None: as many as there are cores.
     """
-    jobs = jobs or cpu_count() or 1
+    jobs = jobs or os.cpu_count() or 1
     if jobs == 1:
-        return InThisProcess()
-    return ProcessPoolExecutor(jobs, mp_context=get_context("spawn"))
+        yield None
+        return
+    main = sys.modules["__main__"]
+    sys.modules["__main__"] = ModuleType("__main__")  # what a process that is spawned imports
+    try:
+        with ProcessPoolExecutor(jobs, get_context("spawn"), end_with_parent) as pool:
+            yield pool
+    finally:
+        sys.modules["__main__"] = main
+
+
+def end_with_parent() -> None:
+    """End this process as soon as the one that started it has ended, in whatever way."""
+    Thread(target=_wait_and_end, daemon=True).start()
+
+
+def _wait_and_end() -> None:
+    parent = parent_process()
+    assert parent is not None
+    parent.join()
+    os._exit(1)
 
 
 def results(
-    executor: Executor, slots: int, call: Callable[..., Result], tasks: Sequence[tuple[object, ...]]
+    executor: Executor | None, call: Callable[..., Result], tasks: Sequence[tuple[object, ...]]
 ) -> Iterator[Result]:
-    """Call a function with the arguments of each task; what is not yet called for waits here.
+    """Call a function with the arguments of each task; its results as they come.
 
     Parameters
     ----------
-    executor : Executor
-    slots : int
-        Calls under way at once.
+    executor : Executor or None
+        None: one call after the other, in this process.
     call : callable
     tasks : sequence of tuple
     """
-    left = list(reversed(tasks))
-    under_way: set[Future[Result]] = set()
-    while left or under_way:
-        while left and len(under_way) < slots:
-            under_way.add(executor.submit(call, *left.pop()))
-        done, under_way = wait(under_way, return_when=FIRST_COMPLETED)
-        for future in done:
+    if executor is None:
+        for task in tasks:
+            yield call(*task)
+        return
+    left = {executor.submit(call, *task) for task in tasks}
+    try:
+        for future in as_completed(left):
+            left.discard(future)
             yield future.result()
+    finally:
+        for future in left:
+            future.cancel()

@@ -3,10 +3,9 @@
 import csv
 import io
 import math
-import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Mapping, Sequence, Set
 from concurrent.futures import Executor
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, nullcontext
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -23,7 +22,8 @@ from quasistatic_ref.formats.files import (
 )
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.lock import locked
-from quasistatic_ref.lab.parallel import InThisProcess, results, workers
+from quasistatic_ref.lab.parallel import results
+from quasistatic_ref.lab.parallel import workers as workers_here
 from quasistatic_ref.lab.run_settings import fingerprint, run_settings
 from quasistatic_ref.optional.doctor.telling import measures
 from quasistatic_ref.scenario.overrides import parsed
@@ -50,7 +50,7 @@ def simulate_many(
     *,
     settings: Sequence[str] = (),
     workers: int | None = None,
-    scheduler: str | None = None,
+    executor: Executor | None = None,
     progress: bool = True,
 ) -> list[Row]:
     """Run a scenario with every combination of some values, several runs at a time.
@@ -73,8 +73,9 @@ def simulate_many(
         Changes of the scenario that all runs have, as :func:`.load_scenario` takes them.
     workers : int, optional
         Processes on this machine; by default as many as there are cores.
-    scheduler : str, optional
-        Address of a Dask scheduler, in place of this machine's processes.
+    executor : Executor, optional
+        Any of ``concurrent.futures``, in place of this machine's processes; what it calls must find
+        the scenario, and need not see the folder.
     progress : bool
 
     Returns
@@ -88,7 +89,7 @@ def simulate_many(
     ------
     InputError
         If a field, a value or any of the scenarios is unusable, or the folder holds other runs, or
-        another sweep writes into it: before anything is written.
+        another sweep or study writes into it: before anything is written.
     """
     grid = {name: _value_list(name, values) for name, values in variations.items()}
     count = math.prod(map(len, grid.values()))
@@ -101,20 +102,22 @@ def simulate_many(
     source = str(path.resolve()) if path == Path(scenario) else str(scenario)
     points = [dict(zip(grid, values, strict=True)) for values in product(*grid.values())]
     changes = [_changes(point, settings) for point in points]
-    with _executor(workers, scheduler) as (executor, slots):
+    here: AbstractContextManager[Executor | None] = (
+        nullcontext(executor) if executor else workers_here(workers)
+    )
+    with here as pool:
         # An error of any of the scenarios is raised here.
-        digests = list(executor.map(run_digest, [source] * count, changes))
+        digests = list((pool.map if pool else map)(run_digest, [source] * count, changes))
         files = [_file(path.stem, digest, list(grid)) for digest in digests]
         folder = Path(folder)
         with locked(folder):
             _check_folder(folder, {*files})
             writable_folder(folder / RUNS)
-            # Workers of a scheduler may not see the folder.
-            reader = executor if scheduler is None else InThisProcess()
+            reader = None if executor else pool
             kept = [(file, folder) for file in files if (folder / file).exists()]
             done: dict[str, Row] = {}
             with progress_bar(total=count, unit="run", shown=progress) as bar:
-                for file, row in results(reader, slots, row_of_kept, kept):
+                for file, row in results(reader, row_of_kept, kept):
                     if row is not None:
                         done[file] = row
                         bar.update()
@@ -124,7 +127,7 @@ def simulate_many(
                     if file not in done
                 ]
                 try:
-                    for file, trajectory, row in results(executor, slots, run_of, todo):
+                    for file, trajectory, row in results(pool, run_of, todo):
                         trajectory.save(folder / file)
                         done[file] = row
                         bar.update()
@@ -185,19 +188,6 @@ def _changes(point: Mapping[str, Any], settings: Sequence[str]) -> list[str]:
     fields = [f"{field}={json_text(value)}" for name, value in point.items()
            for field in name.split(",")]  # fmt: skip
     return [*settings, *fields, 'record="light"', "fast=true"]
-
-
-@contextmanager
-def _executor(jobs: int | None, scheduler: str | None) -> Iterator[tuple[Executor, int]]:
-    """What runs several scenarios at once, and how many."""
-    if scheduler is not None:
-        from quasistatic_ref.lab.cluster import executor_of
-
-        with executor_of(scheduler) as there:
-            yield there
-    else:
-        with workers(jobs) as pool:
-            yield pool, jobs or os.cpu_count() or 1
 
 
 def run_digest(scenario: str, changes: Sequence[str]) -> str:

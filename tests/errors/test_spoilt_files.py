@@ -18,9 +18,7 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.cli.solution_files import solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
-from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.resources import models_folder
-from quasistatic_ref.lab.study.study_file import solver_study
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.model.readers.clouds import point_cloud
@@ -41,11 +39,6 @@ OTHERS = (
 """What stands in the place of a token or of some bytes."""
 POINTS = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)])
 PLY = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
-STUDY = (
-    'format = "quasistatic-ref/study"\nversion = 2\n'
-    '[problems]\nscenarios = ["sphere_spin"]\nfamilies = { scenarios = 2 }\n'
-    '[[runs]]\nsolvers = ["cvxpy:osqp"]\n'
-)
 
 
 def scene_read(path):
@@ -99,13 +92,12 @@ def good_files(folder):
             answers.read_bytes(),
             lambda path: answers_read(path.parent, "rows"),
         ),
-        "study.toml": (STUDY.encode(), lambda path: solver_study(path, toml_read(path))),
     }
 
 
 FORMATS = (
     *("scene.toml", "r.urdf", "m.obj", "m.dae", "c.xyz", "c.csv", "c.ply", "c.pcd", "c.npy"),
-    *("c.npz", "step.json", "solution.json", "run.npz", "rows.json", "study.toml"),
+    *("c.npz", "step.json", "solution.json", "run.npz", "rows.json"),
 )
 
 

@@ -2,15 +2,23 @@
 
 import csv
 import json
+import os
+import subprocess
+import sys
+from pathlib import Path
 
+import dask
+import distributed
 import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, Scenario, load_scenario, trajectory_read
 from quasistatic_ref.lab import run_settings
 from quasistatic_ref.lab.lock import locked
+from quasistatic_ref.lab.processes import descendants
 from quasistatic_ref.lab.sweep import TABLE, simulate_many, swept_values
 from tests.optional.doctor.mistake_scenes import scenes_written
+from tests.processes import has_ended, waited_for
 from tests.scenes import BALL, PUSH, written_scenario
 
 
@@ -119,6 +127,45 @@ def test_a_table_of_something_else_is_refused(tmp_path):
 def test_a_folder_that_another_sweep_writes_into_is_refused(tmp_path):
     with locked(tmp_path), pytest.raises(InputError, match="is being written by another sweep"):
         swept("block_incline", tmp_path)
+
+
+MANY = """
+from quasistatic_ref.lab.sweep import simulate_many
+simulate_many("block_incline", {"steps": [1, 100_000, 100_001, 100_002]}, "map", workers=2)
+"""
+
+
+def test_workers_end_with_the_process_of_the_sweep_also_when_it_is_killed(tmp_path):
+    root = str(Path(__file__).parents[2])
+    process = subprocess.Popen(
+        [sys.executable, "-c", MANY],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": root},
+        stderr=subprocess.DEVNULL,
+    )
+    waited_for(lambda: any((tmp_path / "map").glob("runs/*.npz")))
+    workers = descendants(process.pid)
+    assert len(workers) >= 2
+    process.kill()
+    process.wait()
+    waited_for(lambda: all(map(has_ended, workers)))
+
+
+def test_on_two_workers_of_dask_the_runs_are_the_same(tmp_path):
+    values = {"h": [0.01, 0.02], "steps": [2]}
+    with (
+        dask.config.set(temporary_directory=str(tmp_path)),
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+        client.get_executor(pure=False, retries=0) as executor,
+    ):
+        there = simulate_many(
+            "block_incline", values, tmp_path / "there", executor=executor, progress=False
+        )
+    assert there == swept("block_incline", tmp_path / "here", **values)
+    assert (tmp_path / "there" / TABLE).read_text() == (tmp_path / "here" / TABLE).read_text()
 
 
 def test_more_values_add_runs_and_a_spoilt_one_is_made_again(tmp_path):

@@ -82,11 +82,12 @@ def _exit_status(options: argparse.Namespace, settings: Settings, every: int) ->
         raise InputError(problem, field="--fraction", value=options.fraction)
     folder = writable_folder(options.out)
     with workers(options.jobs) as executor:
+        many = map if executor is None else partial(executor.map, chunksize=5)
         under_way = {}
         for pair in pairs:
             predict = partial(prediction, pushed_scene(settings, pair, ratios[pair.name]))
             some = pushes[pair.name]
-            under_way[pair.name] = executor.map(predict, some.before, some.path, chunksize=5)
+            under_way[pair.name] = many(predict, some.before, some.path)
         ends = {
             key: list(progress_bar(predictions, total=len(pushes[key].before), words=key,
                                    unit="push", shown=not options.quiet))

@@ -1,4 +1,4 @@
-"""``schema``: the JSON Schema of scenario or study files, for editors, and of an opinion."""
+"""``schema``: the JSON Schema of scenario files, for editors, and of an opinion."""
 
 import argparse
 import json
@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from quasistatic_ref.lab.json_schema import json_schema
-from quasistatic_ref.lab.study.fields import study_schema
 from quasistatic_ref.parts import needing
 from quasistatic_ref.scenario.scenario_table import (
     CONTACT,
@@ -46,14 +45,14 @@ def opinion_schema() -> dict[str, Any]:
     return json_schema("A second opinion", TABLES_OF_OPINION, {}, TOP_OF_OPINION)
 
 
-SCHEMAS = {"scenario": scenario_schema, "study": study_schema, "opinion": opinion_schema}
+SCHEMAS = {"scenario": scenario_schema, "opinion": opinion_schema}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     parser.add_argument(
         "file", nargs="?", choices=tuple(SCHEMAS), default="scenario", metavar="KIND",
-        help="scenario (default), study or opinion",
+        help="scenario (default) or opinion",
     )  # fmt: skip
 
 

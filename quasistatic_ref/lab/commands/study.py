@@ -7,12 +7,12 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
-from quasistatic_ref.formats.files import toml_read, writable_folder
+from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.lab.commands import study_problems
 from quasistatic_ref.lab.study.row import OUTCOMES, Row
 
 ACTIONS = {
-    "run": "run a study; one that was stopped goes on where it was",
+    "run": "run the default study; one that was stopped goes on where it was",
     "report": "write tables and figures of the rows of studies",
     "problems": "sets of problems with exact answers: list, export, check",
 }
@@ -23,15 +23,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parsers = parsers_of(parser, "action", ACTIONS)
     study_problems.add_options(parsers["problems"])
     run_ = parsers["run"]
-    words = "a TOML file, or a name such as 'default'"
-    run_.add_argument("study", metavar="STUDY", help=words)
     shared.add(run_, "--out", default="study")
     run_.add_argument("--quick", action="store_true", help="a twentieth of the problems")
-    run_.add_argument(
-        "--scheduler",
-        metavar="ADDRESS",
-        help="a Dask scheduler: its workers call solvers at once",
-    )
     shared.add(run_, "--json")
     report = parsers["report"]
     words = "of a study that was run; of several, their rows together"
@@ -57,15 +50,11 @@ def _report(options: argparse.Namespace) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     shared.progress_line(options, "loads solvers")  # said at once: to import them takes seconds
-    from quasistatic_ref.lab.study.run import run_study
+    from quasistatic_ref.lab.study.default import default_study
     from quasistatic_ref.lab.study.store import ROWS
-    from quasistatic_ref.lab.study.study_file import solver_study, study_path
 
-    path = study_path(options.study)
-    study = solver_study(path, toml_read(path), options.quick)
     try:
-        rows = run_study(study, options.out, scheduler=options.scheduler,
-                         progress=not options.quiet)  # fmt: skip
+        rows = default_study(options.out, quick=options.quick, progress=not options.quiet)
     except KeyboardInterrupt:
         kept = f"what was measured is in {options.out}; the same command goes on from there"
         print(f"quasistatic-ref: interrupted; {kept}", file=sys.stderr)

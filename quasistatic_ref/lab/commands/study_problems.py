@@ -8,11 +8,11 @@ from pathlib import Path
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
 from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
-from quasistatic_ref.lab.study.problems.names import FORMATS, NATURAL, RAW, UNITS
+from quasistatic_ref.lab.study.problems.names import NATURAL, RAW, UNITS
 
 ACTIONS = {
     "list": "the families of a set, their dials, and how many problems they have",
-    "export": "write problems as npz or parquet (a test set of qpbenchmark)",
+    "export": "write problems as a test set of qpbenchmark, with their exact answers",
     "check": "compare a set's files with its hashes; with --exact prove every answer again",
 }
 
@@ -24,7 +24,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         words = "contact-qp, which comes along, or the folder of a set"
         parsers[name].add_argument("set", nargs="?", metavar="SET", default=CONTACT_QP, help=words)
     export = parsers["export"]
-    export.add_argument("--to", required=True, choices=FORMATS, help="which format")
     export.add_argument("--units", default=RAW, choices=UNITS, help="raw (SI) or natural")
     export.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
     for one, words in (("--families", "only these, commas between"), ("--tag", "only such ones"),
@@ -74,9 +73,9 @@ def _export(options: argparse.Namespace) -> int:
     natural = options.units == NATURAL
     problems = [one.natural for one in chosen] if natural else chosen
     name = manifest(folder)["name"] + ("-natural" if natural else "")
-    paths = exported_files(name, problems, options.to, options.out)
+    paths = exported_files(name, problems, options.out)
     print(f"wrote {len(paths)} files to {options.out}, README.md among them")
-    if left := sum(not has_place(one, options.to) for one in chosen):
+    if left := sum(not has_place(one) for one in chosen):
         words = "the format has no place for their cones or missing solutions"
         print(f"quasistatic-ref: left out {left} problems: {words}", file=sys.stderr)
     return 0

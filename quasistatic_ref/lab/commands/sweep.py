@@ -39,7 +39,6 @@ def run(options: argparse.Namespace) -> int:
         options.out,
         settings=settings,
         workers=options.jobs,
-        scheduler=options.scheduler,
         progress=not options.quiet,
     )
     failed = sum(row["outcome"] != DONE for row in rows)

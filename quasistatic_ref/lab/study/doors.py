@@ -1,6 +1,6 @@
 """Three doors to a solver: qpsolvers, CVXPY, and a function of one's own."""
 
-import inspect
+import pickle
 import zlib
 from collections.abc import Callable
 from time import perf_counter
@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.claims import INFEASIBLE, OPTIMAL
 from quasistatic_ref.lab.study.solvers import CVXPY, QPSOLVERS, Solver
 from quasistatic_ref.solve.backends import Options
-from quasistatic_ref.solve.by_function import function_at
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
@@ -38,31 +38,31 @@ def neighbour(form: StandardForm, name: str) -> StandardForm:
     return form._replace(g=form.g * (1 + NEAR * rng.uniform(-1, 1, len(form.g))))
 
 
-def call_of(solver: Solver, folder: str) -> tuple[Call, bool]:
-    """The function that puts a problem to a solver, and whether it uses a start.
+def call_of(solver: Solver) -> Call:
+    """The function that puts a problem to a solver.
 
     What a solver raises is a reply that has failed.
 
     Parameters
     ----------
     solver : Solver
-    folder : str
-        Where the file of a function is looked for.
 
     Raises
     ------
     InputError
-        If there is no such function.
+        If a function is of a module that cannot be imported here.
     """
-    warm = solver.warm
     if solver.door == CVXPY:
         call = _by_cvxpy(solver.target)
     elif solver.door == QPSOLVERS:
         call = _by_qpsolvers(solver.target)
     else:
-        function = function_at(solver.target, folder)
-        warm = takes_start(function)
-        call = _by_function(function, warm)
+        try:
+            function = pickle.loads(solver.target)
+        except Exception as error:  # a module may raise anything when it is imported
+            words = f"cannot be imported: {type(error).__name__}: {error}"
+            raise InputError(words[:WORDS], field=solver.name) from None
+        call = _by_function(function, solver.warm)
 
     def safe(form: StandardForm, options: Options, before: Reply | None) -> Reply:
         try:
@@ -71,7 +71,7 @@ def call_of(solver: Solver, folder: str) -> tuple[Call, bool]:
             words = " ".join(f"{type(error).__name__}: {error}".split())
             return Reply(None, None, False, words[:WORDS])
 
-    return safe, warm
+    return safe
 
 
 def _by_cvxpy(name: str) -> Call:
@@ -87,14 +87,6 @@ def _by_qpsolvers(name: str) -> Call:
     return lambda form, options, before: qpsolvers_reply(
         form, name, options, None if before is None else before.x
     )
-
-
-def takes_start(function: Callable[..., Any]) -> bool:
-    """Whether a function takes ``start=(x, z)``; a compiled one may not say what it takes."""
-    try:
-        return "start" in inspect.signature(function).parameters
-    except ValueError:
-        return False
 
 
 def _by_function(function: Callable[..., Any], starts: bool) -> Call:

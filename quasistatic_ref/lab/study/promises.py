@@ -2,7 +2,7 @@
 
 The table `promise` of a solver in ``solvers.toml`` has the criteria that the solver's documentation
 states, with the page: residual <= abs + rel times the largest of some terms, where abs and rel are
-options. A study file can state the same, with numbers, of a solver of its own.
+options. The author of a function can state the same, with numbers.
 """
 
 from collections.abc import Mapping

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
+COLD, WARM = STARTS = ("cold", "warm")
 SOLVED = "solved"
 """It says that it solved the problem, and returned numbers."""
 FAILED = "failed"

@@ -1,10 +1,10 @@
 """A study: what is measured, in which order, and how a study that was stopped goes on."""
 
 import json
-import random
 import time
-from collections.abc import Container, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import asdict, dataclass, replace
 from functools import cache
 from itertools import groupby, product
 from pathlib import Path
@@ -13,20 +13,29 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import json_read, json_text, text_written, writable_folder
-from quasistatic_ref.lab.cluster import executor_of
+from quasistatic_ref.formats.files import json_read, json_text, text_written
+from quasistatic_ref.lab.folders import CONTACT_QP
+from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.machine import machine
 from quasistatic_ref.lab.parallel import results
+from quasistatic_ref.lab.run_settings import fingerprint
 from quasistatic_ref.lab.study.accepted import check_options
 from quasistatic_ref.lab.study.doors import neighbour
-from quasistatic_ref.lab.study.fields import COLD
 from quasistatic_ref.lab.study.grade import grades, problem_forms, ungraded_fields
-from quasistatic_ref.lab.study.problems.for_study import study_problems
-from quasistatic_ref.lab.study.problems.problem import Problem
-from quasistatic_ref.lab.study.row import NOT_RUN, TIMEOUT, Row, key_of
-from quasistatic_ref.lab.study.solvers import CVXPY, FUNCTION, Setting, Solver
+from quasistatic_ref.lab.study.limits import Limits
+from quasistatic_ref.lab.study.problems.names import NATURAL, UNITS
+from quasistatic_ref.lab.study.problems.problem import QP, Problem
+from quasistatic_ref.lab.study.problems.selection import groups_in_random_order, problems_taken
+from quasistatic_ref.lab.study.row import COLD, NOT_RUN, STARTS, TIMEOUT, Row, key_of
+from quasistatic_ref.lab.study.solvers import (
+    CVXPY,
+    FUNCTION,
+    Setting,
+    Solver,
+    settings_of,
+    solvers_of,
+)
 from quasistatic_ref.lab.study.store import ROWS, rows_read, rows_written
-from quasistatic_ref.lab.study.study_file import Limits, Study
 from quasistatic_ref.lab.study.worker import Answer, Ended, Question, SolverProcess
 from quasistatic_ref.simulate.progress import progress_bar
 
@@ -34,7 +43,7 @@ RECORD = "study.json"
 EVERY = 5.0
 """Seconds between two writings of the rows."""
 BLOCK = 40
-"""Measurements that travel to a cluster at once."""
+"""Measurements that are one call of an executor."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,58 +104,42 @@ def processor() -> str:
     return str(machine()["processor"])
 
 
-def plan(study: Study, problems: Sequence[Problem], warm: Container[str]) -> list[Measurement]:
-    """What a study measures: a solver after the other; of each, problems in one random order.
-
-    The steps of a sequence follow each other, as they do in the set.
-
-    Parameters
-    ----------
-    study : Study
-    problems : sequence of Problem
-    warm : container of str
-        Labels of the solvers that use a start.
-    """
-    groups: list[list[Problem]] = []
-    for _, some in groupby(problems, lambda one: (one.facts["sequence"] or {}).get("name", one.id)):
-        groups.append(list(some))
-    random.Random(1).shuffle(groups)
-    measurements: dict[tuple[object, ...], Measurement] = {}
-    for part in study.parts:
-        for solver, setting in product(part.solvers, part.settings):
-            if not solver.takes(setting):
-                continue
-            for group, units, start in product(groups[:: part.every], part.units, part.starts):
-                goes_on = start != COLD and len(group) > 1
-                # What CVXPY has compiled takes a start with another g alone.
-                starts = solver.label in warm and not (goes_on and solver.door == CVXPY)
-                if start != COLD and not starts:
-                    continue
-                steps = [replace(one, units=group[0].units) for one in group] if goes_on else group
-                for one, before in zip(steps, [None, *steps], strict=False):
-                    key = one.id, solver.label, setting.name, units, start
-                    last = before if goes_on else None
-                    measurements[key] = Measurement(one, solver, setting, units, start, last)
-    order = {solver.label: place for place, solver in enumerate(study.solvers)}
-    return sorted(measurements.values(), key=lambda one: order[one.solver.label])
-
-
-def run_study(
-    study: Study,
-    folder: str | Path,
+def study(
+    problems: Mapping[str, int] | Sequence[Problem],
+    solvers: Sequence[str | Callable[..., Any] | Solver],
+    settings: Sequence[str | Setting] = ("default",),
+    folder: str | Path = "study",
+    executor: Executor | None = None,
     *,
-    scheduler: str | None = None,
+    units: Sequence[str] = (NATURAL,),
+    starts: Sequence[str] = (COLD,),
+    limits: Limits | None = None,
     progress: bool = True,
 ) -> list[Row]:
-    """Run a study, or what is left of it.
+    """Put problems to solvers, or what is left of them: a row for each measurement.
 
     Parameters
     ----------
-    study : Study
+    problems : mapping of str to int, or sequence of Problem
+        How many of each family of contact-qp; or problems, such as :func:`.problems_taken` and
+        :func:`.problems_of_runs` return.
+    solvers : sequence of str, callable or Solver
+        ``"qpsolvers:NAME"``, ``"cvxpy:NAME"``, ``*`` for every NAME that is installed; functions
+        ``(P, q, G, h) -> (x, z, status)``; what :func:`.function_solver` returns.
+    settings : sequence of str or Setting
+        Of ``"default"``, ``"low"``, ``"mid"``, ``"high"``, ``"tuned"``; or others.
     folder : str or Path
-        Of its rows and problems; one that was begun with the same problems and limits goes on.
-    scheduler : str, optional
-        Address of a Dask scheduler, whose workers call solvers at once; else one call at a time.
+        Of the rows. A measurement whose row is there is not made again.
+    executor : Executor, optional
+        Any of ``concurrent.futures``, which measures at several places at once; by default one call
+        after the other, so that none disturbs the times of another. Wherever it is, each solver has
+        a process of its own with limits of time and memory.
+    units : sequence of str
+        Of ``"raw"`` and ``"natural"``.
+    starts : sequence of str
+        Of ``"cold"`` and ``"warm"``: from the solver's answer to the step before in a sequence,
+        else to a neighbour.
+    limits : Limits, optional
     progress : bool
 
     Returns
@@ -157,105 +150,149 @@ def run_study(
     Raises
     ------
     InputError
-        If the folder holds another study, a solver cannot be reached, or it does not know an
-        option or refuses its value: before anything is measured.
+        If an argument is unusable, the folder holds another study or is being written, or a solver
+        does not know an option or refuses its value: before anything is measured.
     KeyboardInterrupt
         After Ctrl-C; the rows until then are kept.
     """
-    warm = warm_solvers(study)
-    folder = writable_folder(folder)
-    _check_record(folder / RECORD, study)
-    problems = study_problems(study.problems, folder, progress)
-    rows = rows_read(folder) if (folder / ROWS).exists() else []
-    there = {key_of(row) for row in rows}
-    todo = [one for one in plan(study, problems, warm) if one.key(study.limits) not in there]
-    with progress_bar(total=len(todo), unit="row", shown=progress) as bar:
-        written = time.monotonic()
-        try:
-            for some in _measured_all(study, todo, scheduler):
-                rows += some
-                bar.update(len(some))
-                if time.monotonic() - written > EVERY:
-                    rows_written(folder / ROWS, rows)
-                    written = time.monotonic()
-        finally:
-            rows_written(folder / ROWS, rows)
+    limits = limits or Limits()
+    if isinstance(problems, Mapping):
+        problems = problems_taken(CONTACT_QP, problems)
+    chosen = solvers_of(solvers)
+    at = settings_of(settings)
+    _check(problems, chosen, at, limits)
+    for field, values, known in (("units", units, UNITS), ("starts", starts, STARTS)):
+        for value in values:
+            if value not in known:
+                raise InputError(f"must be of {', '.join(known)}", field=field, value=value)
+    wanted = plan(problems, chosen, at, units, starts)
+    folder = Path(folder)
+    with locked(folder):
+        _recorded(folder / RECORD, problems, limits)
+        rows = rows_read(folder) if (folder / ROWS).exists() else []
+        there = {key_of(row) for row in rows}
+        todo = [one for one in wanted if one.key(limits) not in there]
+        with progress_bar(total=len(todo), unit="row", shown=progress) as bar:
+            written = time.monotonic()
+            try:
+                for some in _measured_all(todo, limits, executor):
+                    rows += some
+                    bar.update(len(some))
+                    if time.monotonic() - written > EVERY:
+                        rows_written(folder / ROWS, rows)
+                        written = time.monotonic()
+            finally:
+                rows_written(folder / ROWS, rows)
     return rows
 
 
-def warm_solvers(study: Study) -> set[str]:
-    """The labels of solvers that use a start.
+def plan(
+    problems: Sequence[Problem],
+    solvers: Sequence[Solver],
+    settings: Sequence[Setting],
+    units: Sequence[str],
+    starts: Sequence[str],
+) -> list[Measurement]:
+    """What a study measures: a solver after the other; of each, problems in one random order.
 
-    Functions are imported in processes of their own, since that may start or end anything.
+    The steps of a sequence follow each other, as they do in the set.
 
-    Raises
-    ------
-    InputError
-        If a solver would not get an option, or a function is not there.
+    Parameters
+    ----------
+    problems : sequence of Problem
+    solvers : sequence of Solver
+    settings : sequence of Setting
+    units, starts : sequence of str
     """
-    for solver, setting in product(study.solvers, study.settings):
-        if solver.door != FUNCTION and solver.takes(setting):
-            options = solver.settings_of(setting, study.limits.time_limit)
-            check_options(solver.door, solver.target, options)
-    labels = set()
-    for solver in study.solvers:
-        if solver.door == FUNCTION:
-            with SolverProcess(solver, study.folder, study.limits.memory) as process:
-                warm = process.start()
-        else:
-            warm = solver.warm
-        labels |= {solver.label} if warm else set()
-    return labels
+    groups = groups_in_random_order(problems)
+    measurements = []
+    for solver, setting, group, unit, start in product(solvers, settings, groups, units, starts):
+        goes_on = start != COLD and len(group) > 1
+        # What CVXPY has compiled takes a start with another g alone.
+        starts_warm = solver.warm and not (goes_on and solver.door == CVXPY)
+        if not solver.takes(setting) or (start != COLD and not starts_warm):
+            continue
+        steps = [replace(one, units=group[0].units) for one in group] if goes_on else group
+        for one, before in zip(steps, [None, *steps], strict=False):
+            last = before if goes_on else None
+            measurements.append(Measurement(one, solver, setting, unit, start, last))
+    return measurements
 
 
-def _check_record(path: Path, study: Study) -> None:
+def _check(
+    problems: Sequence[Problem],
+    solvers: Sequence[Solver],
+    settings: Sequence[Setting],
+    limits: Limits,
+) -> None:
+    """Refuse what a study has no place for, and options that a solver would not get."""
+    for one in problems:
+        if one.facts["kind"] != QP:
+            words = "has cones; studies contain rows only"
+            raise InputError(words, field="problems", value=one.id)
+    if not 0 < len({one.id for one in problems}) == len(problems):
+        raise InputError("must be some, of different names", field="problems", value=len(problems))
+    for solver in solvers:
+        taken = [setting for setting in settings if solver.takes(setting)]
+        if not taken:
+            words = f"hold nothing that {solver.label} can be set to; add 'default', or give it"
+            names = [setting.name for setting in settings]
+            raise InputError(f"{words} options of its own", field="settings", value=names)
+        if solver.door != FUNCTION:
+            for setting in taken:
+                options = solver.settings_of(setting, limits.time_limit)
+                check_options(solver.door, solver.target, options)
+
+
+def _recorded(path: Path, problems: Sequence[Problem], limits: Limits) -> None:
     """Write what a study is about, or refuse a folder of another one."""
-    wanted = json.loads(json_text({"limits": vars(study.limits), "problems": vars(study.problems)}))
-    if path.exists():
-        if {**json_read(path), "machine": 0} != wanted | {"machine": 0}:
-            words = "holds another study, of other problems or limits; choose another folder"
-            raise InputError(words, file=path.parent)
-    else:
-        text_written(path, json.dumps(wanted | {"machine": machine()}, indent=1) + "\n")
+    numbers = {one.id: _digest(one) for one in problems}
+    mine: dict[str, Any] = {"limits": asdict(limits), "problems": numbers}
+    there: Any = json_read(path) if path.exists() else mine
+    kept = there.get("problems", {})
+    same_limits = there.get("limits") == mine["limits"]
+    if not same_limits or any(kept.get(name, one) != one for name, one in numbers.items()):
+        words = "holds another study, of other problems or limits; choose another folder"
+        raise InputError(words, file=path.parent)
+    record = mine | {"problems": kept | numbers, "machine": machine()}
+    text_written(path, json.dumps(record, indent=1) + "\n")
+
+
+def _digest(one: Problem) -> str:
+    """What tells the numbers of a problem from others of its name."""
+    matrices = [part for M in (one.H, one.A) for part in (M.data, M.indices, M.indptr)]
+    return fingerprint((one.g, one.b, *matrices))[:12]
 
 
 def _measured_all(
-    study: Study, todo: Sequence[Measurement], scheduler: str | None
+    todo: Sequence[Measurement], limits: Limits, executor: Executor | None
 ) -> Iterator[Sequence[Row]]:
-    """The rows of all measurements, as they come: one after the other, or from a cluster."""
-    by_solver = [
-        list(measurements) for _, measurements in groupby(todo, key=lambda one: one.solver.label)
-    ]
-    if scheduler is None:
+    """The rows of all measurements, as they come: one after the other, or from an executor."""
+    by_solver = [list(some) for _, some in groupby(todo, key=lambda one: one.solver.label)]
+    if executor is None:
         for measurements in by_solver:
-            for row in measured(measurements, study.limits, study.folder):
+            for row in measured(measurements, limits):
                 yield [row]
         return
-    tasks = []
+    tasks: list[tuple[object, ...]] = []
     for measurements in by_solver:
-        limits = replace(study.limits, budget=study.limits.budget * BLOCK / len(measurements))
-        tasks += [
-            (measurements[i : i + BLOCK], limits, study.folder)
-            for i in range(0, len(measurements), BLOCK)
-        ]
-    with executor_of(scheduler) as (executor, slots):
-        yield from results(executor, slots, rows_of_block, tasks)
+        share = replace(limits, budget=limits.budget * BLOCK / len(measurements))
+        tasks += [(measurements[i : i + BLOCK], share) for i in range(0, len(measurements), BLOCK)]
+    yield from results(executor, rows_of_block, tasks)
 
 
-def rows_of_block(measurements: Sequence[Measurement], limits: Limits, folder: str) -> list[Row]:
-    """The rows of some measurements of one solver, on a worker of a cluster."""
-    return list(measured(measurements, limits, folder))
+def rows_of_block(measurements: Sequence[Measurement], limits: Limits) -> list[Row]:
+    """The rows of some measurements of one solver, wherever an executor calls for them."""
+    return list(measured(measurements, limits))
 
 
-def measured(measurements: Sequence[Measurement], limits: Limits, folder: str) -> Iterator[Row]:
+def measured(measurements: Sequence[Measurement], limits: Limits) -> Iterator[Row]:
     """The rows of measurements of one solver, in its process.
 
     Parameters
     ----------
     measurements : sequence of Measurement
     limits : Limits
-    folder : str
-        Where the file of a function is looked for.
 
     Raises
     ------
@@ -264,16 +301,16 @@ def measured(measurements: Sequence[Measurement], limits: Limits, folder: str) -
     """
     spent = 0.0
     seen: set[object] = set()
-    with SolverProcess(measurements[0].solver, folder, limits.memory) as process:
+    with SolverProcess(measurements[0].solver, limits.memory) as process:
         for one in measurements:
-            begin = time.perf_counter()
-            if spent > limits.budget:
-                fields = ungraded_fields(NOT_RUN, "budget", one.problem.feasible)
-            else:
+            fields = ungraded_fields(NOT_RUN, "budget", one.problem.feasible)
+            if spent <= limits.budget:
                 if not process.is_there:
                     seen.clear()
+                    process.start()
+                begin = time.perf_counter()
                 fields = _measured_fields(process, one, limits, seen)
-            spent += time.perf_counter() - begin
+                spent += time.perf_counter() - begin
             yield one.row(limits, fields)
 
 

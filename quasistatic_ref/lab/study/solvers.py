@@ -1,8 +1,9 @@
 """The solvers of a study, by the door through which they are called, and their settings."""
 
 import importlib.metadata
+import inspect
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.util import find_spec
@@ -11,7 +12,8 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.lab.study.promises import RESIDUALS, Promise, resolved
+from quasistatic_ref.lab.study.promises import RESIDUALS, Promise, promise_stated, resolved
+from quasistatic_ref.parts import needed_package
 from quasistatic_ref.solve.backends import BACKENDS, Options, installed
 
 QPSOLVERS, CVXPY, FUNCTION = DOORS = ("qpsolvers", "cvxpy", "function")
@@ -78,19 +80,22 @@ class Solver:
     name : str
     door : str
         One of ``DOORS``.
-    target : str
-        The solver's name there; or ``FILE.py:FUNCTION``, or ``MODULE:FUNCTION``.
+    target : str or bytes
+        The solver's name there; or a function, pickled: see :func:`function_solver`.
     options : mapping of str to mapping
         Options of its own by setting, in place of ours.
     promised : mapping of str to mapping
         By setting, what its author promises of residuals, as in ``promises.py``.
+    starts : bool
+        Whether a function takes ``start=(x, z)``.
     """
 
     name: str
     door: str
-    target: str
+    target: Any
     options: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     promised: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    starts: bool = False
 
     @property
     def label(self) -> str:
@@ -111,7 +116,9 @@ class Solver:
 
     @property
     def warm(self) -> bool:
-        """Whether its door uses a start; of a function only its signature says so."""
+        """Whether its door, or its function, uses a start."""
+        if self.door == FUNCTION:
+            return self.starts
         known = BACKENDS.get(self.target)
         return self.door in (known.warm if known else self.facts.get("warm", ()))
 
@@ -164,8 +171,96 @@ class Solver:
         return resolved(stated, facts.get("defaults", {}) | here.get("defaults", {}) | options)
 
 
+def function_solver(
+    function: Callable[..., Any],
+    name: str | None = None,
+    *,
+    options: Mapping[str, Mapping[str, Any]] | None = None,
+    promised: Mapping[str, Mapping[str, Any]] | None = None,
+) -> Solver:
+    """A function as a solver of a study.
+
+    Parameters
+    ----------
+    function : callable
+        ``(P, q, G, h, **options) -> (x, z, status)``. One of a script goes to other processes by
+        value, one of a module by its name.
+    name : str, optional
+        By default the function's own.
+    options : mapping of str to mapping, optional
+        What it is given at a setting, by the name of the setting.
+    promised : mapping of str to mapping, optional
+        By setting, what "optimal" promises of residuals: primal, dual and gap, each a number or a
+        table of abs, rel and of. By default the accuracy of the setting.
+
+    Raises
+    ------
+    InputError
+        If it is not callable or cannot be pickled, or a promise is none.
+    """
+    name = name or str(getattr(function, "__name__", type(function).__name__))
+    if not callable(function):
+        raise InputError("is not a function", field=name, value=function)
+    for setting, value in (promised or {}).items():
+        try:
+            promise_stated(value)
+        except (ValueError, TypeError, KeyError, AttributeError) as error:
+            words = "must be a table of primal, dual and gap, each a number or a table of abs, rel"
+            where = f"{name}: promised.{setting}"
+            raise InputError(f"{words} and of: {error}", field=where, value=value) from None
+    cloudpickle = needed_package("cloudpickle", "study", "a solver of your own")
+    try:
+        target = cloudpickle.dumps(function)
+    except Exception as error:  # whatever the things that it holds raise
+        words = f"cannot be sent to another process: {error}"
+        raise InputError(words[:200], field=name) from None
+    return Solver(name, FUNCTION, target, options or {}, promised or {}, takes_start(function))
+
+
+def takes_start(function: Callable[..., Any]) -> bool:
+    """Whether a function takes ``start=(x, z)``; a compiled one may not say what it takes."""
+    try:
+        return "start" in inspect.signature(function).parameters
+    except ValueError:
+        return False
+
+
+def solvers_of(wanted: Iterable[str | Callable[..., Any] | Solver]) -> list[Solver]:
+    """Solvers by their names, functions and solvers, each once.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, its solver is not installed, or two functions have one name.
+    """
+    chosen: dict[str, Solver] = {}
+    for one in wanted:
+        if isinstance(one, str):
+            chosen |= {solver.label: solver for solver in solvers_named(one)}
+            continue
+        solver = one if isinstance(one, Solver) else function_solver(one)
+        if solver.label in chosen:
+            words = "stands twice; give one of them another name"
+            raise InputError(words, field="solvers", value=solver.name)
+        chosen[solver.label] = solver
+    return list(chosen.values())
+
+
+def settings_of(wanted: Iterable[str | Setting]) -> list[Setting]:
+    """Settings by their names, and others, each once; InputError if a name is unknown."""
+    known = {setting.name: setting for setting in SETTINGS}
+    chosen: dict[str, Setting] = {}
+    for one in wanted:
+        if isinstance(one, str) and one not in known:
+            words = f"holds an unknown one{suggestion(one, known)}"
+            raise InputError(words, field="settings", value=one)
+        setting = known[one] if isinstance(one, str) else one
+        chosen[setting.name] = setting
+    return list(chosen.values())
+
+
 def solvers_named(name: str) -> list[Solver]:
-    """The solver of ``door:name``, all that are installed of ``door:*``, or a function.
+    """The solver of ``door:name``, or all that are installed of ``door:*``.
 
     Raises
     ------
@@ -174,8 +269,8 @@ def solvers_named(name: str) -> list[Solver]:
     """
     door, _, target = name.partition(":")
     if door not in BY_NAME:
-        words = "is no solver: write qpsolvers:NAME, cvxpy:NAME or a name of [solvers.NAME]"
-        raise InputError(words, value=name)
+        words = "is no solver: write qpsolvers:NAME or cvxpy:NAME, or give a function"
+        raise InputError(words, field="solvers", value=name)
     names = installed_here(door) if target == "*" else (target,)
     for one in names:
         check_installed(door, one)

@@ -1,7 +1,10 @@
-"""A solver in a process of its own, which is ended where it exceeds a limit, and started again."""
+"""A solver in a process of its own, which is ended where it exceeds a limit, and started again.
+
+The process and whatever it starts are a group, which a guard, the first of the group, ends as soon
+as the process that asks has ended, in whatever way.
+"""
 
 import contextlib
-import math
 import os
 import signal
 import subprocess
@@ -17,7 +20,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.processes import resident
 from quasistatic_ref.lab.study.doors import Call, call_of
 from quasistatic_ref.lab.study.row import CRASHED, MEMORY, TIMEOUT
-from quasistatic_ref.lab.study.solvers import FUNCTION, Solver
+from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
@@ -29,8 +32,10 @@ START = 60.0
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """Set to 1, so that solvers are compared on one core each."""
 PROGRAM = "from quasistatic_ref.lab.study.worker import serve; serve({})"
+GUARD = ("sh", "-c", "read line; kill -9 0")
+"""Waits until the other end of a pipe closes, and ends its group."""
 GRACE = 5
-"""After the limit of a call, a process whose study has been killed ends by itself [s]."""
+"""In which a process that has closed its connection ends [s]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,20 +104,17 @@ def serve(handle: int) -> None:
         File descriptor of this end.
     """
     connection: Connection = Connection(handle)
-    solver, folder = connection.recv()
     try:
-        call, warm = call_of(solver, folder)
+        call = call_of(connection.recv())
     except InputError as error:
-        connection.send((str(error), False))
+        connection.send(str(error))
         return
-    connection.send(("", warm))
+    connection.send("")
     before: Reply | None = None
     with contextlib.suppress(EOFError):
         while True:
-            question, seconds = connection.recv()
-            signal.alarm(math.ceil(seconds) + GRACE)
+            question = connection.recv()
             answer = answered(call, question, before)
-            signal.alarm(0)
             if question.is_kept:
                 before = answer.reply
             connection.send(answer)
@@ -154,18 +156,16 @@ class SolverProcess:
     Parameters
     ----------
     solver : Solver
-    folder : str
-        Where the file of a function is looked for.
     memory : float
         Most resident memory [bytes], where the system tells it (Linux).
     """
 
-    def __init__(self, solver: Solver, folder: str, memory: float) -> None:
+    def __init__(self, solver: Solver, memory: float) -> None:
         self.solver = solver
-        self.folder = folder
         self.memory = memory
         self.peak = 0.0
         self.kept = ""
+        self._guard: subprocess.Popen[bytes]
         self._process: subprocess.Popen[bytes]
         self._connection: Connection | None = None
 
@@ -195,7 +195,7 @@ class SolverProcess:
             self.start()
         assert self._connection is not None
         try:
-            self._connection.send((question, seconds))
+            self._connection.send(question)
         except OSError:  # it ended by itself, after its last answer
             self.end()
             raise Ended(CRASHED, "ended before the call") from None
@@ -225,18 +225,15 @@ class SolverProcess:
         if self._connection is not None:
             self._connection.close()
             with contextlib.suppress(ProcessLookupError):
-                os.killpg(self._process.pid, signal.SIGKILL)
+                os.killpg(self._guard.pid, signal.SIGKILL)
             self._process.wait()
+            with self._guard:  # closes its pipe, and waits for it
+                pass
             self._connection = None
             self.kept = ""
 
-    def start(self) -> bool:
+    def start(self) -> None:
         """Start the process.
-
-        Returns
-        -------
-        bool
-            Whether the solver uses a start.
 
         Raises
         ------
@@ -246,6 +243,8 @@ class SolverProcess:
         self._connection, other = Pipe()
         path = {"PYTHONPATH": os.pathsep.join(sys.path)}
         nowhere = subprocess.DEVNULL  # what a solver prints
+        # In a group of their own: Ctrl-C is for the study, which ends them.
+        self._guard = subprocess.Popen(GUARD, stdin=subprocess.PIPE, process_group=0)
         self._process = subprocess.Popen(
             [sys.executable, "-c", PROGRAM.format(other.fileno())],
             pass_fds=[other.fileno()],
@@ -253,20 +252,18 @@ class SolverProcess:
             stdout=nowhere,
             stderr=nowhere,
             env=os.environ | dict.fromkeys(THREADS, "1") | path,
-            start_new_session=True,  # Ctrl-C is for the study, which ends this process
+            process_group=self._guard.pid,
         )
         other.close()
         self.peak = 0.0
         try:
-            self._connection.send((self.solver, self.folder))
-            words, warm = self._received(START)
+            self._connection.send(self.solver)
+            words = self._received(START)
         except Ended as end:
             raise InputError(f"cannot be started: {end}", value=self.solver.label) from None
         if words:
             self.end()
-            field = self.solver.name if self.solver.door == FUNCTION else self.solver.label
-            raise InputError(words, field=field)
-        return bool(warm)
+            raise InputError(words, field="solvers")
 
     def _received(self, seconds: float) -> Any:
         """What the process sends next."""

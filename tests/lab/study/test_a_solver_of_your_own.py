@@ -1,33 +1,23 @@
 """The page for authors of solvers: its files and commands, alone in an empty folder."""
 
+import importlib
+import os
 import shlex
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pandas
 import pytest
 
 from quasistatic_ref.cli.main import main
+from quasistatic_ref.lab.study.limits import Limits
+from quasistatic_ref.lab.study.run import study
 from tests.pages import EXAMPLES, ROOT, named_files, shell_lines
 
 PAGE = (ROOT / "docs" / "studies.md").read_text("utf-8")
 FILES = named_files(PAGE)
-IN_C = """
-format = "quasistatic-ref/study"
-version = 2
-time_limit = 20.0
-
-[problems]
-set = "contact-qp"
-families = { contacts = 2, gaps = 2, infeasible = 1 }
-
-[solvers.hildreth]
-function = "hildreth.py:solve"
-
-[[runs]]
-solvers = ["hildreth"]
-"""
 
 
 @pytest.fixture
@@ -39,28 +29,32 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_a_function_of_a_file_runs_in_a_study_of_ten_problems(folder, capsys):
-    for line in shell_lines(PAGE):
-        assert main(shlex.split(line)[1:]) == 0, line
+def test_a_function_runs_in_a_study_of_ten_problems(folder, capsys):
+    script, report = shell_lines(PAGE)
+    paths = os.environ | {"PYTHONPATH": str(ROOT)}
+    subprocess.run([sys.executable, *shlex.split(script)[1:]], env=paths, check=True)
+    assert main(shlex.split(report)[1:]) == 0
     rows = pandas.read_parquet("study/rows.parquet")
-    assert rows.groupby("solver").size().to_dict() == {"clarabel": 10, "daqp": 10, "nnls": 10}
-    nnls = rows[rows.solver == "nnls"]
+    assert rows.groupby("solver").size().to_dict() == {"clarabel": 10, "daqp": 10, "solve": 10}
+    nnls = rows[rows.solver == "solve"]
     assert (nnls[nnls.feasible].digits > 9).all()
     assert set(nnls[~nnls.feasible].claim) == {"infeasible"}
-    assert "function:nnls" in Path("report/summary.md").read_text("utf-8")
+    assert "function:solve" in Path("report/summary.md").read_text("utf-8")
     exec(FILES["rows.py"], {})  # how the page asks the rows
     assert "contacts/" in capsys.readouterr().out
 
 
 @pytest.mark.extra("fast")  # a C compiler
-def test_a_program_in_c_runs_in_a_study(folder):
+def test_a_program_in_c_runs_in_a_study(folder, monkeypatch):
     for name in ("hildreth.c", "hildreth.py"):
         shutil.copy(EXAMPLES / name, folder)
     lines = Path("hildreth.py").read_text("utf-8").splitlines()
     (command,) = (line.removeprefix("First: ") for line in lines if "cc -O2" in line)
     subprocess.run([*shlex.split(command), "-Wall"], check=True)
-    Path("study.toml").write_text(IN_C, "utf-8")
-    assert main(["study", "run", "study.toml", "--out", "study"]) == 0
+    monkeypatch.syspath_prepend(str(folder))
+    solve = importlib.import_module("hildreth").solve
+    families = {"contacts": 2, "gaps": 2, "infeasible": 1}
+    study(families, [solve], limits=Limits(time_limit=20.0), progress=False)
     rows = pandas.read_parquet("study/rows.parquet")
     solved = rows[rows.feasible & (rows.outcome == "solved")]
     assert len(solved) >= 2

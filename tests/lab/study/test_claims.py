@@ -17,7 +17,7 @@ WAYS = [(door, name) for door in BY_NAME for name in installed_here(door)]
 def test_each_solver_says_of_a_program_whether_it_has_a_solution(way):
     """Of x >= 1 alone, and of x >= 1 with x <= 0."""
     solver = Solver(way[1], *way)
-    call, _ = call_of(solver, ".")
+    call = call_of(solver)
     options = solver.settings_of(HIGH, 5.0) if solver.takes(HIGH) else {}
 
     def claim_on(A, b):

@@ -6,11 +6,9 @@ from statistics import median
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.formats.files import toml_read
+from quasistatic_ref.lab.study.default import default_problems
 from quasistatic_ref.lab.study.page import page, page_written, table_of
-from quasistatic_ref.lab.study.problems.selection import problems_taken
 from quasistatic_ref.lab.study.store import rows_read
-from quasistatic_ref.lab.study.study_file import solver_study, study_path
 
 ROOT = Path(__file__).parents[3]
 STUDIES = ROOT / "validation" / "studies"
@@ -63,8 +61,8 @@ def test_the_page_is_written_with_its_figures(committed, tmp_path):
 
 
 def test_the_default_study_selects_the_problems_of_the_committed_rows(committed):
-    path = study_path("default")
-    problems = solver_study(path, toml_read(path)).problems
-    chosen = problems_taken(problems.source, problems.families, problems.most)
-    assert len(chosen) == 310
-    assert {one.id for one in chosen} == {row.problem for row in committed}
+    problems, part = default_problems()
+    ids = {one.id for one in problems}
+    assert len(problems) == 310
+    assert ids == {row.problem for row in committed}
+    assert {one.id for one in part} < ids

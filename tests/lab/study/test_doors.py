@@ -1,35 +1,17 @@
 """What a function returns, and what its row says of it."""
 
-import json
+import importlib
 
 import numpy as np
 import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.compiled_problems import CompiledProblems
+from quasistatic_ref.lab.study.limits import Limits
+from quasistatic_ref.lab.study.run import study
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.step.standard_form import StandardForm
-
-STUDY = """
-repetitions = 1
-[problems]
-set = "contact-qp"
-families.contacts = {{ count = 1, most = 12 }}
-{solvers}
-[[runs]]
-solvers = {names}
-"""
-
-
-def study_of(*functions):
-    """A study of functions, each by its own name."""
-    names = [function.partition(":")[2] for function in functions]
-    tables = [
-        f'[solvers.{name}]\nfunction = "{function}"'
-        for name, function in zip(names, functions, strict=True)
-    ]
-    return STUDY.format(solvers="\n".join(tables), names=json.dumps(names))
-
+from tests.lab.study import broken
 
 RETURNED = {
     "honest": ("solved", "optimal", False, "optimal"),
@@ -45,23 +27,23 @@ RETURNED = {
 }
 
 
-def test_what_a_function_returns_is_judged_as_it_is(run):
-    rows = run(study_of(*(f"solvers.py:{name}" for name in RETURNED)))
+def test_what_a_function_returns_is_judged_as_it_is(tmp_path, three):
+    functions = [getattr(broken, name) for name in RETURNED]
+    limits = Limits(repetitions=1)
+    rows = study(three[:1], functions, folder=tmp_path, limits=limits, progress=False)
     said = {row.solver: (row.outcome, row.claim, row.false_claim, row.status) for row in rows}
     assert said == RETURNED
     assert all((row.digits is not None) == (row.outcome == "solved") for row in rows)
 
 
-@pytest.mark.parametrize(("function", "words"), [
-    ("solver.py:honest", "No such file"), ("solvers.py:honst", "has no attribute 'honst'"),
-    ("no_such_module:f", "No module named"), ("solvers.py:np", "is not a function"),
-])  # fmt: skip
-def test_a_function_that_is_not_there_is_one_sentence_before_the_study_runs(
-    function, words, run, tmp_path
-):
-    with pytest.raises(InputError, match=words):
-        run(study_of(function))
-    assert not (tmp_path / "store").exists()
+def test_a_function_whose_module_is_not_there_is_one_sentence(tmp_path, monkeypatch, three):
+    module = tmp_path / "fleeting_solver.py"
+    module.write_text("def solve(P, q, G, h):\n    return None, None, 'infeasible'\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    function = importlib.import_module("fleeting_solver").solve
+    module.unlink()
+    with pytest.raises(InputError, match="solve: cannot be imported: ModuleNotFoundError: No mod"):
+        study(three, [function], folder=tmp_path / "store", progress=False)
 
 
 def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():

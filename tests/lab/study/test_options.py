@@ -63,7 +63,7 @@ def test_a_step_that_was_not_solved_starts_nothing():
     rows = np.array([[1.0, 1.0], [-1.0, -1.0]])
     none = StandardForm(np.eye(2), np.zeros(2), rows, np.array([1.0, 0.0]))
     osqp = Solver("osqp", "qpsolvers", "osqp")
-    call = call_of(osqp, ".")[0]
+    call = call_of(osqp)
     failed = answered(call, Question(none, {}), None).reply
     assert not failed.solved
     assert failed.x is not None

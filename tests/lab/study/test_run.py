@@ -1,10 +1,9 @@
-"""A study from its file to its rows: complete, and the same however often it was stopped."""
+"""A study from its call to its rows: complete, and the same however often it was stopped."""
 
 import os
 import signal
 import subprocess
 import sys
-import time
 from collections import Counter
 from dataclasses import fields, replace
 from pathlib import Path
@@ -17,21 +16,22 @@ import pytest
 
 import quasistatic_ref
 from quasistatic_ref import InputError
+from quasistatic_ref.lab.folders import CONTACT_QP
+from quasistatic_ref.lab.lock import locked
+from quasistatic_ref.lab.study import default
+from quasistatic_ref.lab.study.limits import Limits
+from quasistatic_ref.lab.study.problems.selection import problems_taken
 from quasistatic_ref.lab.study.row import Row, key_of
-from quasistatic_ref.lab.study.run import measured
+from quasistatic_ref.lab.study.run import measured, study
 from quasistatic_ref.lab.study.store import ROWS, rows_read
+from tests.lab.study import broken
+from tests.processes import has_ended, waited_for
 
 ROOT = str(Path(quasistatic_ref.__file__).parents[1])
 CALLS = 3 * (2 + 1) * 2
 """Three problems, to a solver at two settings and to a function at one, in two units."""
 MEASURED = ("seconds", "seconds_low", "seconds_high", "seconds_first", "seconds_solver",
             "seconds_setup", "memory")  # fmt: skip
-
-
-def has_ended(pid):
-    """Whether a process is not there, or waits to be forgotten by its parent."""
-    stat = Path(f"/proc/{pid}/stat")
-    return not stat.exists() or stat.read_text().rpartition(")")[2].split()[0] == "Z"
 
 
 def facts(rows):
@@ -55,7 +55,7 @@ def test_every_measurement_is_a_row_once_and_libraries_read_them(whole):
 
 
 def test_a_study_that_was_stopped_goes_on_and_measures_nothing_twice(
-    run, small, whole, monkeypatch, tmp_path
+    small, whole, monkeypatch, tmp_path
 ):
     def stopped(*arguments):
         for count, row in enumerate(measured(*arguments)):
@@ -66,113 +66,162 @@ def test_a_study_that_was_stopped_goes_on_and_measures_nothing_twice(
     with monkeypatch.context() as patched:
         patched.setattr("quasistatic_ref.lab.study.run.measured", stopped)
         with pytest.raises(KeyboardInterrupt):
-            run(small, "stopped")
-    before = rows_read(tmp_path / "stopped")
+            small(tmp_path)
+    before = rows_read(tmp_path)
     assert len(before) == 7
-    rows = run(small, "stopped")
+    rows = small(tmp_path)
     assert rows[:7] == before
     assert facts(rows) == facts(whole[0])
-    assert run(small, "stopped") == rows
-    with pytest.raises(InputError, match="holds another study, of other problems or limits"):
-        run(small.replace("mass_ratio = 2", "mass_ratio = 1"), "stopped")
+    assert small(tmp_path) == rows
 
 
-def test_ctrl_c_ends_the_command_with_130_and_says_that_it_goes_on(study, small, tmp_path):
-    """While a function sleeps in its process: whatever it started has ended, too."""
-    study(small.replace("honest", "sleeps"))
-    # Where this was started in the background, SIGINT is ignored, also by what it starts.
-    program = (
-        "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
-        "from quasistatic_ref.cli.main import main; "
-        "raise SystemExit(main(['study', 'run', 'study.toml']))"
-    )
-    command = [sys.executable, "-c", program]
-    process = subprocess.Popen(
-        command, cwd=tmp_path, env=os.environ | {"PYTHONPATH": ROOT}, stderr=subprocess.PIPE
-    )
+def test_a_folder_takes_other_problems_and_no_others_of_the_same_names(three, tmp_path):
+    def of(problems, **limits):
+        return study(problems, [broken.denies], folder=tmp_path, limits=Limits(**limits),
+                     progress=False)  # fmt: skip
+
+    first = of(three[:2])
+    assert len(of(three[2:])) == 3
+    assert rows_read(tmp_path)[:2] == first
+    changed = replace(three[0], g=2 * three[0].g)
+    for problems, limits in (([changed], {}), (three, {"budget": 1.0})):
+        with pytest.raises(InputError, match="holds another study, of other problems or limits"):
+            of(problems, **limits)
+
+
+def test_two_studies_at_once_in_one_folder_lose_no_rows(three, tmp_path):
+    def of(solver):
+        return study(three, [solver], folder=tmp_path, progress=False)
+
+    with locked(tmp_path), pytest.raises(InputError, match="is being written by another sweep or"):
+        of(broken.denies)
+    of(broken.denies)
+    assert len(of(broken.gives_up)) == len(rows_read(tmp_path)) == 2 * len(three)
+
+
+def test_ctrl_c_ends_the_command_with_130_and_says_that_it_goes_on(monkeypatch, tmp_path, cli):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(default, "study", interrupted)
+    said = cli("study", "run", "--quick", "--out", tmp_path, status=130).err
+    assert f"what was measured is in {tmp_path}; the same command goes on from there" in said
+
+
+HANGS = """
+import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in what stands in the background
+from quasistatic_ref.lab.study.run import Limits, study
+from tests.lab.study.broken import sleeps
+limits = Limits(time_limit=600.0, warm_up=600.0)
+study({"gaps": 1}, ["qpsolvers:daqp", sleeps], folder="store", limits=limits)
+"""
+
+
+@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL])
+def test_a_solver_and_what_it_starts_end_with_the_process_of_the_study(end, tmp_path):
     child = tmp_path / "child"
-    while not (child.exists() and child.read_text()):
-        time.sleep(0.02)
-    process.send_signal(signal.SIGINT)
-    said = process.communicate()[1].decode()
-    assert process.returncode == 130
-    assert "what was measured is in study; the same command goes on from there" in said
-    assert has_ended(int(child.read_text()))
-    assert len(rows_read(tmp_path / "study")) == CALLS - 3 * 2  # those of the other solver
+    surroundings = os.environ | {"PYTHONPATH": ROOT, "CHILD": str(child)}
+    process = subprocess.Popen(
+        [sys.executable, "-c", HANGS], cwd=tmp_path, env=surroundings, stderr=subprocess.DEVNULL
+    )
+    waited_for(lambda: child.exists() and child.read_text())
+    process.send_signal(end)
+    process.wait()
+    waited_for(lambda: has_ended(int(child.read_text())))
+    if end == signal.SIGINT:
+        assert [row.solver for row in rows_read(tmp_path / "store")] == ["daqp"]
 
 
-LIMITED = """
-time_limit = 0.3
-warm_up = 3.0
-memory = 0.3
-budget = 3.0
-repetitions = 1
-[problems]
-set = "contact-qp"
-families = { contacts = { count = 2, most = 12 } }
-[solvers]
-sleeps.function = "solvers.py:sleeps"
-eats.function = "solvers.py:eats"
-exits.function = "solvers.py:exits"
-honest.function = "solvers.py:honest"
-[[runs]]
-solvers = ["sleeps", "eats", "exits", "honest"]
+SIX_LINES = """
+from quasistatic_ref.lab.study.run import study
+from quasistatic_ref.lab.sweep import simulate_many
+def solve(P, q, G, h):
+    return None, None, "infeasible"
+study({"gaps": 1}, [solve], folder="store")
+simulate_many("block_incline", {"steps": [1, 2]}, "map", workers=2)
 """
 
 
-def test_a_solver_that_exceeds_its_limits_is_ended_and_costs_itself_only(run, tmp_path):
-    """One sleeps, and so does what it starts; one takes memory; one ends its process."""
-    rows = run(LIMITED)
-    outcomes = {row.solver: [] for row in rows}
-    for row in rows:
-        outcomes[row.solver].append(row.outcome)
-    assert outcomes["sleeps"] == ["timeout", "not run"]  # a call takes longer than the budget
-    assert outcomes["eats"][0] == "out of memory"
-    assert outcomes["exits"][0] == "crashed"
-    assert outcomes["honest"] == ["solved"] * 2
-    assert has_ended(int((tmp_path / "child").read_text()))
+def test_a_script_needs_no_guard_against_processes_that_import_it(tmp_path):
+    (tmp_path / "script.py").write_text(SIX_LINES)
+    command = [sys.executable, "script.py"]
+    subprocess.run(command, cwd=tmp_path, env=os.environ | {"PYTHONPATH": ROOT}, check=True)
+    assert [row.solver for row in rows_read(tmp_path / "store")] == ["solve"]
+    assert len(list((tmp_path / "map" / "runs").iterdir())) == 2
+
+
+def limited(folder, executor=None):
+    """Outcomes of one that sleeps, on two problems; those of others are as they are alone."""
+    problems = problems_taken(CONTACT_QP, {"contacts": 2}, {"contacts": 12})
+    short = Limits(warm_up=3.0, budget=1.0)
+    others = Limits(time_limit=30.0, warm_up=30.0, memory=0.3e9, repetitions=1)
+    rows = []
+    for limits, solvers in (
+        (short, [broken.sleeps]),
+        (others, [broken.eats, broken.exits, broken.pair, broken.spoils]),
+    ):
+        store = folder / solvers[0].__name__
+        rows += study(problems, solvers, folder=store, executor=executor, limits=limits,
+                      progress=False)  # fmt: skip
+    outcomes = {row.solver: [one.outcome for one in rows if one.solver == row.solver]
+                for row in rows}  # fmt: skip
+    assert outcomes["eats"] == ["out of memory"] * 2
+    assert outcomes["exits"] == ["crashed"] * 2
+    assert outcomes["pair"] == ["wrong shape"] * 2
+    assert outcomes["spoils"] == ["solved"] * 2
     assert "ended with 7" in {row.status for row in rows if row.solver == "exits"}
+    assert has_ended(int(Path(os.environ["CHILD"]).read_text()))
+    return outcomes["sleeps"]
 
 
-def test_on_a_cluster_the_rows_are_the_same(run, small, whole, tmp_path):
-    """Its worker is a daemon, which may start no process of multiprocessing."""
-    with dask.config.set(temporary_directory=str(tmp_path)), distributed.LocalCluster(
-        n_workers=1, threads_per_worker=2, dashboard_address=None
-    ) as cluster:  # fmt: skip
-        there = run(small, "there", scheduler=cluster.scheduler_address)
-    assert facts(there) == facts(whole[0])
+def test_a_solver_that_exceeds_its_limits_is_ended_and_costs_itself_only(tmp_path, monkeypatch):
+    """One sleeps, and so does what it starts; others take memory, end, return too little, print."""
+    monkeypatch.setenv("CHILD", str(tmp_path / "child"))
+    assert limited(tmp_path) == ["timeout", "not run"]  # a call takes longer than the budget
 
 
-ORDERED = """
-repetitions = 1
-[problems]
-set = "contact-qp"
-families.moving = { count = 12, most = 1 }
-[solvers.mine]
-function = "solvers.py:warm"
-[[runs]]
-solvers = ["qpsolvers:osqp", "qpsolvers:piqp", "cvxpy:osqp", "mine"]
-starts = ["cold", "warm"]
-"""
+def test_on_two_workers_of_dask_the_rows_are_the_same_and_limits_hold(
+    small, whole, tmp_path, monkeypatch
+):
+    """Its workers are daemons, which may start no process of multiprocessing."""
+    monkeypatch.setenv("CHILD", str(tmp_path / "child"))
+    with (
+        dask.config.set(temporary_directory=str(tmp_path)),
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+        client.get_executor(pure=False, retries=0) as executor,
+    ):
+        assert facts(small(tmp_path / "there", executor)) == facts(whole[0])
+        assert limited(tmp_path, executor) == ["timeout"] * 2
 
 
-def test_steps_in_order_start_from_the_step_before_and_only_where_a_start_is_used(run):
+def ordered(families, folder, most=None):
+    """The rows of steps, cold and from an answer, of solvers that use it and that do not."""
+    solvers = ["qpsolvers:osqp", "qpsolvers:piqp", "cvxpy:osqp", broken.warm]
+    problems = problems_taken(CONTACT_QP, families, most)
+    return study(problems, solvers, folder=folder, starts=["cold", "warm"],
+                 limits=Limits(repetitions=1), progress=False)  # fmt: skip
+
+
+def test_steps_in_order_start_from_the_step_before_and_only_where_a_start_is_used(tmp_path):
     """The function says "again" where it starts from the very answer to this step: never."""
-    rows = run(ORDERED)
+    rows = ordered({"moving": 12}, tmp_path, {"moving": 1})
     counts = Counter((row.door, row.solver, row.start) for row in rows)
     assert counts == {
         ("qpsolvers", "osqp", "cold"): 12, ("qpsolvers", "osqp", "warm"): 12,
         ("qpsolvers", "piqp", "cold"): 12, ("cvxpy", "osqp", "cold"): 12,
-        ("function", "mine", "cold"): 12, ("function", "mine", "warm"): 12,
+        ("function", "warm", "cold"): 12, ("function", "warm", "warm"): 12,
     }  # fmt: skip
-    warm = [row for row in rows if row.start == "warm" and row.solver == "mine"]
+    warm = [row for row in rows if row.start == "warm" and row.solver == "warm"]
     assert [row.started for row in warm] == [False] + [True] * 11
     assert {row.status for row in warm} == {"optimal"}
 
 
-def test_problems_alone_start_from_a_neighbour(run):
-    text = ORDERED.replace("families.moving = { count = 12, most = 1 }", "families.gaps = 2")
-    rows = [row for row in run(text) if row.start == "warm"]
+def test_problems_alone_start_from_a_neighbour(tmp_path):
+    rows = [row for row in ordered({"gaps": 2}, tmp_path) if row.start == "warm"]
     assert {(row.door, row.solver) for row in rows} == {
-        ("qpsolvers", "osqp"), ("cvxpy", "osqp"), ("function", "mine")}  # fmt: skip
+        ("qpsolvers", "osqp"), ("cvxpy", "osqp"), ("function", "warm")}  # fmt: skip
     assert all(row.started for row in rows)

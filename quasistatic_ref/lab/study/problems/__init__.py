@@ -1,6 +1,5 @@
-"""Quadratic programs of contact with exact answers: sets of them, made, kept, checked, exported.
+"""Quadratic programs of contact with exact answers: sets of them, kept, checked, exported.
 
-It knows no solver. Answers are the exact method's, with a proof. Only the family ``scenarios`` is
-made here; the set ``contact-qp`` is frozen, and ``dials`` says what their families
-vary.
+It knows no solver. Answers are the exact method's, with a proof. The set ``contact-qp`` is frozen,
+and its manifest says what its families vary; problems of other steps are made, not kept.
 """

@@ -20,13 +20,9 @@ from quasistatic_ref.formats.files import (
     LARGEST_TEXT,
     bytes_read,
     json_read,
-    json_text,
-    text_written,
-    written_whole,
 )
 from quasistatic_ref.formats.npz import npz_arrays
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.lab.study.problems.dials import DIALS
 from quasistatic_ref.lab.study.problems.problem import ENCLOSED, EXACT, Answer, Problem
 from quasistatic_ref.solve.units import Units
 
@@ -41,42 +37,6 @@ ANSWERS = ("x", "net", "slack", "lam")
 UNREADABLE = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError,
                      RecursionError, lzma.LZMAError)  # fmt: skip
 """What reading raises of files that agree with their manifest, and are something else."""
-
-
-def set_written(folder: Path, name: str, problems: Sequence[Problem]) -> None:
-    """Write a set: the numbers of each family, the lines of all, and the manifest.
-
-    Parameters
-    ----------
-    folder : Path
-    name : str
-        Of the set, with its version.
-    problems : sequence of Problem
-        In the order of their families.
-    """
-    every: dict[str, list[Problem]] = {}
-    for one in problems:
-        every.setdefault(str(one.facts["family"]), []).append(one)
-    text_written(folder / FACTS, "".join(json_text(_line(one)) + "\n" for one in problems))
-    paths = [folder / FACTS]
-    for family, members in every.items():
-        paths.append(_numbers_written(folder / NUMBERS / f"{family}.npz", members))
-    families = {
-        family: {"count": len(members), "dial": DIALS.get(family)}
-        for family, members in every.items()
-    }
-    head = {
-        "format": FORMAT,
-        "version": VERSION,
-        "name": name,
-        "count": len(problems),
-        "families": families,
-        "files": [
-            {"path": path.relative_to(folder).as_posix(), "sha256": _hash(bytes_read(path))}
-            for path in paths
-        ],
-    }
-    text_written(folder / MANIFEST, json.dumps(head, indent=1) + "\n")
 
 
 def set_read(
@@ -160,37 +120,9 @@ def _hash(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def _line(one: Problem) -> dict[str, Any]:
-    units = {
-        "length": int(np.log2(one.units.length)),
-        "size": int(np.log2(one.units.size)),
-    }
-    farkas = {str(i): y for i, y in one.answer.farkas.items()} or None
-    return dict(one.facts) | {"log2_units": units, "farkas": farkas}
-
-
 def _lines(path: Path) -> list[dict[str, Any]]:
     text = bytes_read(path, largest=LARGEST_TEXT).decode("utf-8")
     return [json.loads(line) for line in text.splitlines()]
-
-
-def _numbers_written(path: Path, problems: Sequence[Problem]) -> Path:
-    """Write the numbers of a family, arrays of one kind after one another."""
-    parts: dict[str, list[NDArray[Any]]] = {}
-    for one in problems:
-        solved = not one.answer.farkas
-        for name in MATRICES:
-            M = getattr(one, name).sorted_indices()
-            parts.setdefault(f"{name}_values", []).append(M.data + 0.0)
-            parts.setdefault(f"{name}_columns", []).append(M.indices.astype(np.uint16))
-            parts.setdefault(f"{name}_entries", []).append(np.diff(M.indptr).astype(np.uint16))
-        exponents = np.log2(one.units.coordinate).astype(np.int16)
-        vectors: dict[str, NDArray[Any]] = {"g": one.g, "b": one.b, "coordinate": exponents}
-        answers = {name: getattr(one.answer, name) + 0.0 for name in ANSWERS}
-        for name, values in (vectors | answers if solved else vectors).items():
-            parts.setdefault(name, []).append(values)
-    arrays: dict[str, Any] = {name: np.concatenate(pieces) for name, pieces in parts.items()}
-    return written_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
 
 def _problems(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> list[Problem]:

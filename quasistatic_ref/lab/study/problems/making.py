@@ -9,7 +9,6 @@ from scipy.sparse import csr_matrix
 
 from quasistatic_ref.certify.norm import error_length, single_loads
 from quasistatic_ref.lab.study.problems.answers import exact_answer
-from quasistatic_ref.lab.study.problems.dials import SCENARIOS
 from quasistatic_ref.lab.study.problems.problem import QP, Problem
 from quasistatic_ref.lab.study.problems.selection import evenly
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
@@ -19,6 +18,9 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.units import hessian_in_both_units, units_of
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
+
+SCENARIOS = "scenarios"
+"""The family of steps of runs, which has no dial."""
 
 
 def problems_of_runs(scenarios: Sequence[str], total: int, progress: bool = True) -> list[Problem]:

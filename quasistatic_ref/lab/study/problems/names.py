@@ -4,6 +4,3 @@ RAW = "raw"
 NATURAL = "natural"
 UNITS = (RAW, NATURAL)
 """SI units, and those in which numbers are near one."""
-PARQUET = "parquet"
-FORMATS = ("npz", PARQUET)
-"""Of exports."""

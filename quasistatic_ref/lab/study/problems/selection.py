@@ -1,18 +1,19 @@
 """The problems of a study that are taken from a set, evenly along the dial of each family."""
 
+import random
 from collections.abc import Mapping, Sequence
+from itertools import groupby
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.folders import problem_set_folder
-from quasistatic_ref.lab.study.problems.dials import DIALS
-from quasistatic_ref.lab.study.problems.folder import set_read
-from quasistatic_ref.lab.study.problems.problem import QP, Problem
+from quasistatic_ref.lab.study.problems.folder import manifest, set_read
+from quasistatic_ref.lab.study.problems.problem import Problem
 
 
 def problems_taken(
-    source: str, families: Mapping[str, int], most: Mapping[str, float]
+    source: str, families: Mapping[str, int], most: Mapping[str, float] | None = None
 ) -> list[Problem]:
     """The problems that a study takes from a set.
 
@@ -22,28 +23,32 @@ def problems_taken(
         A name, or a folder.
     families : mapping of str to int
         How many of each.
-    most : mapping of str to float
-        Where dials end [of the dial].
+    most : mapping of str to float, optional
+        Where dials end [of the dial]; else at their hard ends.
 
     Raises
     ------
     InputError
-        If a family is not there, or has cones, for which studies have no place.
+        If a family is not there.
     """
     wanted = {name: count for name, count in families.items() if count}
-    every = set_read(problem_set_folder(source), list(wanted))
+    folder = problem_set_folder(source)
+    every = set_read(folder, list(wanted))
+    known = manifest(folder)["families"]
     chosen: list[Problem] = []
     for family, count in wanted.items():
         members = [one for one in every if one.facts["family"] == family]
-        if not all(one.facts["kind"] == QP for one in members):
-            words = "has cones; studies contain rows only"
-            raise InputError(words, field="problems.families", value=family)
-        chosen += problems_along_dial(members, family, count, most.get(family))
+        chosen += problems_along_dial(
+            members, known[family]["dial"], count, (most or {}).get(family)
+        )
     return chosen
 
 
 def problems_along_dial(
-    members: Sequence[Problem], family: str, count: int, most: float | None = None
+    members: Sequence[Problem],
+    dial: Mapping[str, Any] | None,
+    count: int,
+    most: float | None = None,
 ) -> list[Problem]:
     """Some problems of a family, evenly along its dial; of sequences whole ones, in order.
 
@@ -51,13 +56,13 @@ def problems_along_dial(
     ----------
     members : sequence of Problem
         All of the family.
-    family : str
+    dial : mapping or None
+        Of the family, as the manifest of the set has it.
     count : int
         At most so many.
     most : float, optional
         Where the dial ends [its unit].
     """
-    dial = DIALS.get(family)
     if most is not None and dial is not None:
         up = dial["first"] < dial["most"]
         members = [
@@ -76,3 +81,21 @@ def evenly(there: int, count: int) -> list[int]:
     """At most `count` places of those `there`, first and last among them."""
     places = np.linspace(0, there - 1, min(count, there)).round().astype(int)
     return [int(i) for i in np.unique(places)]
+
+
+def groups_in_random_order(problems: Sequence[Problem]) -> list[list[Problem]]:
+    """Problems one by one, and sequences whole, in an order that is random and always the same.
+
+    Parameters
+    ----------
+    problems : sequence of Problem
+        The steps of a sequence one after the other.
+    """
+    groups = [
+        list(some)
+        for _, some in groupby(
+            problems, lambda one: (one.facts["sequence"] or {}).get("name", one.id)
+        )
+    ]
+    random.Random(1).shuffle(groups)
+    return groups

@@ -1,4 +1,4 @@
-"""A set in the formats of others: each read back by its own reader, and qpbenchmark's command."""
+"""A set as qpbenchmark reads it, and its command."""
 
 import csv
 import re
@@ -7,39 +7,15 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from quasistatic_ref.lab.study.problems import exports
 
 
-@pytest.fixture
-def few(members):
-    """Some problems of each kind: rows, rows without a solution, limits, cones."""
-    newer = ("capped_wedge", "limits", "large", "jammed")
-    mended = [one for one in members if one.facts["family"] in newer]
-    others = [one for one in members if one.facts["family"] == "ellipsoid"]
-    return [*mended[::60], *others[::100]]
-
-
-def export(to, folder, problems):
-    assert exports.exported_files("contact-qp", problems, to, folder)
-
-
-def test_the_bundle_has_every_number_of_the_problems(few, tmp_path):
-    export("npz", tmp_path, few)
-    with np.load(tmp_path / "contact-qp.npz") as bundle:
-        assert bundle["id"].tolist() == [one.id for one in few]
-        for k, one in enumerate(few):
-            np.testing.assert_array_equal(bundle[f"{k}/A"], one.A.toarray())
-            if not one.answer.farkas:
-                np.testing.assert_array_equal(bundle[f"{k}/x"], one.answer.x)
-
-
 def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(
     tmp_path, monkeypatch, capsys, cli
 ):
-    command = ["study", "problems", "export", "--to", "parquet", "--units", "natural"]
+    command = ["study", "problems", "export", "--units", "natural"]
     some = ["--families", "condition,infeasible,capped_wedge", "--every", "15", "--out", tmp_path]
     assert "left out 4 problems" in cli(*command, *some).err
     program = Path(sys.executable).with_name("qpbenchmark")
@@ -62,7 +38,7 @@ def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(
 @pytest.mark.parametrize("part", ["x", "z"])
 def test_the_module_of_qpbenchmark_sees_wrong_answers(tmp_path, members, part):
     one = next(one for one in members if one.facts["family"] == "contacts").natural
-    export("parquet", tmp_path, [one])
+    exports.exported_files("contact-qp", [one], tmp_path)
     module = runpy.run_path(str(tmp_path / "contact_qp.py"))
     ((problem),) = module["ContactQp"]()
     answer = {"x": one.answer.x, "z": one.answer.lam}

@@ -15,13 +15,13 @@ from quasistatic_ref import InputError
 from quasistatic_ref.certify.norm import error_length
 from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.problems.checking import refutation
-from quasistatic_ref.lab.study.problems.dials import DIALS, SCENARIOS
 from quasistatic_ref.lab.study.problems.folder import FACTS, NUMBERS, manifest, set_read
 from quasistatic_ref.lab.study.problems.problem import EXACT
 from tests.oracles import rational_kkt
 from tests.tolerances import ROUNDING
 
 FOLDER = problem_set_folder(CONTACT_QP)
+PROVED = [name for name in manifest(FOLDER)["families"] if name != "sparse"]
 LARGEST = 110
 """Coordinates of a problem that is proved in fractions, at most: a minute."""
 
@@ -85,7 +85,7 @@ def test_a_set_whose_numbers_were_changed_is_refused(tmp_path):
 
 
 def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, cli):
-    export = ["study", "problems", "export", "--to", "npz", "--out", tmp_path]
+    export = ["study", "problems", "export", "--out", tmp_path]
     for more, words in (
         (["--families", "wedges"], "is not a family with proved answers"),
         (["--id", "wedge/9/9"], "is not a problem of the set"),
@@ -98,15 +98,15 @@ def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, cli):
 def test_the_family_whose_answers_are_not_proved_is_data_alone(members, cli):
     """Its 24 lines and numbers are read by the README's reader; the package reads the others."""
     families = {one.facts["family"] for one in members}
-    assert families == {*DIALS, SCENARIOS} == {*manifest(FOLDER)["families"]} - {"sparse"}
+    assert families == {*PROVED}
     assert len(members) == 1510 - 24
     walls = [facts["answer"]["kind"] for facts, _ in readme_reader()(FOLDER, "sparse")]
     assert walls == ["bounded"] * 24
-    export = ("study", "problems", "export", "--to", "npz", "--families", "sparse")
+    export = ("study", "problems", "export", "--families", "sparse")
     assert "is not a family with proved answers" in cli(*export, status=2).err
 
 
-@pytest.mark.parametrize("family", [*DIALS, SCENARIOS])
+@pytest.mark.parametrize("family", PROVED)
 def test_answers_are_proved_both_ways(members, family, count):
     """A problem of each family for every 40 of ``--count``; in fractions where there is time.
 

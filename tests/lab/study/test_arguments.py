@@ -1,0 +1,94 @@
+"""What a study is called with: what it means, and what is refused before anything is written."""
+
+import threading
+
+import numpy as np
+import pytest
+
+from quasistatic_ref import InputError
+from quasistatic_ref.lab.study.limits import Limits
+from quasistatic_ref.lab.study.problems.names import NATURAL, RAW
+from quasistatic_ref.lab.study.problems.selection import problems_taken
+from quasistatic_ref.lab.study.run import plan, study
+from quasistatic_ref.lab.study.solvers import (
+    Setting,
+    Solver,
+    function_solver,
+    settings_of,
+    solvers_of,
+)
+from tests.lab.study import broken
+
+MINE = broken.honest
+LOCK = threading.Lock()
+TERM = {"high": {"gap": {"rel": 1.0, "of": ["|z|"]}}}
+MISTAKES = {
+    "an unknown family": (
+        lambda: {"problems": {"contact": 1}},
+        "is not a family with proved answers",
+    ),
+    "no problems": (lambda: {"problems": {}}, "problems: must be some, of different names"),
+    "cones": (lambda: {"problems": {"ellipsoid": 2}}, "has cones; studies contain rows only"),
+    "an unknown solver": (lambda: {"solvers": ["qpsolvers:dapq"]}, "did you mean 'daqp'?"),
+    "an unknown door": (lambda: {"solvers": ["a:daqp"]}, "solvers: is no solver: write qpsolvers:"),
+    "one name for two": (lambda: {"solvers": [MINE, MINE]}, "solvers: stands twice; give one of"),
+    "no function": (lambda: {"solvers": [np]}, "numpy: is not a function"),
+    "what cannot be sent": (
+        lambda: {"solvers": [lambda *_: LOCK]},
+        "<lambda>: cannot be sent to another process",
+    ),
+    "an unknown setting": (lambda: {"settings": ["hihg"]}, "did you mean 'high'?"),
+    "a setting that says nothing to a solver": (
+        lambda: {"settings": ["high"]},
+        "settings: hold nothing that function:honest can be set to",
+    ),
+    "unknown units": (lambda: {"units": ["si"]}, "units: must be of raw, natural"),
+    "a lukewarm start": (lambda: {"starts": ["tepid"]}, "starts: must be of cold, warm"),
+    "no budget": (lambda: {"limits": Limits(budget=0.0)}, "limits.budget: must be greater than 0"),
+    "an unknown option": (
+        lambda: {"solvers": [Solver("p", "qpsolvers", "piqp", {"default": {"eps": 1.0}})]},
+        "eps: is not an option of qpsolvers:piqp",
+    ),
+    "a promise of no residual": (
+        lambda: {"solvers": [function_solver(MINE, promised={"high": {"primla": 1.0}})]},
+        "honest: promised.high: must be a table of primal, dual and gap",
+    ),
+    "a promise of no term": (
+        lambda: {"solvers": [function_solver(MINE, promised=TERM)]},
+        "and of: |z| is no term",
+    ),
+}
+
+
+@pytest.mark.parametrize(("argument", "says"), MISTAKES.values(), ids=MISTAKES)
+def test_a_mistake_is_one_sentence_before_anything_is_written(argument, says, tmp_path):
+    def called():
+        arguments = {"problems": {"gaps": 1}, "solvers": [MINE]} | argument()
+        study(folder=tmp_path / "store", **arguments)
+
+    with pytest.raises(InputError) as refused:
+        called()
+    assert says in str(refused.value)
+    assert "\n" not in str(refused.value)
+    assert not (tmp_path / "store").exists()
+
+
+def test_the_plan_has_each_measurement_once_a_solver_after_the_other():
+    """Problems in one random order of all families, the same for each."""
+    problems = problems_taken("contact-qp", {"gaps": 4, "friction": 4})
+    solvers = solvers_of(["qpsolvers:daqp", "qpsolvers:osqp"])
+    measurements = plan(problems, solvers, settings_of(["default"]), [NATURAL, RAW], ["cold"])
+    assert [one.solver.name for one in measurements] == ["daqp"] * 16 + ["osqp"] * 16
+    names = [[one.problem.id for one in measurements[k : k + 16 : 2]] for k in (0, 16)]
+    assert names[0] == names[1] != [one.id for one in problems]
+    assert len({(m.problem.id, m.solver.name, m.units) for m in measurements}) == 32
+
+
+def test_options_of_ones_own_replace_ours_and_a_setting_may_be_new():
+    tight = Setting("tight", 1e-11)
+    mine = Solver("mine", "qpsolvers", "osqp", {"tight": {"eps_abs": 1e-7}})
+    assert settings_of(["high", tight])[1] is tight
+    assert mine.settings_of(tight, 1.0) == {"eps_abs": 1e-7}
+    own = function_solver(MINE, "mine", options={"tight": {"accuracy": 1e-11}})
+    assert own.takes(tight)
+    assert own.settings_of(tight, 1.0) == {"accuracy": 1e-11}
