@@ -1,20 +1,21 @@
 """Contact forces by compliance, proved by fractions.
 
 In the step with compliance c, four lengths s of each contact are added to its gap, slips and spin,
-and cost h |s|^2 / (2 c). It is formed here from the fractions of the step; the package names the
-rows that bear, and the conditions of the optimum are decided by signs of fractions.
+and cost h |s|^2 / (2 c): the plain program's rows around the fractions of the step. The package
+names the rows that bear, and the conditions of the optimum are decided by signs of fractions.
 """
 
 from fractions import Fraction
-from itertools import accumulate
 
 import numpy as np
 
 from quasistatic_ref.certify.active_set import dual_active_set
+from quasistatic_ref.lab.program.forces import compliant_program, forces_of
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.forces.forces import compliant_form
-from tests.oracles.rational_kkt import proved_optimum
-from tests.oracles.solution_truth import program, wrenches
+from tests.oracles.rational_kkt import exact, proved_optimum
+from tests.oracles.solution_truth import program
+from validation.check_solution import rounded
 
 
 def forces(step, compliance):
@@ -32,18 +33,13 @@ def forces(step, compliance):
     ArithmeticError
         If the rows that the package names are not those of the optimum.
     """
-    H, g, A, b = program(step)
-    tables = [cone_table(step.cone, rows, 1) for rows in step.contacts.rows]
-    ends = list(accumulate(len(table) for table in tables))
-    blocks = [slice(end - len(table), end) for end, table in zip(ends, tables, strict=True)]
-    gives = np.zeros((len(b), 4 * len(tables)), dtype=object)
-    for j, table in enumerate(tables):
-        gives[blocks[j], 4 * j : 4 * j + 4] = np.insert(table, 0, 1, axis=1)
-    aside = np.zeros((len(g), gives.shape[1]), dtype=object)
-    stiffness = Fraction(step.h) / Fraction(compliance) * np.eye(gives.shape[1], dtype=int)
-    whole = np.block([[H, aside], [aside.T, stiffness]]), np.append(g, aside[:1])
+    contacts = step.contacts
+    tables = [cone_table(step.cone, rows, 1) for rows in contacts.rows]
+    c = [Fraction(compliance)] * contacts.n_c
+    softened = compliant_program(*program(step), tables, Fraction(step.h), c)
     working = dual_active_set(compliant_form(step, compliance)).minimiser.working
-    _, pressing, _ = proved_optimum((*whole, np.hstack([A, gives]), b), working)
-    lam = np.zeros(len(b), dtype=object)
-    lam[list(working)] = pressing
-    return np.array(wrenches(step, [lam[block] for block in blocks])).reshape(-1, 4)
+    x, _, _ = proved_optimum([*map(exact, softened)], working)
+    mu = zip(exact(contacts.mu_v), exact(contacts.mu_omega), strict=True)
+    entries = [{"mu_v": mu_v, "mu_omega": mu_omega} for mu_v, mu_omega in mu]
+    found = forces_of(x[step.n_v :], c, entries)
+    return np.array([[*map(rounded, parts)] for parts in found]).reshape(-1, 4)

@@ -1,19 +1,21 @@
 """What a solution file claims, decided by fractions from the equations: the judge of forgeries.
 
-H, g, A and b are formed in fractions, which no rounding and no line of the core enters, from the
-plain program's table of each cone. In a polyhedral cone an exact file admits no change. In the
-ellipsoid the optimum is that on the rows that a file names, or the package encloses it to 40
-digits.
+H, g, A and b are formed in fractions by the checker for sceptics (``validation/check_solution.py``)
+from the file of the step. In a polyhedral cone an exact file admits no change. In the ellipsoid,
+which the checker refuses, its rows are formed here; the optimum is that on the rows that a file
+names, or the package encloses it to 40 digits.
 """
 
+import json
 from fractions import Fraction
 
 import numpy as np
 from flint import arb
 
-from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
+from quasistatic_ref.step.files import step_text
 from tests.oracles.rational_kkt import exact, on_rows, solution
+from validation import check_solution as checker
 
 MAY_CHANGE = {
     "exact": (),
@@ -26,53 +28,46 @@ ROUNDING = 1 + Fraction(1, 10**30)
 """The optimum in the ellipsoid is known to 40 digits here."""
 
 
-def combinations(step):
-    """Of each contact: what its rows take of n, d1, d2 and spin, with the friction coefficients."""
-    c = step.contacts
-    if step.cone == "ellipsoid":
-        return [np.eye(4, dtype=int)] * c.n_c
-    found = []
-    for mu, omega, rows in zip(exact(c.mu_v), exact(c.mu_omega), c.rows, strict=True):
-        table = exact(cone_table(step.cone, rows, 1))
-        found.append(np.insert(table * [mu, mu, omega], 0, Fraction(1), axis=1))
-    return found
+def record_of(step):
+    """What the checker reads of a step's file."""
+    return checker.step_read(json.loads(step_text(step)))
+
+
+def problem(record):
+    """H, g, A and b of what the checker reads, as arrays of fractions."""
+    H, g, A, b, _ = checker.problem(record)
+    n_v = len(g)
+    shapes = (n_v, n_v), n_v, (len(b), n_v), len(b)
+    both = zip((H, g, A, b), shapes, strict=True)
+    return tuple(np.array(part, dtype=object).reshape(shape) for part, shape in both)
 
 
 def program(step):
     """H, g, A and b, without rounding."""
-    h = Fraction(step.h)
-    n_a = step.n_a
-    K = exact(step.K_q)
-    H = np.zeros((step.n_v, step.n_v), dtype=object)
-    H[:n_a, :n_a] = h * K
-    H[n_a:, n_a:] = exact(step.M_u) / h
-    tau_k = K @ exact(step.delta_q_bar_a)
-    g = h * np.append(tau_k + exact(step.tau_a), exact(step.tau_u))
-    A = []
-    b = []
+    if step.cone != "ellipsoid":
+        return problem(record_of(step))
+    H, g, A, b = problem(record_of(step.replace(cone="frictionless")))
     c = step.contacts
-    for j, rows in enumerate(combinations(step)):
+    rows = [A[c.n_c :]]
+    for j in reversed(range(c.n_c)):
         J = exact(c.J[j])
-        motion = np.vstack([exact([c.n[j], c.d1[j], c.d2[j]]) @ J[:3], J[3:]])
-        A.append(rows @ motion)
-        b.append(-rows[:, 0] * Fraction(c.phi[j]))
-    A.append(exact(step.extra.A).reshape(-1, step.n_v))
-    b.append(exact(step.extra.b))
-    return H, g, np.vstack(A), np.concatenate(b)
+        rows[:0] = [exact([c.n[j], c.d1[j], c.d2[j]]) @ J[:3], J[3:]]
+    gaps = np.insert(np.zeros((c.n_c, 3), dtype=int).astype(object), 0, b[: c.n_c], axis=1)
+    return H, g, np.vstack(rows), np.append(gaps, b[c.n_c :])
+
+
+def weights(step):
+    """Of each contact what its rows take of d1, d2, n and spin, with the friction coefficients."""
+    if step.cone == "ellipsoid":
+        return [np.eye(4, dtype=int)[[2, 0, 1, 3]]] * step.contacts.n_c
+    return [np.array(rows, dtype=object) for rows in checker.problem(record_of(step))[4]]
 
 
 def wrenches(step, lam):
     """(f_d1, f_d2, f_n, tau_n) of each contact from its multipliers, rounded once."""
-    found = []
-    for rows, impulses in zip(combinations(step), lam, strict=True):
-        forces = exact(impulses) @ rows[:, [1, 2, 0, 3]] / Fraction(step.h)
-        found.append([nearest_float(part) for part in forces])
-    return found
-
-
-def nearest_float(x):
-    """The nearest float64, never -0.0."""
-    return float(x) + 0.0
+    both = zip(weights(step), lam, strict=True)
+    forces = [exact(impulses) @ rows / Fraction(step.h) for rows, impulses in both]
+    return [[*map(checker.rounded, parts)] for parts in forces]
 
 
 def truth_of(step, good):
@@ -93,7 +88,7 @@ def truth_of(step, good):
 
     def _holds(forged):
         if kind == "infeasible":
-            return proof(step, exact(forged["farkas"]))
+            return proof(step, forged["farkas"])
         if judged is None or forged["wrench"] != wrenches(step, forged["lam"]):
             return judged is None
         claims = forged["certificate"]
@@ -149,9 +144,9 @@ class Judge:
 
 
 def proof(step, y):
-    """Whether y proves that a step has no solution."""
-    _, _, A, b = program(step)
-    return bool(min(y) >= 0 and not any(y @ A) and y @ b > 0)
+    """Whether y, fractions as text, proves that a step has no solution."""
+    _, _, A, b, _ = checker.problem(record_of(step))
+    return checker.infeasible(A, b, list(y))
 
 
 def _fixed_fields(record, kind):

@@ -1,12 +1,11 @@
 """Derivatives of the optimum against central differences without rounding, and verdicts.
 
-The differences are taken of optima in rational numbers, of problems formed by plain loops of
-fractions, at parameters moved by 2^-80 of their size: their truncation is below 1e-40.
+The differences are taken of optima in rational numbers, of problems that the checker
+for sceptics forms, at parameters moved by 2^-80 of their size: their truncation is below 1e-40.
 """
 
 from fractions import Fraction as F
 from math import lcm
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -24,7 +23,7 @@ from tests.closeness import assert_relative, assert_within
 from tests.helpers import changed, sphere_on_floor
 from tests.oracles.random_steps import any_step
 from tests.oracles.rational_kkt import exact
-from tests.oracles.solution_truth import program
+from tests.oracles.solution_truth import problem, record_of
 from tests.tolerances import ROUNDING
 
 TINY = F(1, 2**80)
@@ -86,30 +85,25 @@ def number(step, key):
 
 
 def changed_by(step, key, little):
-    """What :func:`program` reads of a step, in fractions, with one number changed."""
+    """What the checker reads of a step, with one number changed."""
     name, i = key
-    c = step.contacts
-    fields = {name: exact(getattr(step, name)) for name in ("K_q", "M_u", "tau_a", "tau_u")}
-    fields |= {"h": F(step.h), "delta_q_bar_a": exact(step.delta_q_bar_a)}
-    contacts = {name: exact(getattr(c, name)) for name in OF_CONTACTS}
-    if name == "h":
-        fields["h"] += little
+    record = record_of(step)
+    if name in OF_CONTACTS:
+        of, at = record["contacts"][i], name
     elif name == "K_q":
-        fields["K_q"][i][i] += little
+        of, at = record[name][i], i
     else:
-        (contacts if name in OF_CONTACTS else fields)[name][i] += little
-    others = {name: getattr(c, name) for name in ("n_c", "rows", "J", "n", "d1", "d2")}
-    return SimpleNamespace(
-        n_a=step.n_a, n_v=step.n_v, cone=step.cone, extra=SimpleNamespace(A=[], b=[]),
-        contacts=SimpleNamespace(**contacts, **others), **fields,
-    )  # fmt: skip
+        of, at = (record, name) if name == "h" else (record[name], i)
+    of[at] = F(of[at]) + little
+    return record
 
 
-def optimum(step):
-    """The exact optimum as fractions, or None."""
-    H, g, A, b = program(step)
-    H, g = whole(H, g, step.n_v)
-    A, b = whole(A, b, step.n_v)
+def optimum(record):
+    """The exact optimum of what the checker reads, as fractions, or None."""
+    H, g, A, b = problem(record)
+    n_v = len(g)
+    H, g = whole(H, g, n_v)
+    A, b = whole(A, b, n_v)
     rows = arb_mat([[*a, -b_i] for a, b_i in zip(A.tolist(), b.entries(), strict=True)])
     end = dual_active_set(MatrixForm(arb_mat(H), arb_mat(g), rows), [])
     if isinstance(end, Farkas):
