@@ -47,7 +47,7 @@ class FunctionSolver(BackendSolver):
         name = function if isinstance(function, str) else called(function)
         super().__init__(template, name)
         self.wanted = function
-        self.function = function_at(function, ".") if isinstance(function, str) else function
+        self.function = function_at(function) if isinstance(function, str) else function
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.template, self.wanted)
@@ -100,14 +100,13 @@ def called(function: Function) -> str:
     return f"{getattr(function, '__module__', 'function')}:{name}"
 
 
-def function_at(target: str, folder: str) -> Function:
+def function_at(target: str) -> Function:
     """The function of ``FILE.py:FUNCTION`` or ``MODULE:FUNCTION``.
 
     Parameters
     ----------
     target : str
-    folder : str
-        Where files and modules are looked for.
+        Files and modules are looked for in the working folder, too.
 
     Raises
     ------
@@ -117,7 +116,7 @@ def function_at(target: str, folder: str) -> Function:
     place, _, name = target.rpartition(":")
     try:
         if place.endswith(".py"):
-            path = Path(folder, place).resolve()
+            path = Path(place).resolve()
             spec = importlib.util.spec_from_file_location(path.stem, path)
             assert spec is not None
             assert spec.loader is not None
@@ -125,7 +124,7 @@ def function_at(target: str, folder: str) -> Function:
             _look_in(path.parent)  # for what it imports itself
             spec.loader.exec_module(module)
         else:
-            _look_in(Path(folder).resolve())
+            _look_in(Path.cwd())
             module = importlib.import_module(place)
         function: Function = getattr(module, name)
     except Exception as error:  # a module may raise anything when it is imported
