@@ -9,12 +9,12 @@ from quasistatic_ref import Extra, StepInfeasible, solve_step
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
 from quasistatic_ref.lab.vectors.files import inputs_read
 from quasistatic_ref.lab.vectors.own.step import posed_case
-from quasistatic_ref.step.files import step_text
+from quasistatic_ref.step.files import step_sha256, step_text
+from tests.helpers import verify_refusal
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import good_file
 from tests.oracles.random_steps import mixed_step
 from tests.oracles.records import with_value
-from tests.oracles.single_faults import single_faults
 from validation import check_solution as checker
 from validation.tools.scripts import ROOT
 
@@ -94,19 +94,28 @@ def test_each_equation_is_named(outcome):
         assert outcome(text, json.dumps(with_value(good, where, value))) == (1, line)
 
 
-def test_a_single_fault_is_never_accepted_and_signs_are_of_their_equation(outcome):
-    lines = {
-        "the minimiser on the rows of active violates a row": "Eq. (10): FAILS",
-        "a multiplier on the rows of active is not positive": "Eq. (11), positive on active: FAILS",
-    }
-    met = set()
-    for step, solution, reason in single_faults():
-        status, line = outcome(step, solution)
-        ellipsoid = '"ellipsoid"' in step
-        assert (
-            status == (2 if ellipsoid else 0) if reason == "every field is proved" else status > 0
-        )
-        if reason in lines and not ellipsoid:
-            assert line == lines[reason]
-            met.add(reason)
-    assert met == set(lines)
+def test_minimisers_on_rows_that_are_not_those_of_the_optimum_break_their_equation(
+    outcome, tmp_path
+):
+    """Here and in `verify`."""
+    of = {name: step for (kind, name), step in scenes().items() if kind == "exact"}
+    idle = of["touches, but bears nothing"]
+    record = good_file(idle, "exact")
+    record["certificate"] |= {"active": [[0, 0]], "smallest_active_multiplier": 0.0}
+    held = of["held back by a row of its own"]
+    free = held.replace(extra=Extra((), np.zeros((0, held.n_v)), np.zeros(0)))
+    other = good_file(free, "exact") | {"step_sha256": step_sha256(held), "lam_extra": [0.0]}
+    for step, wrong, line in (
+        (idle, record, "Eq. (11), positive on active: FAILS"),
+        (held, other, "Eq. (10): FAILS"),
+    ):
+        texts = step_text(step), json.dumps(wrong)
+        assert outcome(*texts) == (1, line)
+        assert verify_refusal(tmp_path, *texts) is not None
+
+
+def test_what_is_not_claimed_or_not_judged_here_is_said(outcome):
+    for (kind, _), step in scenes().items():
+        status, line = outcome(step_text(step), json.dumps(good_file(step, kind)))
+        judged = kind in ("exact", "infeasible")
+        assert status == (0 if judged else 2), line
