@@ -14,7 +14,9 @@ from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.optional.guests.compared import Body, Contact
 from quasistatic_ref.simulate.finding import Finding, finding_table
 
-FORMAT, VERSION, ENGINE = "quasistatic-ref/opinion", 3, "MuJoCo"
+FORMAT = "quasistatic-ref/opinion"
+VERSION = 3
+ENGINE = "MuJoCo"
 SHOWN = 1e-6
 """Smallest number that is printed, in its unit; a difference, in a thousandth of what differs."""
 MOST_LINES = 5
