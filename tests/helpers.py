@@ -2,11 +2,13 @@
 
 import numpy as np
 
-from quasistatic_ref import Contacts, InputError, StepData, standard_form, step_read
+from quasistatic_ref import Contacts, InputError, standard_form, step_read
 from quasistatic_ref.certify.residuals import optimality_residuals
 from quasistatic_ref.cli.solution_files import solution_read
 from quasistatic_ref.cli.verify import refutation
-from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
+from quasistatic_ref.lab.scenes import at_random
+from quasistatic_ref.lab.scenes.at_random import random_contacts
+from quasistatic_ref.lab.scenes.contacts import NUMBERS
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 from quasistatic_ref.step.cones import cone
@@ -35,42 +37,14 @@ def residuals_of(step, delta_q, lam):
     return optimality_residuals(standard_form(step), delta_q, lam, judge)
 
 
-def random_frame(rng):
-    """A random right-handed orthonormal frame; its rows are d1, d2, n."""
-    d1, a = rng.normal(size=(2, 3))
-    d1 /= np.linalg.norm(d1)
-    n = np.cross(d1, a)
-    n /= np.linalg.norm(n)
-    return np.stack([d1, np.cross(n, d1), n])
-
-
-def random_stiffness(rng, size, scale):
-    """A random symmetric positive definite matrix, condition at most some tens."""
-    B = rng.normal(size=(size, size))
-    S = scale * (B @ B.T / max(size, 1) + np.eye(size))
-    return (S + S.T) / 2
-
-
 def random_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):
     """A random step with phi >= 0, which is always feasible: standing still is allowed."""
     n_c = len(rows)
-    n_v = n_a + n_u
-    return StepData(
-        h=0.01,
-        K_q=random_stiffness(rng, n_a, 500.0),
-        M_u=random_stiffness(rng, n_u, 0.2),
-        tau_a=rng.normal(size=n_a),
-        tau_u=rng.normal(size=n_u),
-        delta_q_bar_a=1e-3 * rng.normal(size=n_a),
-        contacts=contacts_of(
-            phi=1e-4 * np.abs(rng.normal(size=n_c)),
-            frames=np.array([random_frame(rng) for _ in rows]),
-            J=rng.normal(size=(n_c, 4, n_v)),
-            mu_v=rng.uniform(0.1, 1.0, n_c),
-            mu_omega=rng.uniform(0.01, 0.1, n_c),
-            rows=rows,
-        ),
-    )
+    contacts = random_contacts(
+        rng, n_c, n_a + n_u,
+        phi=1e-4 * np.abs(rng.normal(size=n_c)), mu_omega=rng.uniform(0.01, 0.1, n_c), rows=rows,
+    )  # fmt: skip
+    return at_random.random_step(rng, n_a, n_u, contacts)
 
 
 def contact_row(contacts, j, i):

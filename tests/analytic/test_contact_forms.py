@@ -5,19 +5,19 @@ import numpy as np
 from quasistatic_ref import Box, convex_hull
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
+from quasistatic_ref.lab.scenes.at_random import random_frames
 from quasistatic_ref.lab.scenes.contacts import contacts_of, point_jacobian
 from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.step.friction import friction_rows
 from tests.analytic.instances import INFEASIBLE, INSTANCES, instances, near
 from tests.contact.still import found_for, placed_shape, standing_links
-from tests.helpers import random_frame
 from tests.oracles.random_steps import mixed_step
 
 
 def test_r20_one_contact_point_instead_of_two(rng):
     """Rows differ by +- mu (phi / 2) (n x t_k).(omega_1 + omega_2) along tangents, and not else."""
     for _, _, mu_v, mu_omega in instances(rng):
-        d1, d2, n = frame = random_frame(rng)
+        d1, d2, n = frame = random_frames(rng, 1)[0]
         point, *centres = rng.normal(size=(3, 3))
         phi = rng.normal() * 0.1
 
@@ -38,7 +38,7 @@ def test_r37_convex_bodies_share_a_normal(rng):
     for k in range(INSTANCES):
         one, other = (convex_hull(rng.normal(size=(6, 3))) for _ in "ab")
         here = ShapeInWorld(one, np.eye(3), np.zeros(3))
-        t = 9.0 * random_frame(rng)[0]
+        t = 9.0 * random_frames(rng, 1)[0, 0]
         apart = solid_pair("p", here, ShapeInWorld(other, np.eye(3), t))
         t = t - (k % 2) * apart.phi * apart.n  # or in touch
         v = np.cross(apart.n, rng.normal(size=3))

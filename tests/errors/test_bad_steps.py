@@ -50,6 +50,6 @@ def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field):
 
 
 def test_a_step_whose_products_leave_the_range_says_so(tmp_path, refused):
-    path = step_file(tmp_path, changed(STEP, ("tau_u/0", 7.4e156)))
+    path = step_file(tmp_path, changed(STEP, ("tau_u/0", 7.4e157)))
     sentence = refused("solve", path)
     assert "products of them exceed the range of float64; look for a wrong unit" in sentence
