@@ -232,7 +232,6 @@ def verdicts(step, solution):
 
 def main(step_path, solution_path):
     """Print what holds, up to the first claim that does not; the exit status."""
-    sys.set_int_max_str_digits(0)  # the fractions of a Farkas vector may be long
     try:
         with open(step_path, "rb") as step, open(solution_path, "rb") as solution:
             claims = verdicts(step_read(json.load(step)), json.load(solution))
@@ -247,4 +246,5 @@ def main(step_path, solution_path):
 
 
 if __name__ == "__main__":
+    sys.set_int_max_str_digits(0)  # the fractions of a Farkas vector may be long
     sys.exit(main(*sys.argv[1:3]))
