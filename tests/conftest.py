@@ -4,6 +4,8 @@ import contextlib
 import gc
 import io
 import os
+import resource
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -53,6 +55,24 @@ def pytest_collection():
     finally:
         gc.freeze()
         gc.enable()
+
+
+def state_of_the_process():
+    """What a test may change for those that come after it in the same process."""
+    kinds = [getattr(resource, name) for name in dir(resource) if name.startswith("RLIMIT_")]
+    limits = [resource.getrlimit(kind) for kind in kinds]
+    of_python = sys.get_int_max_str_digits(), sys.getrecursionlimit()
+    return os.getcwd(), limits, of_python, np.geterr(), np.get_printoptions()
+
+
+@pytest.fixture(autouse=True, scope="module")
+def nothing_stays_changed():
+    """What the tests of a file change in their process ends with them."""
+    environment = {**os.environ, "PYTEST_CURRENT_TEST": ""}
+    state = state_of_the_process()
+    yield
+    assert environment.items() <= {**os.environ, "PYTEST_CURRENT_TEST": ""}.items()
+    assert state_of_the_process() == state
 
 
 @pytest.fixture
