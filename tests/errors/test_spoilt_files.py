@@ -1,6 +1,8 @@
 """A spoilt file of each format is accepted, or refused in one sentence."""
 
 import re
+import resource
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -31,6 +33,10 @@ from tests.oracles.records import toml_text
 
 LONGEST = 2000
 """Most characters of a sentence."""
+MEMORY = 2 << 30
+"""Most bytes that a reader may ask for, by whatever number stands in a header."""
+SIZES = Path("/proc/self/statm")
+"""Of this process, in pages: the first is its address space."""
 TOKEN = re.compile(rb"[-+]?\d[\w.+-]*|[A-Za-z_][\w:.-]*|\"[^\"\n]*\"|[^\w\s]")
 OTHERS = (
     *(b"", b"nan", b"inf", b"-1", b"0", b"1e308", b"1e-323", b"9223372036854775808", b'"x"', b"["),
@@ -108,6 +114,17 @@ def good(tmp_path_factory):
     return folder, good_files(folder)
 
 
+@pytest.fixture(scope="module")
+def bounded(good):
+    """Ends with a MemoryError what asks for more than MEMORY, once all good files are made."""
+    before = resource.getrlimit(resource.RLIMIT_AS)
+    if SIZES.exists():
+        taken = int(SIZES.read_text().split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_AS, (taken + MEMORY, before[1]))
+    yield
+    resource.setrlimit(resource.RLIMIT_AS, before)
+
+
 def spoilt(content, places, others):
     """A file with a token, or some bytes, replaced at each place, a share of its length."""
     for place, other in zip(places, others, strict=True):
@@ -118,6 +135,7 @@ def spoilt(content, places, others):
     return content
 
 
+@pytest.mark.usefixtures("bounded")
 @pytest.mark.parametrize("name", FORMATS)
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(places=st.lists(st.floats(0, 1), min_size=1, max_size=3), data=st.data())
