@@ -4,6 +4,7 @@
 """
 
 import ast
+import re
 import runpy
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import pytest
 from matplotlib.testing.compare import compare_images
 
 from tests.extras import marked_as_long
+from tests.meta.remedies import assert_alike
 
 GALLERY = Path(__file__).parents[1] / "docs" / "gallery"
 SCRIPTS = sorted(GALLERY.glob("*.py"))
@@ -51,8 +53,13 @@ def test_a_script_imports_public_names_alone_and_asserts_its_number(script):
 
 def test_the_page_shows_every_script():
     page = (GALLERY / "README.md").read_text("utf-8")
-    assert all(f"]({script.name})" in page for script in SCRIPTS)
-    assert all(f"]({script.stem}.png)" in page for script in SCRIPTS)
+    for ending in ("py", "png"):
+        assert_alike(
+            [script.stem for script in SCRIPTS],
+            re.findall(rf"\]\((\w+)\.{ending}\)", page),
+            f"docs/gallery/README.md does not show {{}}.{ending}: add it",
+            f"docs/gallery/README.md shows {{}}.{ending}, which is not there: remove it",
+        )
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 from quasistatic_ref.lab.claims.registry import BY_NAME
+from tests.meta.remedies import assert_alike, assert_among
 
 ROOT = Path(__file__).parents[2]
 THEORY = ROOT / "docs" / "theory"
@@ -55,17 +56,26 @@ def test_every_row_ends_with_a_test_or_a_claim():
 
 def test_every_erratum_that_a_test_shows_is_in_the_errata():
     shown = {t for path in TESTS.rglob("test_eq*.py") for t in functions_of(path)}
-    assert {t for t in shown if t.startswith("test_erratum_")} <= set(NAMED.findall(PAGE))
+    errata = [name for name in shown if name.startswith("test_erratum_")]
+    words = "{} shows an erratum that is not told: add a row to docs/theory/errata.md"
+    assert_among(errata, NAMED.findall(PAGE), words)
 
 
 def test_every_claim_about_the_paper_is_on_its_page():
     named = set(listed_names("claim", PAGE))
     about = {name for name, claim in BY_NAME.items() if claim.where.startswith("the paper")}
     assert about
-    assert about <= named
+    words = "The claim {} is about the paper: name it in docs/theory/errata.md"
+    assert_among(about, named, words)
 
 
 def test_every_claim_is_in_the_committed_results_and_holds():
     page = (ROOT / "validation" / "results" / "claims.md").read_text("utf-8")
     found = re.findall(r"^### (\w+): (.+)$", page, re.MULTILINE)
-    assert found == [(name, "holds") for name in BY_NAME]
+    command = "run `quasistatic-ref validate`, and copy its claims.md to validation/results"
+    assert_alike(
+        BY_NAME,
+        [name for name, verdict in found if verdict == "holds"],
+        f"The claim {{}} does not hold in validation/results/claims.md: {command}",
+        f"validation/results/claims.md has the claim {{}}, which is none: {command}",
+    )

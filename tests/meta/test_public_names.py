@@ -15,6 +15,7 @@ from quasistatic_ref.lab.vectors import versions
 from quasistatic_ref.scenario import scenario_table
 from quasistatic_ref.simulate import trajectory
 from quasistatic_ref.step import files
+from tests.meta.remedies import assert_alike
 
 FORMATS = {
     files.STEP_FORMAT: files.VERSION,
@@ -44,7 +45,13 @@ def frozen_lines():
 
 
 def test_public_names_are_those_of_the_list():
-    assert LIST.read_text("utf-8").splitlines() == list(frozen_lines())
+    command = "run `python -m tests.meta.test_public_names`, and name old and new in CHANGELOG.md"
+    assert_alike(
+        frozen_lines(),
+        LIST.read_text("utf-8").splitlines(),
+        f"{{}}: not in tests/public_names.txt; {command}",
+        f"{{}}: in tests/public_names.txt, and no more; {command}",
+    )
 
 
 if __name__ == "__main__":

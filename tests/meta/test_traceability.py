@@ -10,6 +10,7 @@ import re
 from pathlib import Path
 
 from quasistatic_ref.lab.claims.registry import CLAIMS
+from tests.meta.remedies import assert_alike, assert_among
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "quasistatic_ref"
@@ -37,8 +38,12 @@ def cited_equations(text):
 
 
 def test_the_package_cites_every_equation_of_the_paper_and_no_other():
-    assert (
-        set().union(*(cited_equations(path.read_text()) for path in PACKAGE.rglob("*.py"))) == PAPER
+    cited = set().union(*(cited_equations(path.read_text()) for path in PACKAGE.rglob("*.py")))
+    assert_alike(
+        map(str, cited),
+        map(str, PAPER),
+        "Eq. ({}) is cited and is none of the paper: correct its number in the package",
+        "Eq. ({}) is cited nowhere in the package: cite it where it is computed",
     )
 
 
@@ -65,13 +70,17 @@ def test_under_each_equation_stand_its_code_and_its_test():
 
 
 def test_every_result_is_derived_once_and_cited_ones_are():
-    pages = [path.read_text("utf-8") for path in (ROOT / "docs").rglob("*.md")]
-    code = [
-        path.read_text("utf-8") for path in (*PACKAGE.rglob("*.py"), *ROOT.glob("tests/**/*.py"))
-    ]
-    numbers = sorted(int(n) for page in pages for n in DEFINED.findall(page))
-    assert numbers == list(range(1, max(numbers) + 1))
-    assert {int(n) for text in (*pages, *code) for n in RESULT.findall(text)} == set(numbers)
+    pages = [*(ROOT / "docs").rglob("*.md")]
+    files = (*pages, *PACKAGE.rglob("*.py"), *ROOT.glob("tests/**/*.py"))
+    numbers = sorted(int(n) for page in pages for n in DEFINED.findall(page.read_text("utf-8")))
+    assert numbers == list(range(1, max(numbers) + 1)), "derive each result once, without a gap"
+    cited = {
+        f"R{n} is cited in {path.relative_to(ROOT)} and derived nowhere: add **(R{n})** to"
+        for path in files
+        for n in RESULT.findall(path.read_text("utf-8"))
+        if int(n) not in numbers
+    }
+    assert_among(cited, (), "{} docs/derivations.md")
 
 
 def test_every_result_has_a_claim_or_a_test_by_random_instances():
@@ -83,4 +92,9 @@ def test_every_result_has_a_claim_or_a_test_by_random_instances():
             tested |= {int(n) for n in re.findall(r"_r(\d+)", found.group(1))}
     pages = (path.read_text("utf-8") for path in (ROOT / "docs").rglob("*.md"))
     results = {int(n) for page in pages for n in DEFINED.findall(page)}
-    assert tested == results
+    assert_alike(
+        map(str, results),
+        map(str, tested),
+        "R{} has no test: name it in `where` of a claim, or write test_r{}_... with rng or seed",
+        "R{} is tested and derived nowhere: add **(R{})** to docs/derivations.md",
+    )

@@ -1,0 +1,153 @@
+"""What exists in code stands on its page, in its extra and in its table."""
+
+import ast
+import re
+import tomllib
+from pathlib import Path
+
+import quasistatic_ref as qr
+from quasistatic_ref.cli.main import COMMANDS, command_parser
+from quasistatic_ref.cli.main import _actions as leaves
+from quasistatic_ref.lab.claims import registry
+from quasistatic_ref.lab.program.rows import cone_table
+from quasistatic_ref.solve.backends import BACKENDS
+from quasistatic_ref.step.cones import CONES, ELLIPSOID, cone
+from tests.meta.remedies import assert_alike, assert_among
+from tests.optional.doctor.test_findings import GRAVE
+from tests.step.test_cones import COUNTS
+from validation.check_solution import cone_rows
+
+ROOT = Path(__file__).parents[2]
+PACKAGE = ROOT / "quasistatic_ref"
+
+
+def text(name):
+    """A file of the repository."""
+    return (ROOT / name).read_text("utf-8")
+
+
+def names_of_findings(folder):
+    """The names that code gives to findings: words in the first argument, or of a helper."""
+    for path in (PACKAGE / "optional" / folder).rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.Call) and ast.unparse(node.func) in {"Finding", "_finding"}:
+                words = (n.value for n in ast.walk(node.args[0]) if isinstance(n, ast.Constant))
+                yield from filter(lambda word: isinstance(word, str), words)
+
+
+def test_every_finding_is_on_its_page():
+    assert_alike(
+        names_of_findings("doctor"),
+        GRAVE,
+        'The finding "{}" has no line: add - **{}**: ... to docs/findings.md, and a scene to '
+        "tests/optional/doctor/finding_scenes.py",
+        'docs/findings.md tells of the finding "{}", which no code gives: remove its line',
+    )
+    file = "docs/guides/does_my_contact_hold.md"
+    table = text(file).partition("| finding | when |\n|---|---|\n")[2].partition("\n\n")[0]
+    rows_of_states = [row.split("|")[1] for row in table.splitlines()]
+    assert_alike(
+        names_of_findings("guests"),
+        re.findall(r"\w+", " ".join(rows_of_states)),
+        f'The finding "{{}}" of a state has no row: add it to {file}',
+        f'{file} tells of the finding "{{}}", which no code gives: remove its row',
+    )
+
+
+def test_every_cone_is_on_its_pages_and_in_its_tables():
+    file = "docs/cones.md"
+    rows = re.findall(r"^\| `([\w-]+)`.* \|$", text(file), re.MULTILINE)
+    assert_alike(
+        CONES,
+        rows,
+        f"The cone {{}} is not in the table of {file}: add a row",
+        f"{file} has a row for {{}}, which is no cone of step/cones.py: remove it",
+    )
+    for file, row in {
+        "docs/guides/file_formats.md": '`"{}"`',
+        "validation/vectors/README.md": "\n| {} |",
+    }.items():
+        polyhedral = {name for name in CONES if name != ELLIPSOID or "formats" in file}
+        found = [name for name in polyhedral if row.format(name) in text(file)]
+        assert_among(polyhedral, found, f"The cone {{}} is not in {file}: add it to the cones")
+    tested = {re.sub(r"-\d+$", "-K", name) for name in COUNTS}
+    assert_alike(
+        CONES,
+        tested,
+        "How many multipliers the cone {} has is not tested: add it to COUNTS in "
+        "tests/step/test_cones.py",
+        "COUNTS in tests/step/test_cones.py has {}, which is no cone: remove it",
+    )
+
+
+def test_the_plain_program_and_the_checker_know_every_cone_with_rows():
+    for name in (name.replace("K", "6") for name in CONES):
+        if not cone(name).polyhedral:
+            continue
+        for file, known in {
+            "quasistatic_ref/lab/program/rows.py": lambda name: cone_table(name, 6, 0.5),
+            "validation/check_solution.py": lambda name: cone_rows(name, 6),
+        }.items():
+            try:
+                rows = len(known(name))
+            except ValueError as error:
+                rows = str(error)
+            expected = cone(name).counts(6)
+            assert rows == expected, f"{file} does not know the cone {name}: {rows}; add its rows"
+
+
+def test_every_backend_is_in_its_extras_and_its_table():
+    project = tomllib.loads(text("pyproject.toml"))["project"]
+    extras = project["optional-dependencies"]
+    required = project["dependencies"]
+    for extra in ("test", "study"):
+        listed = {re.split(r"[<>=; ]", line)[0] for line in (*required, *extras[extra])}
+        assert_among(
+            [backend.to_install for backend in BACKENDS.values()],
+            listed,
+            f"The backend of {{}} is tested nowhere without it: add it to the extra {extra} of "
+            "pyproject.toml",
+        )
+    file = "quasistatic_ref/lab/study/solvers.toml"
+    solvers = tomllib.loads(text(file))
+    assert_among(BACKENDS, solvers, f"The backend {{}} has no table: add [{{}}] to {file}")
+    assert_alike(
+        solvers.keys() - BACKENDS.keys(),
+        [name for name, table in solvers.items() if "doors" in table],
+        f"{file} has no doors of {{}}, with which no step is solved: add doors",
+        f"{file} has doors of {{}}, which is a backend of steps: remove doors and warm",
+    )
+
+
+def test_every_public_name_is_in_the_api():
+    assert_alike(
+        {*qr.__all__} - {"__version__"},
+        re.findall(r"~quasistatic_ref\.(\w+)", text("docs/api/index.md")),
+        "{} is public and on no page: add ~quasistatic_ref.{} to docs/api/index.md",
+        "docs/api/index.md shows {}, which is not public: remove it",
+    )
+
+
+def test_every_claim_is_registered():
+    folder = PACKAGE / "lab" / "claims"
+    modules = {
+        ".".join(path.relative_to(folder).with_suffix("").parts)
+        for path in folder.rglob("*.py")
+        if re.search(r"^\w+ = Claim\(|\bClaim\(\n", path.read_text("utf-8"), re.MULTILINE)
+    }
+    assert_alike(
+        modules,
+        [module for modules in registry.MODULES.values() for module in modules],
+        "The claims of {} are in no section: add it to MODULES in lab/claims/registry.py",
+        "MODULES in lab/claims/registry.py has {}, which has no claim: remove it",
+    )
+
+
+def test_every_option_says_what_it_does():
+    silent = [
+        f"{leaf.prog} {action.option_strings[-1]}"
+        for leaf in leaves(command_parser(COMMANDS))
+        for action in leaf._actions
+        if action.option_strings and not action.help
+    ]
+    assert_among(silent, (), "{} has no line in --help: add help=... where it is declared")
