@@ -1,4 +1,6 @@
-"""States so near to a kink of the rows that a derivative would be wrong: (R41)."""
+"""Rows that touch and bear load, and nearly do, so that a derivative would be wrong: (R41)."""
+
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -7,11 +9,17 @@ from quasistatic_ref import PointCloud, derivatives, load_scenario
 from quasistatic_ref.optional.derivatives.gradient import combined, directed
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.nearly import nearly_weak
-from quasistatic_ref.optional.derivatives.step.optimum_rates import Equations
-from quasistatic_ref.optional.derivatives.step.touching import BEARING, touching_rows
+from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates, Equations
+from quasistatic_ref.optional.derivatives.step.touching import (
+    BEARING,
+    Touching,
+    bearing,
+    touching_rows,
+)
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
-from quasistatic_ref.tolerances import NEARLY
+from quasistatic_ref.tolerances import CONSISTENT, FILLED, NEARLY
 from tests.closeness import assert_within
+from tests.helpers import point_on_floor
 from tests.optional.derivatives.free_bodies import (
     BOX,
     FLOOR,
@@ -128,3 +136,49 @@ def test_r41_rows_that_a_small_force_changes_are_named(seed):
             changed += bool(before ^ after)
             spared += bool(before - named)
     assert min(changed, spared) > 3
+
+
+@pytest.mark.parametrize("unit", [1.0, 2.0**100, 2.0**-100])
+def test_rows_touch_and_bear_under_load_whatever_the_unit_of_mass(unit):
+    """A point on a slope: one row bears all load, another a share of it that is rounding.
+
+    Both touch, though the gap is more than rounding; and nothing bears where it stands for nothing.
+    """
+    W = 3.0 * unit
+    lam = H * W * np.array([BEARING / 1000, 0.0, 1.0, 0.0])
+    for phi, n_open in ((1e-9, 2), (FILLED, 0)):
+        step = point_on_floor(0.3 * unit, 0.5, phi, (0.5 * W, 0.0, -W), H)
+        answer = SimpleNamespace(step=step, delta_q=np.zeros(3), lam=lam)
+        found = touching_rows(answer, np.zeros(1))
+        assert (found.strict.tolist(), found.idle.tolist()) == ([[0, 2]], [[0, 0]])
+        assert len(found.open) == n_open
+        loose = found.unloaded(np.array([[0, 2], [0, 0]]))
+        assert (loose.strict.tolist(), sorted(loose.idle.tolist())) == ([], [[0, 0], [0, 2]])
+
+
+def test_a_row_in_the_span_of_those_that_bear_load_bears_it_too():
+    """(1, 0) is 50 times h_1 + h_2: it takes 1/50 of their load at most, which is not nothing."""
+    rows = np.array([[0.01, 1.0], [0.01, -1.0], [1.0, 0.0]])
+    rows /= np.linalg.norm(rows, axis=1)[:, None]
+    assert bearing(rows, np.array([2.0, 2.0, 0.0]), 1 / BEARING).all()
+
+
+@pytest.mark.parametrize("n_strict", [1, 2])
+def test_a_wall_forbids_no_motion_of_its_like_by_rounding(n_strict):
+    """Walls x >= 0 and 3 x >= 0: a load of 2 along x is what they take.
+
+    The second bears load or none, and moves off by less than the rounding of `terms`.
+    """
+    generators = np.zeros((2, 4, 2))
+    motion = np.zeros((2, 4, 1))
+    generators[:, 0, 0] = 1.0, 3.0
+    both = np.array([[0, 0], [1, 0]])
+    rows = both[:n_strict], both[n_strict:], np.zeros((2, 1)), both[:0], np.zeros(0)
+    force = np.array([[0.0], [1e-4 * CONSISTENT]])
+    load = np.array([[2.0], [0.0]])
+    for terms, forbids in ((1.0, False), (0.0, True)):
+        motion[1, 0] = CONSISTENT / 10
+        data = DataRates(load, motion, np.array([terms]), lambda y: force)
+        found = Equations(Touching(np.eye(2), generators, np.eye(1, 4), *rows)).rates(data)
+        assert bool(found.contradicts or found.opens.any()) == forbids
+        assert_within(found.exerted[:, 0], [-2.0, 0.0], CONSISTENT)
