@@ -7,9 +7,10 @@ import stat
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError
-from quasistatic_ref.formats.files import json_text, text_of, text_written
+from quasistatic_ref import InputError, trajectory_read
+from quasistatic_ref.formats.files import json_read, json_text, text_of, text_written, toml_read
 from quasistatic_ref.formats.files import written_whole as whole
+from quasistatic_ref.model.urdf.urdf import loaded_urdf
 
 
 def test_a_text_is_written_in_utf_8_and_folders_are_made(tmp_path):
@@ -98,6 +99,59 @@ def test_a_writer_that_fails_sends_nothing_down_a_pipe(error):
 def test_what_is_not_utf_8_names_its_line():
     with pytest.raises(InputError, match=r"^t: line 3: is not UTF-8 text$"):
         text_of(b"one\ntwo\n\xff", "t")
+
+
+READERS = {
+    "TOML": toml_read,
+    "JSON": json_read,
+    "XML": loaded_urdf,
+    "ZIP": trajectory_read,
+}
+SPOILERS = {
+    "missing": (lambda path: None, "no such file"),
+    "a folder": (lambda path: path.mkdir(), "cannot be read: Is a directory"),
+    "a pipe": (os.mkfifo, "it is a device or a pipe, not a file"),
+    "a device without end": (lambda path: path.symlink_to("/dev/zero"), "a device or a pipe"),
+    "too large": (lambda path: (path.touch(), os.truncate(path, 2**30)), r"is larger than \d+ MiB"),
+}
+
+
+@pytest.mark.parametrize("read", READERS.values(), ids=READERS)
+@pytest.mark.parametrize(("spoil", "words"), SPOILERS.values(), ids=SPOILERS)
+def test_what_is_no_file_is_refused(tmp_path, read, spoil, words):
+    path = tmp_path / "input"
+    spoil(path)
+    with pytest.raises(InputError, match=words) as caught:
+        read(path)
+    assert str(caught.value).startswith(f"{path}: ")
+
+
+DEEP = 100_000
+CONTENTS = {
+    # name: reader, content, words of the sentence
+    "TOML without end": (toml_read, b"a = " + b"[" * DEEP, "nested too deeply"),
+    "JSON without end": (json_read, b"[" * DEEP + b"]" * DEEP, "is not usable JSON: too deep"),
+    "XML without end": (
+        loaded_urdf,
+        b"<a>" * 101 + b"</a>" * 101,
+        "line 1: is nested deeper than 100",
+    ),
+    "many digits in TOML": (toml_read, b"h = " + b"1" * 5000, "an unusable number"),
+    "many digits in JSON": (json_read, b'{"h": ' + b"1" * 5000 + b"}", "a number too long"),
+    "a field twice in TOML": (toml_read, b"h = 1\nh = 2\n", "is not TOML: Cannot overwrite"),
+    "a field twice in JSON": (json_read, b'{"h": 1, "h": 2}', r"h: is given twice \(got 2\)"),
+    "half a character": (json_read, b'{"format": "\\ud800"}', "holds half of a character"),
+    "no trajectory": (trajectory_read, b"", "is not a trajectory written by this program"),
+}
+
+
+@pytest.mark.parametrize(("read", "content", "words"), CONTENTS.values(), ids=CONTENTS)
+def test_a_file_that_is_something_else_is_refused(tmp_path, read, content, words):
+    path = tmp_path / "input"
+    path.write_bytes(content)
+    with pytest.raises(InputError, match=words) as caught:
+        read(path)
+    assert str(caught.value).startswith(f"{path}: ")
 
 
 def test_minus_zero_is_written_zero_at_any_depth():
