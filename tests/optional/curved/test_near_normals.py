@@ -11,6 +11,9 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref import Box, Cone, Cylinder, convex_hull
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
+from quasistatic_ref.optional.curved.faces import face
+from tests.closeness import assert_within
+from tests.tolerances import CURVED_PAIR
 
 ROOT = Path(__file__).parents[3]
 BOX = Box((0.05, 0.035, 0.025))
@@ -28,6 +31,33 @@ AT = np.array([0.028068959806176144, -0.05576791989942169, 0.07487708484987524])
 
 def still(shape):
     return ShapeInWorld(shape, np.eye(3), np.zeros(3))
+
+
+def test_the_point_of_a_face_nearest_to_a_line_is_on_it():
+    top = face(still(BOX), Z)
+    for x, nearest in ((0.04, 0.04), (1.0, 0.05)):
+        assert_within(top.nearest(np.array([x, 0.01, 2.0])), [nearest, 0.01, 0.025], CURVED_PAIR)
+
+
+def test_a_side_ends_at_the_caps_though_the_normal_is_off_by_rounding():
+    R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
+    at = ShapeInWorld(Cylinder(1.0, 0.5), R, np.zeros(3))
+    side = face(at, R @ [1.0, 0.0, 0.9e-11]).corners
+    assert_within(side @ R, [[1.0, 0.0, -0.5], [1.0, 0.0, 0.5]], CURVED_PAIR)
+
+
+@pytest.mark.parametrize("sine", [0.6, 1e-5])
+def test_axes_that_are_nearly_parallel_have_a_normal_across_both(sine):
+    """Cylinders one over the other, at a gap: the normal is z, and both lines cross at (x, 0)."""
+    x = 0.05
+    cosine = np.sqrt(1 - sine**2)
+    along_x = np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]])
+    skew = np.array([[0.0, -sine, cosine], [0, cosine, sine], [-1, 0, 0]])
+    low = ShapeInWorld(Cylinder(0.1, 0.3), along_x, np.zeros(3))
+    top = ShapeInWorld(Cylinder(0.05, 0.4), skew, [x, 0, 0.16] + 0.2 * skew[:, 2])
+    found = solid_pair("p", low, top)
+    assert_within(found.n, Z, CURVED_PAIR)
+    assert_within(found.alpha, [x, 0.0, 0.1], 1e-10)
 
 
 def nearest_corner(solid, corners):
