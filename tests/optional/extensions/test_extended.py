@@ -1,4 +1,4 @@
-"""Extensions in SI units: further rows, slacks, a cost that alone drives the step, refusals."""
+"""Extensions in SI units: further rows, slacks and refusals."""
 
 from types import SimpleNamespace
 
@@ -17,9 +17,8 @@ from quasistatic_ref.optional.extensions.extended import (
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.units import natural_step, natural_units
-from tests.closeness import assert_within
 from tests.helpers import changed, point_on_floor, random_step
-from tests.tolerances import OPTIMUM, ROUNDING
+from tests.tolerances import ROUNDING
 
 
 def test_an_equation_is_a_row_either_way_and_an_inequality_one_row(rng):
@@ -51,20 +50,6 @@ def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
     slack = form.A @ delta_q - form.b  # by contacts; an extension has them by rows
     order = [0, 6, 1, 7, 2, 8, 3, 9, 4, 5]
     np.testing.assert_allclose(found, slack[order], rtol=ROUNDING, atol=16 * ROUNDING)
-
-
-@pytest.mark.parametrize("force", [(0.0, 0.0, 0.0), (20.0, -30.0, 40.0)])
-def test_a_cost_moves_a_step_as_far_as_in_closed_form(force):
-    """m/2h |x|^2 - h f'x + k/2 |x - p|^2 has its least at (h f + k p) / (m/h + k)."""
-    step = point_on_floor(m=0.3, h=0.01, phi=0.0, force=force)
-    k = 10.0
-    p = np.array([0.02, -0.01, 0.03])
-    cost = Extension(lambda s: [k / 2 * cp.sum_squares(s.delta_q - p)])
-    answer = extended_solution(step, cost, "clarabel", 1e-10, "residual")
-    expected = (0.01 * np.array(force) + k * p) / (0.3 / 0.01 + k)
-    size = np.abs(expected).max()
-    assert_within(answer.delta_q, expected, OPTIMUM * size)
-    assert max(answer.certificate.residuals.values()) < OPTIMUM
 
 
 def test_an_extension_that_cannot_be_met_is_not_solved():
