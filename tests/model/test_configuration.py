@@ -52,17 +52,6 @@ def test_a_configuration_has_no_negative_zeros():
         assert not np.signbit(found).any()
 
 
-def test_a_quaternion_off_by_more_than_rounding_is_divided_by_its_length():
-    q = normalised(JOINTS, Q)
-    longer = q.copy()
-    factor = 1 + 2.0**-31  # above rounding, below what is refused
-    longer[UNITS["quaternion"]] = [0.0, 0.0, 0.0, factor]
-    longer[UNITS["turn"]] = [-factor, 0.0]
-    found = configuration(JOINTS, len(q), longer)
-    assert found[UNITS["quaternion"]].tolist() == [0.0, 0.0, 0.0, 1.0]
-    assert found[UNITS["turn"]].tolist() == [-1.0, 0.0]
-
-
 def test_only_the_quaternion_w_x_y_z_of_no_turn_is_taken_for_one_of_that_order():
     q = normalised(JOINTS, Q)
     half_turns = np.eye(4)[1:]

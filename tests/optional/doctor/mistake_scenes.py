@@ -6,6 +6,7 @@ time. ``finding`` and ``words`` say what the first finding has to be, and which 
 has to hold. ``healthy.toml`` has thirty scenes without a mistake, made from the same three.
 """
 
+import re
 import shutil
 import tomllib
 from pathlib import Path
@@ -16,6 +17,11 @@ from quasistatic_ref import InputError, RunFailed, load_scenario
 from quasistatic_ref.simulate.finding import Finding
 
 HERE = Path(__file__).parent / "mistakes"
+PAGE = (HERE.parents[3] / "docs" / "findings.md").read_text("utf-8")
+LISTED = dict(re.findall(r"^- \*\*(.*?)\*\*(\\\*)?: ", PAGE, re.M))
+OF_TASK = re.findall(r"^\| ([\w ]+) \| (?!given if)", PAGE, re.M)
+GRAVE = {name: not words for name, words in LISTED.items()} | dict.fromkeys(OF_TASK, True)
+"""By the page, of each finding."""
 SCENES = ("grasp", "push", "turn")
 RADIUS = 0.033
 HEIGHT = 0.12

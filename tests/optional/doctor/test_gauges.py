@@ -5,7 +5,6 @@ import pytest
 
 from quasistatic_ref import Sphere
 from quasistatic_ref.optional.doctor.account import account_of, gauge
-from quasistatic_ref.step.cones import cone
 from tests.model.urdf.urdf_texts import link, robot
 from tests.optional.doctor.words import block, driven, fingers, free, scene, solid
 
@@ -28,15 +27,6 @@ def test_the_normal_force_that_a_cone_needs_is_its_gauge(name, wrench, normal):
     assert own == pytest.approx([normal], rel=1e-12)
     none = gauge(name, np.array([(0.0, 0.0, 9.0, 0.02)]), MU * [1, 1, 0])
     assert none.tolist() == [0.0]  # a coefficient of 0 is left out
-
-
-@pytest.mark.parametrize("name", ["pyramid", "product", "facets-6"])
-def test_forces_of_one_row_need_their_multiplier(name, rng):
-    """A force is on the cone's surface where one row alone bears it."""
-    rows = cone(name).matrix
-    for row in rows:
-        force = 3.0 * np.array([row[1] * 0.5, row[2] * 0.5, 1.0, row[3] * 0.02])
-        assert gauge(name, force[None], MU) == pytest.approx([3.0], rel=1e-12)
 
 
 def test_a_ball_that_spins_is_at_its_limit_and_its_spinning_is_in_the_table():

@@ -2,7 +2,13 @@
 
 import pytest
 
-from tests.optional.doctor.mistake_scenes import SCENES, findings_after, healthy_scenes, mistakes
+from tests.optional.doctor.mistake_scenes import (
+    GRAVE,
+    SCENES,
+    findings_after,
+    healthy_scenes,
+    mistakes,
+)
 
 NEAR_MISSES = {
     "a trial of the first steps": ("push", [["push.toml", "steps = 120", "steps = 12"]]),
@@ -35,6 +41,7 @@ def one_for_each_finding():
 def test_a_mistake_is_named_in_the_first_finding(mistake, tmp_path):
     findings = findings_after(tmp_path, mistake["scene"], mistake["edits"])
     assert findings[0].name in mistake["finding"]
+    assert findings[0].grave >= GRAVE[findings[0].name]
     assert all(word in findings[0].sentence for word in mistake["words"]), findings[0].sentence
 
 

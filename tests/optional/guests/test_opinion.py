@@ -8,7 +8,6 @@ import pytest
 from jsonschema import Draft4Validator
 
 import quasistatic_ref as qr
-from quasistatic_ref.cli.opinion import controls
 from quasistatic_ref.lab.commands.schema import opinion_schema
 from quasistatic_ref.optional.guests.settled import settled
 from tests.helpers import one_sentence
@@ -110,11 +109,8 @@ def free(name, geom, at):
 BRICK = 'type="box" size=".05 .06 .04"'
 HEALTHY = {
     "capsule": free("rod", 'type="capsule" size=".02 .1" euler="0 90 0"', "0 0 .02"),
-    "three boxes": "".join(free(f"b{i}", BRICK, f"0 0 {0.04 + 0.08 * i}") for i in range(3)),
     "plank": free("a", BRICK, "-.2 0 .04") + free("b", BRICK, ".2 0 .04")
     + free("c", 'type="box" size=".3 .05 .01"', "0 0 .09"),
-    "heavy on light": free("a", f'{BRICK} mass=".1"', "0 0 .04")
-    + free("b", f'{BRICK} mass="2"', "0 0 .12"),
     "a door on its limit": free("box", BRICK, "0 0 .04")
     + '<body pos="1 0 1"><joint axis="0 1 0" range="-20 20" damping=".5"/>'
     '<geom type="box" size=".2 .2 .01" pos=".2 0 0" mass="1"/></body>',
@@ -225,8 +221,6 @@ def groove(angle, mu):
 
 SHARED = {
     "a groove of 60 degrees": groove(60, 0.6),
-    "a groove of 45 degrees": groove(45, 1.0),
-    "a groove of 30 degrees": groove(30, 0.5),
     "a weld": scene(
         f"{FLOOR}{FREE}{BOX}</body>", '<equality><weld body1="b" body2="world"/></equality>'
     ),
@@ -405,12 +399,6 @@ def test_names_with_colons_stay_whole():
     box = BOX.replace('name="box"', 'name="a: box"')
     (creep,) = opinion(scene(f"{floor}{FREE}{box}</body>", options=SLOPE.format("", ""))).findings
     assert creep.cause.startswith("the: floor/a: box: b slips")
-
-
-@pytest.mark.parametrize("value", ["nan", "-inf", "1e400"])
-def test_a_control_that_is_no_number_is_refused(value):
-    with pytest.raises(qr.InputError, match="--control v: must be a finite number"):
-        controls([f"v={value}"])
 
 
 @pytest.mark.parametrize("field", ["qpos", "qvel", "ctrl", "xfrc_applied"])

@@ -1,7 +1,6 @@
 """What penetration does to forces, and what is said of it."""
 
 import mujoco
-import numpy as np
 import pytest
 
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
@@ -41,36 +40,3 @@ def test_a_depth_that_is_closed_adds_a_force_and_one_that_is_not_none(depth, spr
     added = depth * (springs or MASS / H**2)
     assert solve_step(closed).wrench[0, 2] == pytest.approx(MASS * GRAVITY, rel=1e-12)
     assert solve_step(as_is).wrench[0, 2] == pytest.approx(MASS * GRAVITY + added, rel=1e-12)
-
-
-@pytest.mark.parametrize("condim", [1, 3])
-def test_the_quasi_dynamic_number_is_the_drag_over_the_friction(condim):
-    """In a step from rest, a push F moves a body of mass m at v = h F / m: the drag m v / h."""
-    model, data = ball(FREE, 0.0, how=f'condim="{condim}" friction=".3 0 0"')
-    data.qvel[:2] = 0.03, 0.04
-    expected = MASS * 0.05 / H / (0.3 * MASS * GRAVITY) if condim > 1 else 0.0
-    assert mujoco_step(model, data, H)[1].quasi_dynamic_number == pytest.approx(expected)
-    assert not np.any(mujoco_step(model, data, H)[0].tau_u[:2])
-
-
-AT_ITS_RANGE = {
-    "of the actuator": ("", "", '<position joint="x" kp="9" forcerange="-1 1"/>'),
-    "of the joint": ('actuatorfrcrange="-1 1"', "", '<position joint="x" kp="9"/>'),
-    "of the tendon": ("", 'actuatorfrcrange="-1 1"', '<position tendon="t" kp="9"/>'),
-}
-
-
-@pytest.mark.parametrize("limit", AT_ITS_RANGE)
-def test_a_servo_at_the_end_of_its_range_is_a_force_and_no_spring(limit):
-    """Targets of 0.1 m and 1 m, of 9 N/m, and at most 1 N: then x = h^2 f / m."""
-    joint, tendon, servo = AT_ITS_RANGE[limit]
-    model = mujoco.MjModel.from_xml_string(
-        f"""<mujoco><worldbody><body><joint name="x" type="slide" axis="1 0 0" {joint}/>
-        <geom size=".1" mass="{MASS}"/></body></worldbody><tendon><fixed name="t" {tendon}>
-        <joint joint="x" coef="1"/></fixed></tendon><actuator>{servo}</actuator></mujoco>"""
-    )
-    data = mujoco.MjData(model)
-    for target, moves in ((0.1, 0.1), (1.0, H**2 / MASS)):
-        data.ctrl[0] = target
-        step, _ = mujoco_step(model, data, H)
-        assert solve_step(step).delta_q == pytest.approx([moves])
