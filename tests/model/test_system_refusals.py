@@ -20,12 +20,13 @@ def test_a_configuration_of_another_length_is_refused(scene):
         scene.integrate(scene.q_start, np.zeros(scene.n_v + 1))
 
 
+@pytest.mark.parametrize("length", [0.5, 2])
 @pytest.mark.parametrize("use", ["kinematics", "integrate", "difference"])
-def test_a_quaternion_of_length_two_is_refused_before_anything_is_computed_from_it(scene, use):
+def test_a_quaternion_of_another_length_is_refused_before_it_is_used(scene, use, length):
     q = scene.q_start.copy()
-    q[scene.joint("box/base").q][3:] *= 2
+    q[scene.joint("box/base").q][3:] *= length
     calls = {"integrate": [q, np.zeros(scene.n_v)], "difference": [scene.q_start, q]}
-    with pytest.raises(ModelError, match=r"must have length one, not 2; system.normalised\(q\)"):
+    with pytest.raises(ModelError, match=rf"have length one, not {length}; system.normalised\(q\)"):
         getattr(scene, use)(*calls.get(use, [q]))
 
 
