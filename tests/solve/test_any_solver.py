@@ -1,6 +1,7 @@
 """Solvers that the table does not have: CVXPY's, qpsolvers', and functions of the user's."""
 
 import pickle
+import sys
 
 import cvxpy as cp
 import numpy as np
@@ -45,7 +46,9 @@ def mine(tmp_path, monkeypatch):
     """A file of functions, in the folder where commands run."""
     (tmp_path / "mine.py").write_text(MINE)
     monkeypatch.chdir(tmp_path)
-    return tmp_path
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    yield tmp_path
+    sys.modules.pop("mine", None)
 
 
 def test_a_function_solves_steps_as_a_backend_does():
