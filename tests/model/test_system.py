@@ -23,19 +23,6 @@ def test_coordinates_are_actuated_first_then_in_order_of_the_bodies(scene):
     assert units["arm/base.rx"] == units["arm/spin"] == units["arm/swing"] == "rad"
 
 
-def test_difference_is_the_inverse_of_integrate(scene, q, rng):
-    delta_q = rng.uniform(-1, 1, size=scene.n_v)  # turns below pi
-    assert np.abs(scene.difference(q, scene.integrate(q, delta_q)) - delta_q).max() < ROUNDING
-    q_next = scene.integrate(scene.neutral(), rng.normal(size=scene.n_v))
-    there = scene.integrate(q, scene.difference(q, q_next))
-    for each in scene.joints:
-        part = there[each.q].copy()
-        other = q_next[each.q].copy()
-        if each.free:  # x and -x are the same orientation
-            part[3:] *= np.sign(part[3:] @ other[3:])
-        assert np.abs(part - other).max() < ROUNDING
-
-
 def test_actuated_coordinates_change_whatever_comes_after_them():
     crane = robot(
         *(link(name, inertial=inertial("2", ("0.01",) * 3)) for name in ("rail", "cart", "bob")),

@@ -89,16 +89,3 @@ def test_a_bar_that_turns_and_slips_is_at_its_whole_limit():
         assert pair.loads.share.max() == pytest.approx(1.0, abs=1e-6)
         assert (pair.loads.torque < 0.9 * 0.02 * pair.loads.normal).all()
         assert pair.spins.any()
-
-
-@pytest.mark.parametrize(("angle", "friction"), [(0, 4.905), (np.pi / 4, 4.905 * np.sqrt(0.5))])
-def test_a_slide_is_at_its_limit_whichever_way_it_goes(angle, friction):
-    """A pyramid bears mu_v m g / sqrt(2) between its corners, and that is all of it."""
-    puck = free(
-        block(1.0, (0.2, 0.2, 0.02)), (0, 0, 0.01), (6 * np.cos(angle), 6 * np.sin(angle), 0)
-    )
-    made = scene({"puck": puck}, {"floor": ("floor", "puck", 0.5, 4)}, 5)
-    (pair,) = account_of(made.run(progress=False)).pairs
-    assert pair.slides.all()
-    assert pair.loads.share.max() == pytest.approx(1.0, abs=1e-6)
-    assert pair.loads.friction[-1] == pytest.approx(friction, rel=0.02)

@@ -121,11 +121,6 @@ def plate(x, y, z):
 
 
 HOLLOW = {
-    "a cube on four small balls": (
-        [(sphere(0.002), x, y, -0.048, 0) for x in (-0.048, 0.048) for y in (-0.048, 0.048)],
-        1.0,
-        1.667e-3,
-    ),
     "a cabinet on three feet": (
         [(sphere(0.01), 0.2 * cos(a), 0.2 * sin(a), -0.24, 0) for a in (0, 2 * pi / 3, 4 * pi / 3)],
         20.0,
@@ -148,7 +143,6 @@ HOLLOW = {
         (0, 0, -0.02),
         0.7,
     ),
-    "a dumbbell": ([(sphere(0.02), x, 0, 0, 0) for x in (-0.1, 0.1)], 0.5, 2e-3, (0, 0, 0), 0.02),
     "a handle": (
         [
             (plate(0.02, 0.1, 0.02), 0, 0, 0, 0),
