@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 from scipy.linalg import expm
+from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.model.joints.floating import Floating
-from tests.closeness import assert_within
+from tests.closeness import assert_close, assert_within
 from tests.tolerances import ROUNDING
 
 ANGLES = (0.0, 1e-9, 0.3, 3.0)
@@ -50,6 +51,22 @@ def test_a_floating_base_moves_by_its_twist_in_its_own_frame(angle):
     assert_within(q_next[1:4], expected, ROUNDING * 4)
     found = change(FLOATING, q, q_next)
     assert_within(found, delta_q[1:], 8 * ROUNDING)
+
+
+@pytest.mark.parametrize("axis", [AXIS, *np.eye(3)], ids=["oblique", "x", "y", "z"])
+@pytest.mark.parametrize("angle", [*ANGLES, 1e-200, 6.0])
+def test_a_floating_base_turns_by_its_rotation_vector(angle, axis):
+    # The product of both matrices, which q and -q stand for; and a turn back is that by -w.
+    about = np.array([1.0, 2.0, -2.0]) / 3
+    w = angle * axis
+    q = [9.0, 0.0, 0.0, 0.0, *quaternion_about(about, 0.8)]
+    after = [9.0, *next_entries(FLOATING, q, [7.0, 0.0, 0.0, 0.0, *w])]
+    expected = screw(np.zeros(3), 0.8 * about)[0] @ screw(np.zeros(3), w)[0]
+    found = Rotation.from_quat(after[4:]).as_matrix()
+    assert_within(found, expected, 4 * ROUNDING)
+    shorter = angle if angle < np.pi else angle - 2 * np.pi
+    back = change(FLOATING, after, q)[3:]
+    assert_close(back, -shorter * axis, 4 * ROUNDING)
 
 
 @pytest.mark.parametrize("axis", [*np.eye(3), -AXIS])

@@ -40,3 +40,26 @@ def test_a_depth_that_is_closed_adds_a_force_and_one_that_is_not_none(depth, spr
     added = depth * (springs or MASS / H**2)
     assert solve_step(closed).wrench[0, 2] == pytest.approx(MASS * GRAVITY, rel=1e-12)
     assert solve_step(as_is).wrench[0, 2] == pytest.approx(MASS * GRAVITY + added, rel=1e-12)
+
+
+AT_ITS_RANGE = {
+    "of the actuator": ("", "", '<position joint="x" kp="9" forcerange="-1 1"/>'),
+    "of the joint": ('actuatorfrcrange="-1 1"', "", '<position joint="x" kp="9"/>'),
+    "of the tendon": ("", 'actuatorfrcrange="-1 1"', '<position tendon="t" kp="9"/>'),
+}
+
+
+@pytest.mark.parametrize("limit", AT_ITS_RANGE)
+def test_a_servo_at_the_end_of_its_range_is_a_force_and_no_spring(limit):
+    """Targets of 0.1 m and 1 m, of 9 N/m, and at most 1 N: then x = h^2 f / m."""
+    joint, tendon, servo = AT_ITS_RANGE[limit]
+    model = mujoco.MjModel.from_xml_string(
+        f"""<mujoco><worldbody><body><joint name="x" type="slide" axis="1 0 0" {joint}/>
+        <geom size=".1" mass="{MASS}"/></body></worldbody><tendon><fixed name="t" {tendon}>
+        <joint joint="x" coef="1"/></fixed></tendon><actuator>{servo}</actuator></mujoco>"""
+    )
+    data = mujoco.MjData(model)
+    for target, moves in ((0.1, 0.1), (1.0, H**2 / MASS)):
+        data.ctrl[0] = target
+        step, _ = mujoco_step(model, data, H)
+        assert solve_step(step).delta_q == pytest.approx([moves])
