@@ -18,7 +18,6 @@ from quasistatic_ref.lab.claims.claim import (
     comparison,
     sum_of_terms,
 )
-from quasistatic_ref.lab.claims.registry import BY_NAME, CLAIMS
 from quasistatic_ref.lab.claims.report import claims_page, summary
 from quasistatic_ref.lab.commands import validate as command
 
@@ -74,22 +73,6 @@ def test_a_claim_fails_with_its_worst_comparison_or_with_an_error():
 
     broken = claim_result(claim_of(measure=measure))
     assert (broken.verdict, broken.trouble) == (FAILS, "is wrong")
-
-
-def test_closed_forms_and_derivations_cite_each_other():
-    text = (DOCS / "derivations.md").read_text()
-    derived = [int(n) for n in re.findall(r"^\*\*\(R(\d+)\)", text, re.MULTILINE)]
-    assert derived == sorted(set(derived))
-    cited = set()
-    for name, claim in BY_NAME.items():
-        numbers = {int(n) for n in re.findall(r"\(R(\d+)\)", claim.where)}
-        assert numbers or name not in CLAIMS["Closed forms"], name
-        cited |= numbers
-    pages = "".join(page.read_text() for page in DOCS.glob("*.md"))
-    proved = {int(n) for n in re.findall(r"\*\*\(R(\d+)\)", pages)}
-    assert set(derived) <= cited <= proved
-    artifacts = (DOCS / "artifacts.md").read_text()
-    assert {int(n) for n in re.findall(r"\(R(\d+)\)", artifacts)} <= proved
 
 
 def test_the_command_prints_a_table_and_writes_the_page(tmp_path, cli):

@@ -86,6 +86,8 @@ def test_every_result_is_derived_once_and_cited_ones_are():
 def test_every_result_has_a_claim_or_a_test_by_random_instances():
     claims = CLAIMS["Closed forms"].values()
     tested = {int(n) for claim in claims for n in RESULT.findall(claim.where)}
+    uncited = {claim.name for claim in claims if not RESULT.search(claim.where)}
+    assert_among(uncited, (), "claim {} cites no result: add its (R..) to `where`")
     for path in sorted((ROOT / "tests").rglob("test_*.py")):
         for found in RANDOM.finditer(path.read_text("utf-8")):
             assert re.search(r"\b(rng|seed)\b", found[0]), (path, found[1])

@@ -8,8 +8,6 @@ from collections import Counter
 from dataclasses import fields, replace
 from pathlib import Path
 
-import dask
-import distributed
 import duckdb
 import pandas
 import pytest
@@ -159,7 +157,7 @@ def limited(folder, executor=None):
     rows = []
     for limits, solvers in (
         (short, [broken.sleeps]),
-        (others, [broken.eats, broken.exits, broken.pair, broken.spoils]),
+        (others, [broken.eats, broken.exits, broken.spoils]),
     ):
         store = folder / solvers[0].__name__
         rows += study(problems, solvers, folder=store, executor=executor, limits=limits,
@@ -168,7 +166,6 @@ def limited(folder, executor=None):
                 for row in rows}  # fmt: skip
     assert outcomes["eats"] == ["out of memory"] * 2
     assert outcomes["exits"] == ["crashed"] * 2
-    assert outcomes["pair"] == ["wrong shape"] * 2
     assert outcomes["spoils"] == ["solved"] * 2
     assert "ended with 7" in {row.status for row in rows if row.solver == "exits"}
     assert has_ended(int(Path(os.environ["CHILD"]).read_text()))
@@ -176,26 +173,18 @@ def limited(folder, executor=None):
 
 
 def test_a_solver_that_exceeds_its_limits_is_ended_and_costs_itself_only(tmp_path, monkeypatch):
-    """One sleeps, and so does what it starts; others take memory, end, return too little, print."""
+    """One sleeps, and so does what it starts; others take memory, end, print."""
     monkeypatch.setenv("CHILD", str(tmp_path / "child"))
     assert limited(tmp_path) == ["timeout", "not run"]  # a call takes longer than the budget
 
 
 def test_on_two_workers_of_dask_the_rows_are_the_same_and_limits_hold(
-    small, whole, tmp_path, monkeypatch
+    small, whole, two_of_dask, tmp_path, monkeypatch
 ):
     """Its workers are daemons, which may start no process of multiprocessing."""
     monkeypatch.setenv("CHILD", str(tmp_path / "child"))
-    with (
-        dask.config.set(temporary_directory=str(tmp_path)),
-        distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, dashboard_address=None
-        ) as cluster,
-        distributed.Client(cluster) as client,
-        client.get_executor(pure=False, retries=0) as executor,
-    ):
-        assert facts(small(tmp_path / "there", executor)) == facts(whole[0])
-        assert limited(tmp_path, executor) == ["timeout"] * 2
+    assert facts(small(tmp_path / "there", two_of_dask)) == facts(whole[0])
+    assert limited(tmp_path, two_of_dask) == ["timeout"] * 2
 
 
 def ordered(families, folder, most=None):

@@ -37,7 +37,9 @@ def test_the_numbers_of_the_set_are_those_that_were_published():
     assert len(files) == 20
 
 
-def test_names_of_the_editions_that_it_was_made_of_lead_to_it():
+def test_names_of_the_editions_that_it_was_made_of_lead_to_it_and_others_are_refused():
+    with pytest.raises(InputError, match="is neither a folder nor a set"):
+        problem_set_folder("contact-qp-3")
     for name in ("contact-qp-1", "contact-qp-2"):
         with pytest.raises(
             InputError, match="its problems are in contact-qp, under the same names"
@@ -87,7 +89,6 @@ def test_a_set_whose_numbers_were_changed_is_refused(tmp_path):
 def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, cli):
     export = ["study", "problems", "export", "--out", tmp_path]
     for more, words in (
-        (["--families", "wedges"], "is not a family with proved answers"),
         (["--id", "wedge/9/9"], "is not a problem of the set"),
         (["--every", "0"], "must be at least 1"),
         (["--families", "limits", "--tag", "nothing"], "holds no problem"),

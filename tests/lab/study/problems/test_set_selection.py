@@ -1,9 +1,7 @@
 """Studies whose problems are taken from a set: which ones, and what is refused."""
 
 import numpy as np
-import pytest
 
-from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.problems.selection import problems_taken
 from tests.closeness import assert_relative
 
@@ -22,12 +20,3 @@ def test_problems_are_spread_over_the_dial_up_to_where_it_ends():
 def test_sequences_are_taken_whole_and_in_order():
     found = problems_taken("contact-qp", {"moving": 30})
     assert [one.facts["sequence"]["place"] for one in found] == [*range(12), *range(12)]
-
-
-@pytest.mark.parametrize(("source", "family", "words"), [
-    ("contact-qp-3", "narrow", "is neither a folder nor a set"),
-    ("contact-qp", "heaps", "is not a family with proved answers"),
-])  # fmt: skip
-def test_what_cannot_be_taken_is_said(source, family, words):
-    with pytest.raises(InputError, match=words):
-        problems_taken(source, {family: 3})

@@ -108,6 +108,7 @@ def test_some_cases_can_be_asked_for_by_the_beginning_of_their_ids(answers, cli)
         cli("vectors", "check", answers, "--only", "rows/random", "--json", status=1).out
     )["layers"]
     assert [len(report["cases"]), report["failed"]] == [12, 1]
+    assert report["first_failure"]["id"] == "rows/random/3"
     answers_written(answers, "wrench", "test", right_answers("wrench"))
     names = ["rows/random/2", cases("wrench")[0].id]
     words = [word for name in names for word in ("--only", name)]

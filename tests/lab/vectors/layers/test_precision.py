@@ -4,7 +4,6 @@ from fractions import Fraction
 from math import nextafter
 
 import mpmath
-import numpy as np
 import pytest
 from flint import arb, fmpq
 
@@ -55,16 +54,6 @@ def test_thirty_digits_are_those_of_another_library():
     (value,), (text,) = rounded_results(lambda: [root(number(0.1)) * arb(3).sin()])
     assert Fraction(text) == Fraction(known)
     assert value == float(Fraction(text))
-
-
-def test_rounding_is_that_of_exact_fractions():
-    random = np.random.default_rng(5)
-    tops, bottoms = random.integers(1, 10**17, (2, 200))
-    fractions = [(int(p), int(q)) for p, q in zip(tops, bottoms, strict=True)]
-    values, _ = rounded_results(lambda: [fmpq(p, q) for p, q in fractions])
-    balls, _ = rounded_results(lambda: [arb(p) / q for p, q in fractions])
-    assert values == [p / q for p, q in fractions]
-    assert balls == values
 
 
 def test_a_ball_made_before_is_refused():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import contact_forces, load_scenario
+from quasistatic_ref import load_scenario
 from quasistatic_ref.lab.program import step as program
 from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.vectors.check.case import case_verdict
@@ -86,14 +86,6 @@ def test_forces_are_those_that_fractions_prove_on_the_step_of_the_package():
     allowed = record["tolerance"]["forces"]["absolute"]
     assert np.abs(found).max() > 1e4 * allowed
     assert_within(answer["forces"], found, allowed)
-
-
-def test_forces_by_half_the_compliance_are_wrong():
-    case, record, answer = stack()
-    c = case["pairs"][0]["compliance"]  # all pairs of these cases have the same
-    forces = contact_forces(posed_case(case).step, c / 2).wrench.tolist()
-    verdict = case_verdict("step", case, record, {**answer, "forces": forces})
-    assert (verdict.verdict, verdict.field) == ("failed", "forces")
 
 
 @pytest.mark.parametrize("component", range(4))
