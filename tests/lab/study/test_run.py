@@ -172,17 +172,23 @@ def limited(folder, executor=None):
     return outcomes["sleeps"]
 
 
-def test_a_solver_that_exceeds_its_limits_is_ended_and_costs_itself_only(tmp_path, monkeypatch):
-    """One sleeps, and so does what it starts; others take memory, end, print."""
+@pytest.fixture
+def child(tmp_path, monkeypatch):
+    """Where the solver that sleeps writes the id of what it starts; workers inherit it."""
     monkeypatch.setenv("CHILD", str(tmp_path / "child"))
+
+
+@pytest.mark.usefixtures("child")
+def test_a_solver_that_exceeds_its_limits_is_ended_and_costs_itself_only(tmp_path):
+    """One sleeps, and so does what it starts; others take memory, end, print."""
     assert limited(tmp_path) == ["timeout", "not run"]  # a call takes longer than the budget
 
 
+@pytest.mark.usefixtures("child")  # before the workers start
 def test_on_two_workers_of_dask_the_rows_are_the_same_and_limits_hold(
-    small, whole, two_of_dask, tmp_path, monkeypatch
+    small, whole, two_of_dask, tmp_path
 ):
     """Its workers are daemons, which may start no process of multiprocessing."""
-    monkeypatch.setenv("CHILD", str(tmp_path / "child"))
     assert facts(small(tmp_path / "there", two_of_dask)) == facts(whole[0])
     assert limited(tmp_path, two_of_dask) == ["timeout"] * 2
 
