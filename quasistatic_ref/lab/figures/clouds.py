@@ -13,8 +13,10 @@ from quasistatic_ref.lab.folders import clouds_file
 from quasistatic_ref.step.arrays import Array
 
 Row = dict[str, Any]
-TURNS, RISES = 1.0, 30.0
-"""A bunny is held that turns by no more [deg], and rises by no less [mm], during the lift."""
+TURNS = 1.0
+"""A bunny is held that turns by no more during the lift [deg] ..."""
+RISES = 30.0
+"""... and rises by no less [mm]."""
 
 
 @cache

@@ -16,8 +16,10 @@ QP, SOCP = "qp", "socp"
 """Rows A x >= b; or blocks of four, (A x - b)_0 >= |(A x - b)_1:3|."""
 OPTIMAL = "optimal"
 INFEASIBLE = "infeasible"
-EXACT, ENCLOSED = "exact", "enclosed"
-"""How an answer is known: rounded correctly; off by rounding at most."""
+EXACT = "exact"
+"""An answer that is rounded correctly."""
+ENCLOSED = "enclosed"
+"""An answer that is off by rounding at most."""
 
 
 @dataclass(frozen=True, eq=False)
