@@ -12,10 +12,10 @@ from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
-from quasistatic_ref.step.data import Array
 
 M, LENGTH, TILT, H, STEPS = 0.5, 0.2, 20.0, 0.02, 9
 """A rod [kg], [m], its start [deg] about y; time step [s], steps that are drawn."""

@@ -13,11 +13,12 @@ import numpy as np
 from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.figures.line_styles import COLOURS, MARKS
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.compiled import CANON
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.problem import StepProblem
 
 SCENES = ("sphere_spin", "two_finger_pinch", "bunny_grasp")

@@ -15,9 +15,9 @@ from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, system_of
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape
-from quasistatic_ref.step.data import Array
 
 HALF_AXES, POINTS, K, HEIGHT, TILT = (0.05, 0.03), 40, 5, 0.032, 25.0
 """Of an ellipse [m]; points on it; points that become contacts; of its centre [m]; tilt [deg]."""

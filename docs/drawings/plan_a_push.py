@@ -13,9 +13,9 @@ import numpy as np
 
 from quasistatic_ref.lab.figures.labels import caption, label_axes, legend_below
 from quasistatic_ref.lab.scenes.pushed_block import MU_OMEGA, OFFSET, RADIUS, SIDE, pushed_block
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.step_jax import jax_package, smoothed_jax
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
-from quasistatic_ref.step.data import Array
 
 jax = jax_package()
 np_jax = jax.numpy

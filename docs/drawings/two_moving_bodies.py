@@ -16,12 +16,13 @@ from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of
 from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Sphere
-from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.step.data import Contacts
 
 RADIUS, HALF = 0.02, (0.04, 0.03, 0.03)
 """Of the ball, and half the sides of the box [m]."""

@@ -11,10 +11,10 @@ import numpy as np
 
 from quasistatic_ref.lab.figures.labels import caption, label_axes, note_below
 from quasistatic_ref.lab.scenes.nudge import MASS, MU_V, RADIUS, H, body_at_rest, points
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.shapes.placed_shape import Sphere
-from quasistatic_ref.step.data import Array
 
 G = 9.81
 NONE = np.zeros(0)

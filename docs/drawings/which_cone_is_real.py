@@ -22,8 +22,8 @@ from quasistatic_ref.lab.reality.measurements import (
 from quasistatic_ref.lab.reality.predict import prediction
 from quasistatic_ref.lab.reality.push import pushed_scene
 from quasistatic_ref.lab.reality.settings import Settings
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.step.data import Array
 
 PAIR = "abs/rect1"
 CONES = ("ellipsoid", "pyramid")

@@ -26,7 +26,7 @@ from flint import fmpq
 from quasistatic_ref.certify.dependence import combination, independent_rows
 from quasistatic_ref.certify.form import PRECISION, ExactForm, fraction
 from quasistatic_ref.certify.minimiser import Minimiser
-from quasistatic_ref.precision import working_precision
+from quasistatic_ref.numbers.precision import working_precision
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
+from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.parts import needing
-from quasistatic_ref.step.arrays import read_only
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,8 +8,9 @@ from typing import Protocol
 
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.verdict import Verdict
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import FrictionCone, cone
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 
 class Enclosed(Protocol):

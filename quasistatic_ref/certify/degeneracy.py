@@ -23,7 +23,7 @@ from flint import arb, arb_mat, fmpz
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.form import EXACT, ExactForm, MatrixForm, exact_matrix
-from quasistatic_ref.precision import working_precision
+from quasistatic_ref.numbers.precision import working_precision
 
 
 def degeneracy(

@@ -5,7 +5,8 @@ import numpy as np
 from quasistatic_ref.certify.farkas import FarkasVector
 from quasistatic_ref.certify.residuals import Residuals
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.step.data import StepData
 
 
 class StepNotSolved(QuasistaticError):

@@ -15,8 +15,9 @@ from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import row_owners
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, Indices, StepData
+from quasistatic_ref.step.data import StepData
 
 _FRACTION = re.compile(r"(-?[0-9]+)(?:/([0-9]*[1-9][0-9]*))?")
 

@@ -30,9 +30,10 @@ from flint import arb, arb_mat, fmpq, fmpz
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.dependence import implied
-from quasistatic_ref.precision import working_precision
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 EXACT: Final = 1 << 30
 """Bits at which no sum or product is rounded. What is short costs no more than at few bits."""

@@ -32,8 +32,8 @@ from quasistatic_ref.certify.form import (
     whole_numbers,
 )
 from quasistatic_ref.certify.rounding import nearest, nearest_in
-from quasistatic_ref.precision import working_precision
-from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.precision import working_precision
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import Judge, row_violations
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
 

@@ -11,8 +11,8 @@ from quasistatic_ref.certify.contact_forces import ContactForces, forces_near
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.step.arrays import read_only, without_warnings
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches
 
 UNKNOWN = "are not known: a step holds no costs, nonlinear constraints or smoothing"

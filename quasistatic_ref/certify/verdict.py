@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.formats.quoting import clipped
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -28,9 +28,9 @@ from quasistatic_ref.certify.minimiser import (
 )
 from quasistatic_ref.certify.rows import flat_rows, row_owners
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
-from quasistatic_ref.precision import working_precision
-from quasistatic_ref.step.arrays import checked_numbers
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.numbers.arrays import Array, checked_numbers
+from quasistatic_ref.numbers.precision import working_precision
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.groups import Group, group_steps
 
 

@@ -8,7 +8,7 @@ A'lam nor the optimum, and each move makes one multiplier zero.
 
 import numpy as np
 
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 ZERO_SHARE = 1e-9
 """Singular values, and entries of a dependence, below this share of the largest count as zero; a

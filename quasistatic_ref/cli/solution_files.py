@@ -19,9 +19,10 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import StepDataError, about_file
 from quasistatic_ref.formats.files import json_read, json_text
 from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.friction import impulses, wrenches
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.scenario.scenario import Scenario
-from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.tolerances import BEYOND
 
 SLOW: Final = 0.1

@@ -13,12 +13,12 @@ import numpy as np
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope
 from quasistatic_ref.contact.tied_faces import TURNED
-from quasistatic_ref.model.angles import cos_sin
+from quasistatic_ref.numbers.angles import cos_sin
+from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import Capsule, Cone, Cylinder
 from quasistatic_ref.shapes.revolved import Revolved
-from quasistatic_ref.step.data import Array, Indices
-from quasistatic_ref.step.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.tolerances import FACING, OVER_FACE, SKEW
 
 EDGE_COSINE = cos_sin(FACING)[1]

@@ -35,10 +35,9 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
 from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask, finite
+from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.shapes.placed_shape import PointCloud
-from quasistatic_ref.step.arrays import finite
-from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.step.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, SAME_NORMAL, UPRIGHT
 
 SPANNED: Final = 1e-6

@@ -7,9 +7,9 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import YZX, ZXY, crossed, dot, product
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.ordered import YZX, ZXY, crossed, dot, product
 
 AXES = np.eye(3)
 

@@ -11,11 +11,11 @@ import numpy as np
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import dot, norm, product, total
 from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import Capsule, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.ordered import dot, norm, product, total
 from quasistatic_ref.tolerances import SAME_NORMAL
 
 TIED_FACES: Final = 1e-12

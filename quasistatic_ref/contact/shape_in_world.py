@@ -2,9 +2,9 @@
 
 from typing import NamedTuple
 
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import dot, product, rotated
 from quasistatic_ref.shapes.placed_shape import Shape
-from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.ordered import dot, product, rotated
 
 
 class ShapeInWorld(NamedTuple):

@@ -22,11 +22,11 @@ from quasistatic_ref.contact.separations import (
     rounding,
 )
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
-from quasistatic_ref.model.angles import cos_sin
+from quasistatic_ref.numbers.angles import cos_sin
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+from quasistatic_ref.numbers.ordered import dot, product
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud, Shape
 from quasistatic_ref.shapes.shape import CHUNK
-from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.step.ordered import dot, product
 from quasistatic_ref.tolerances import FACING, OVER_FACE, SAME_NORMAL
 
 TURNED = cos_sin(FACING)[0]

@@ -9,9 +9,9 @@ import numpy as np
 
 from quasistatic_ref import __version__
 from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import QPSOLVERS
-from quasistatic_ref.step.data import Array
 
 
 def run_settings(simulator: Simulator, start: Array, record: str) -> dict[str, str]:

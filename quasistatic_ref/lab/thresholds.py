@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 PRECISION = 1e-13
 """Where the bisection of a threshold ends, relative; below CLOSED_FORM."""

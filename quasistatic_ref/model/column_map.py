@@ -8,7 +8,7 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.model.coordinates import Order
-from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.numbers.arrays import Array, Indices
 
 
 class ColumnMap(ABC):

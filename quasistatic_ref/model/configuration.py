@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.step.arrays import Array, checked_numbers
-from quasistatic_ref.step.ordered import length, norm
+from quasistatic_ref.numbers.arrays import Array, checked_numbers
+from quasistatic_ref.numbers.ordered import length, norm
 
 UNIT_QUATERNION: Final = 1e-9
 """Largest | |x| - 1 | of a quaternion, or of a pair (cos, sin), that is taken for a unit one.

@@ -11,7 +11,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.step.arrays import Array, Indices, checked_numbers
+from quasistatic_ref.numbers.arrays import Array, Indices, checked_numbers
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from quasistatic_ref.model.column_map import ColumnMap
-from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.ordered import crossed
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import crossed
 
 
 @dataclass(frozen=True, eq=False)

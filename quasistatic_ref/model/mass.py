@@ -14,9 +14,9 @@ from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.coordinates import joint_key
 from quasistatic_ref.model.joints.joint import Coordinate, Joint
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.step.arrays import Array, Mask, read_only
-from quasistatic_ref.step.ordered import crossed, dot, rotated
-from quasistatic_ref.step.pivots import positive_pivots
+from quasistatic_ref.numbers.arrays import Array, Mask, read_only
+from quasistatic_ref.numbers.ordered import crossed, dot, rotated
+from quasistatic_ref.numbers.pivots import positive_pivots
 
 
 class MassMatrix:

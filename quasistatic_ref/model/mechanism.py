@@ -24,9 +24,9 @@ from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.joints.joint import Coordinate, Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.named import Named, Values
+from quasistatic_ref.numbers.arrays import Array, Indices, checked_array, checked_numbers, read_only
+from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.shapes.placed_shape import PlacedShape
-from quasistatic_ref.step.arrays import Array, Indices, checked_array, checked_numbers, read_only
-from quasistatic_ref.step.ordered import product
 
 
 @runtime_checkable

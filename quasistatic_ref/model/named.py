@@ -7,10 +7,10 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.joints.joint import COSINE_SINE, QUATERNION, Joint
 from quasistatic_ref.model.rotation import quaternion
-from quasistatic_ref.step.arrays import Array, Indices, checked_array, checked_numbers
+from quasistatic_ref.numbers.angles import cos_sin
+from quasistatic_ref.numbers.arrays import Array, Indices, checked_array, checked_numbers
 
 Values = Mapping[str, ArrayLike | Mapping[str, ArrayLike]]
 """Positions of joints and poses of bases by name, as :meth:`Named.placed` takes them."""

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from quasistatic_ref.model.angles import cos_sin
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.angles import cos_sin
+from quasistatic_ref.numbers.arrays import Array
 
 
 def rotation(rpy: Array) -> Array:

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.model.angles import angle_of, cos_sin
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.angles import angle_of, cos_sin
+from quasistatic_ref.numbers.arrays import Array
 
 Vector = Sequence[float]
 """Few numbers: on so few, plain arithmetic takes a tenth of NumPy's time."""

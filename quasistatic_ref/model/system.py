@@ -30,11 +30,11 @@ from quasistatic_ref.model.mass import (
 from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
-from quasistatic_ref.step.arrays import (
+from quasistatic_ref.numbers.arrays import (
     Array,
     read_only,
 )
-from quasistatic_ref.step.pivots import positive_pivots
+from quasistatic_ref.numbers.pivots import positive_pivots
 
 __all__ = ["Body", "Kinematics", "System"]
 

@@ -11,11 +11,11 @@ from typing import NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.urdf.urdf import body_frame, urdf_model, with_turns
 from quasistatic_ref.model.world import World, joined
-from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.numbers.angles import cos_sin
+from quasistatic_ref.numbers.arrays import Array, Indices
 
 PART = 24
 """Most coordinates of a part, unless one body alone has more: of 48, a workspace takes several

@@ -25,8 +25,8 @@ from quasistatic_ref.model.urdf.urdf import (
     loaded_urdf,
     urdf_model,
 )
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import PlacedShape
-from quasistatic_ref.step.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)

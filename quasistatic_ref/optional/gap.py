@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from flint import arb, arb_mat, fmpq, fmpq_mat
 
 from quasistatic_ref.certify.form import ExactForm, fraction
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 
 def fractions(values: Array) -> list[fmpq]:

@@ -15,6 +15,8 @@ from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.model.urdf.urdf import BASE
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.pivots import positive_definite
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.paths import folders_in, inline_text, path_in, shared_folders
 from quasistatic_ref.scenario.scenario_table import (
@@ -26,8 +28,6 @@ from quasistatic_ref.scenario.scenario_table import (
     value,
 )
 from quasistatic_ref.simulate.target import JointTrack, Wrenches
-from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.pivots import positive_definite
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,6 +17,8 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array, freeze_copies
+from quasistatic_ref.numbers.ordered import total
 from quasistatic_ref.parts import needing
 from quasistatic_ref.scenario.bodies import (
     BodyEntry,
@@ -48,10 +50,8 @@ from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import Target
 from quasistatic_ref.solve.backends import is_function
-from quasistatic_ref.step.arrays import Array, freeze_copies
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ, OfBodies
-from quasistatic_ref.step.ordered import total
 
 MOST_BODIES = 1000
 

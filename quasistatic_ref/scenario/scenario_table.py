@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.body import BASE_WORDS
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.scenario.world_solids import SOLIDS
 from quasistatic_ref.simulate.law import LAWS
 from quasistatic_ref.simulate.limits import Limits
@@ -16,7 +17,6 @@ from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.simulator import GRAVITY
 from quasistatic_ref.solve.backends import CERTIFY
 from quasistatic_ref.step.cones import CONES
-from quasistatic_ref.step.data import Array
 
 FORMAT = "quasistatic-ref/scenario"
 VERSION = 1

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 from quasistatic_ref.errors import ScenarioError, about_field
 from quasistatic_ref.formats.declared import Field
 from quasistatic_ref.model.readers.mesh_files import mesh_hull, mesh_path
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes import placed_shape as shapes
-from quasistatic_ref.step.data import Array
 
 
 class Kind(NamedTuple):

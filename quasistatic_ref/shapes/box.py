@@ -10,10 +10,10 @@ import numpy as np
 from coal import CollisionGeometry
 from numpy.typing import ArrayLike
 
+from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.shapes.frozen import freeze_lengths, halved
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import AXES, lengths
-from quasistatic_ref.step.arrays import Array, read_only
 
 
 @dataclass(frozen=True, eq=False, init=False)

@@ -6,9 +6,9 @@ import coal
 import numpy as np
 from coal import CollisionGeometry
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.step.arrays import Array
 
 
 class Capsule(Revolved, Rounded):

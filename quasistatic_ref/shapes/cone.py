@@ -6,9 +6,9 @@ import coal
 import numpy as np
 from coal import CollisionGeometry
 
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import dot, norm
 from quasistatic_ref.shapes.revolved import Revolved, from_axis, rim_corners, rim_point
-from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.ordered import dot, norm
 from quasistatic_ref.tolerances import ON_SURFACE
 
 

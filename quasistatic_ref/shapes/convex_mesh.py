@@ -11,10 +11,10 @@ from coal import CollisionGeometry
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.ordered import dot, norm, product
 from quasistatic_ref.shapes.frozen import freeze_array
 from quasistatic_ref.shapes.shape import CHUNK, Shape, coal_polytope, lengths
-from quasistatic_ref.step.arrays import Array, Indices
-from quasistatic_ref.step.ordered import dot, norm, product
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 CONVEX_EXCESS: Final = 1e-3

@@ -10,10 +10,10 @@ import numpy as np
 from coal import CollisionGeometry
 from numpy.typing import ArrayLike
 
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import dot, norm, total
 from quasistatic_ref.shapes.frozen import freeze_lengths, halved
 from quasistatic_ref.shapes.shape import Shape, lengths
-from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.ordered import dot, norm, total
 
 STEPS = 100
 """Most Newton steps to the root of an ellipsoid's sum; about ten are usual."""

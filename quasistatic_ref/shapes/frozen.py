@@ -5,7 +5,7 @@ from typing import Any, Final
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.step.arrays import check_and_freeze, checked_numbers
+from quasistatic_ref.numbers.arrays import check_and_freeze, checked_numbers
 
 SHORT: Final = 1e-15
 """Smallest length of a shape [m], about a proton's; quotients of lengths stay in float64's range.

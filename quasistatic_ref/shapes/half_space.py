@@ -8,10 +8,10 @@ from functools import cached_property
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import dot, length
 from quasistatic_ref.shapes.frozen import finite, freeze_array
 from quasistatic_ref.shapes.shape import Shape
-from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.ordered import dot, length
 
 
 @dataclass(frozen=True, eq=False)

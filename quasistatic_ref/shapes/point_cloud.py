@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.shapes.frozen import freeze_array
 from quasistatic_ref.shapes.shape import Shape, lengths
-from quasistatic_ref.step.arrays import Array, read_only
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import norm, product
 from quasistatic_ref.shapes.frozen import freeze_size, halved
 from quasistatic_ref.shapes.shape import Shape
-from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.ordered import norm, product
 from quasistatic_ref.tolerances import UPRIGHT
 
 QUARTERS = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import dot
 from quasistatic_ref.shapes.shape import Shape
-from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.ordered import dot
 
 _AXES = np.eye(3)
 

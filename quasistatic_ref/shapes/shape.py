@@ -8,7 +8,7 @@ from coal import CollisionGeometry
 
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.numbers.arrays import Array, Indices
 
 AXES = np.concatenate([np.eye(3), -np.eye(3)])
 CHUNK = 1 << 17

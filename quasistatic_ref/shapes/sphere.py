@@ -7,9 +7,9 @@ import coal
 import numpy as np
 from coal import CollisionGeometry
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.frozen import freeze_size
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.step.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)

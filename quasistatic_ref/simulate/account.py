@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.step.data import Array, Mask
 
 if TYPE_CHECKING:
     from pandas import DataFrame

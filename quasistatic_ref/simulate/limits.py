@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate.failures import LimitExceeded
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.data import Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,11 +9,11 @@ from quasistatic_ref.parts import if_there
 
 if TYPE_CHECKING:
     from quasistatic_ref.model.system import System
+    from quasistatic_ref.numbers.arrays import Array
     from quasistatic_ref.simulate.result import StepArrays, StepResult
     from quasistatic_ref.simulate.simulator import Simulator
     from quasistatic_ref.simulate.target import JointTrack
     from quasistatic_ref.simulate.trajectory import Trajectory
-    from quasistatic_ref.step.arrays import Array
 
 
 class Recording(Protocol):

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
 from quasistatic_ref.parts import needing
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer, doctors
@@ -29,8 +30,7 @@ from quasistatic_ref.simulate.record import (
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.target import JointTrack
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
-from quasistatic_ref.step.arrays import read_only, without_warnings
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.standard_form import standard_form
 

@@ -15,11 +15,11 @@ from quasistatic_ref.contact.separations import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.numbers.arrays import Array, freeze_copies
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.wrenches import ContactsOverSteps
-from quasistatic_ref.step.arrays import freeze_copies
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 StepArrays = dict[str, NDArray[Any]]
 """Arrays over some steps that follow one another."""

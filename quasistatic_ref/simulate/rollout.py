@@ -10,6 +10,7 @@ import numpy as np
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError, QuasistaticError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
@@ -22,7 +23,6 @@ from quasistatic_ref.simulate.user_functions import (
     force_function,
     target_function,
 )
-from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.result import StepResult

@@ -5,10 +5,10 @@ from typing import Any
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
-from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.tolerances import ACCURACY
 

@@ -19,6 +19,7 @@ from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
+from quasistatic_ref.numbers.arrays import Array, checked_array
 from quasistatic_ref.parts import needing
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import (
@@ -36,10 +37,9 @@ from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED, check_certif
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import check_accuracy, solve_step, solved_step
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.step.arrays import checked_array
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array, StepData, hessian, seconds
+from quasistatic_ref.step.data import StepData, hessian, seconds
 from quasistatic_ref.step.extension import Extension
 
 GRAVITY = (0.0, 0.0, -9.81)

@@ -7,8 +7,8 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.model.system import System
-from quasistatic_ref.step.arrays import Array, checked_array, checked_numbers
-from quasistatic_ref.step.pivots import positive_definite
+from quasistatic_ref.numbers.arrays import Array, checked_array, checked_numbers
+from quasistatic_ref.numbers.pivots import positive_definite
 
 
 def stiffness_matrix(system: System, K_q: ArrayLike | Mapping[str, ArrayLike]) -> Array:

@@ -12,8 +12,8 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.system import System
-from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
-from quasistatic_ref.step.ordered import total
+from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
+from quasistatic_ref.numbers.ordered import total
 
 
 def piecewise_linear(times: Array, values: Array, t: float | Array) -> Array:

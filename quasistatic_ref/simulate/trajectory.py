@@ -20,12 +20,13 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import if_there, needing
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.account import Account
 from quasistatic_ref.simulate.finding import Finding, finding_read
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
-from quasistatic_ref.step.data import Array, Contacts, Extra, StepData, no_rows
+from quasistatic_ref.step.data import Contacts, Extra, StepData, no_rows
 
 if TYPE_CHECKING:
     from pandas import DataFrame

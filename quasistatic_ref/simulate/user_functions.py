@@ -14,9 +14,8 @@ from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.model.named import Values
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array, checked_numbers, read_only
 from quasistatic_ref.simulate.target import Targets
-from quasistatic_ref.step.arrays import checked_numbers, read_only
-from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.result import StepResult

@@ -8,8 +8,8 @@ import numpy as np
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import known_names
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate.scene import HasScene
-from quasistatic_ref.step.data import Array
 
 
 class ContactsOverSteps(NamedTuple):

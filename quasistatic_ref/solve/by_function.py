@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.numbers.arrays import Mask
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
 from quasistatic_ref.solve.units import StepInBothUnits, within_reach
-from quasistatic_ref.step.data import Mask, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
 
 Function = Callable[..., Any]

@@ -24,8 +24,8 @@ from cvxpy.reductions.solvers.conic_solvers.conic_solver import ConicSolver
 from cvxpy.reductions.solvers.solver_inverse_data import SolverInverseData
 from cvxpy.reductions.solvers.solving_chain import SolvingChain
 
+from quasistatic_ref.numbers.arrays import Indices
 from quasistatic_ref.solve.backends import Options
-from quasistatic_ref.step.data import Indices
 
 CANON = cp.CPP_CANON_BACKEND
 """CVXPY's way of compiling, for problems of any size. From 1,000 parameters on it would choose

@@ -7,8 +7,9 @@ from collections.abc import Callable, Sequence
 import cvxpy as cp
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import PYRAMID, cone
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import none
 from quasistatic_ref.step.problem import StepProblem
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 
 @dataclass(eq=False)

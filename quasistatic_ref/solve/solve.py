@@ -17,12 +17,12 @@ from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.numbers.arrays import Array, finite, without_warnings
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solver import FREE, NaturalAnswer, Solver
 from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
-from quasistatic_ref.step.arrays import Array, finite, without_warnings
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.groups import groups
@@ -133,7 +133,7 @@ def check_accuracy(accuracy: float) -> None:
 def solved(both: StepInBothUnits, solver: Solver, accuracy: float, certify: str) -> StepSolution:
     """The optimum of a step that fits a solver, from the step in both units.
 
-    It is called through :func:`~quasistatic_ref.step.arrays.without_warnings`.
+    It is called through :func:`~quasistatic_ref.numbers.arrays.without_warnings`.
 
     Parameters
     ----------

@@ -16,6 +16,7 @@ from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.numbers.arrays import Array, Mask, finite
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     QPSOLVERS,
@@ -26,7 +27,6 @@ from quasistatic_ref.solve.backends import (
 from quasistatic_ref.solve.greeting import greeting_silenced
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import StepInBothUnits
-from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, differences
 

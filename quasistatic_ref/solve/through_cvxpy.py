@@ -8,13 +8,14 @@ import cvxpy as cp
 import cvxpy.settings as words
 
 from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.compiled import CompiledMap, ProblemData, is_large, problem_data
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, NaturalAnswer, OptionSet
 from quasistatic_ref.solve.units import StepInBothUnits, within_reach
-from quasistatic_ref.step.data import KIND, Array, Mask, StepData
+from quasistatic_ref.step.data import KIND, StepData
 
 MOST_CONTACTS = 2000
 """Most contacts that are compiled: 6 s, in a time that grows with their square."""

@@ -23,10 +23,10 @@ from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import field_values
-from quasistatic_ref.step.arrays import Mask, finite, read_only
+from quasistatic_ref.numbers.arrays import Array, Mask, finite, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array, Extra, StepData
+from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import UNMOVED
 

@@ -10,7 +10,7 @@ import numpy as np
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.step.arrays import (
+from quasistatic_ref.numbers.arrays import (
     Array,
     Indices,
     Mask,

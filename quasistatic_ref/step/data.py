@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import Plain, field_values
 from quasistatic_ref.formats.shown import HasPage, Shown
-from quasistatic_ref.step.arrays import (
+from quasistatic_ref.numbers.arrays import (
     Array,
     Indices,
     Mask,
@@ -27,12 +27,12 @@ from quasistatic_ref.step.arrays import (
     column_count,
     read_only,
 )
+from quasistatic_ref.numbers.pivots import positive_definite, surely_definite_sum, symmetric
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.pivots import positive_definite, surely_definite_sum, symmetric
 
-__all__ = ["Array", "Contacts", "Extra", "Indices", "Mask", "StepData"]
+__all__ = ["Contacts", "Extra", "StepData"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

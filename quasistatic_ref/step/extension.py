@@ -14,7 +14,7 @@ import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.step.arrays import Array, Indices, checked_array, freeze_copies
+from quasistatic_ref.numbers.arrays import Array, Indices, checked_array, freeze_copies
 from quasistatic_ref.step.data import Extra
 
 if TYPE_CHECKING:

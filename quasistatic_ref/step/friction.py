@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import row_layout

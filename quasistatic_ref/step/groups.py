@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.step.arrays import read_only
-from quasistatic_ref.step.data import Indices, Mask, StepData
+from quasistatic_ref.numbers.arrays import Indices, Mask, read_only
+from quasistatic_ref.step.data import StepData
 
 
 class Group(NamedTuple):

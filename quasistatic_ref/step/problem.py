@@ -9,9 +9,10 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import needing
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import KIND, Array, StepData, differences
+from quasistatic_ref.step.data import KIND, StepData, differences
 from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import ACCURACY
 

@@ -8,9 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import product
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import friction_rows, row_constants
-from quasistatic_ref.step.ordered import product
 
 
 class StandardForm(NamedTuple):

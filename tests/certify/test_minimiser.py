@@ -15,7 +15,7 @@ from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.precision import working_precision
+from quasistatic_ref.numbers.precision import working_precision
 from tests.oracles.random_steps import any_step, mixed_step
 from tests.oracles.rational_kkt import proved_optimum
 from tests.oracles.solution_truth import program

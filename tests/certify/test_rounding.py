@@ -11,7 +11,7 @@ from quasistatic_ref.certify.rounding import (
     nearest_in,
 )
 from quasistatic_ref.cli.decimals import decimal_string
-from quasistatic_ref.precision import working_precision
+from quasistatic_ref.numbers.precision import working_precision
 
 LEAST = F(5e-324)
 ULP = F(2) ** -52

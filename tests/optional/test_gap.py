@@ -11,6 +11,7 @@ from flint import arb, fmpq
 from quasistatic_ref import solve_step
 from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.gap import (
     duality_gap,
@@ -19,7 +20,6 @@ from quasistatic_ref.optional.gap import (
     free_energy,
     nearest_above,
 )
-from quasistatic_ref.precision import working_precision
 from quasistatic_ref.tolerances import IMPULSES
 from tests.certify.test_form import fraction
 from tests.oracles.random_steps import any_step, mixed_step

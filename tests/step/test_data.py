@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref import Contacts, Extra, StepDataError
 from quasistatic_ref.lab.scenes.contacts import no_contacts
-from quasistatic_ref.step.pivots import SYMMETRIC
+from quasistatic_ref.numbers.pivots import SYMMETRIC
 from quasistatic_ref.tolerances import ORTHONORMAL
 from tests.helpers import changed, random_step
 

@@ -8,7 +8,7 @@ from scipy.stats import bootstrap
 
 from quasistatic_ref.lab.reality.identify import cosines, identified_ratio
 from quasistatic_ref.lab.reality.measurements import Loads, loads_read, pairs_read
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 from validation.tools.scripts import RESULTS, record_written, script_options
 
 OUT = RESULTS / "reality_identified.json"

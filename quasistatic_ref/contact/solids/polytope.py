@@ -9,11 +9,11 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.ordered import dot, rotated
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Shape
 from quasistatic_ref.shapes.rounded import distance_to_rounded_box
-from quasistatic_ref.step.data import Array, Indices
-from quasistatic_ref.step.ordered import dot, rotated
 
 UP = np.array([0.0, 0.0, 1.0])
 

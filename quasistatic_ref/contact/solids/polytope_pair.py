@@ -11,9 +11,9 @@ import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import Witness
 from quasistatic_ref.contact.solids.polytope import Polytope
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import dot, norm, product
 from quasistatic_ref.shapes.placed_shape import Capsule
-from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.ordered import dot, norm, product
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 

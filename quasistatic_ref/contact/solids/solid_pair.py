@@ -11,10 +11,10 @@ import numpy as np
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pair
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import dot, product, rotated
 from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
-from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.ordered import dot, product, rotated
 
 
 def solid_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:

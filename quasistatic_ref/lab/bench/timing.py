@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 Job = Callable[[], Any]
 Clock = Callable[[], float]

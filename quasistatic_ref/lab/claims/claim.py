@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 HOLDS = "holds"
 FAILS = "FAILS"

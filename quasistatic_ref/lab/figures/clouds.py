@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.folders import clouds_file
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array
 
 Row = dict[str, Any]
 TURNS = 1.0

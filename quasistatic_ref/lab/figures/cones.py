@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from scipy.spatial import ConvexHull
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.style import panels, scaled
-from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone_matrix
 
 SHOWN = (PYRAMID, ELLIPSOID, "product")

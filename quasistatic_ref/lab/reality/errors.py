@@ -7,7 +7,7 @@ import numpy as np
 from scipy.stats import bootstrap
 
 from quasistatic_ref.lab.reality.measurements import Pushes
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 
 def pose_errors(poses: Array, measured: Array) -> Array:

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from quasistatic_ref.lab.reality.measurements import Loads
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 GRID = np.geomspace(1e-3, 1.0, 241)
 """Ratios between which the best is looked for [m]: 3 % apart."""

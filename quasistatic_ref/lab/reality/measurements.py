@@ -11,7 +11,7 @@ from quasistatic_ref.formats.files import json_read
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.outline import Outline
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from quasistatic_ref.lab.scenes.slider import turned
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,12 +10,13 @@ import numpy as np
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.lab.reality.outline import rotation
 from quasistatic_ref.lab.reality.push import FINGER, Pushed
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import ACCURACY
 
 

@@ -16,7 +16,8 @@ from quasistatic_ref.lab.reality.outline import Outline, rotation
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of
 from quasistatic_ref.lab.scenes.slider import turned
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.step.data import StepData
 
 FINGER = 0.00475
 """Radius of the finger [m]."""

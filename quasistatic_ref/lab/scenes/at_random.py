@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import contacts_of, repeated
-from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.step.data import Contacts, StepData
 
 Rng = np.random.Generator
 

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.step.data import Contacts
 
 X, Y, Z = np.eye(3)
 

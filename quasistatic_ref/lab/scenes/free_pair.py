@@ -5,7 +5,8 @@ from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model.system import System
-from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.step.data import Contacts
 
 
 def pair_system() -> System:

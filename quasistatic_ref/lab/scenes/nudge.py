@@ -6,10 +6,10 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.scenes.systems import on_link, world_plane
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.shapes.placed_shape import PointCloud, Shape, Sphere
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.data import Array
 
 RADIUS, MASS, MU_V, MU_OMEGA, H = 0.05, 0.3, 0.4, 0.01, 0.01
 """Of the ball [m] and [kg], of all contacts [-] and [m], and of a step [s]."""

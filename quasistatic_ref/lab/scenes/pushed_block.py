@@ -14,11 +14,11 @@ from quasistatic_ref.lab.scenes.systems import (
     system_of,
     world_plane,
 )
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import ELLIPSOID
-from quasistatic_ref.step.data import Array
 
 SIDE, HEIGHT, RADIUS = 0.1, 0.04, 0.01
 """Of the block and of the finger [m]."""

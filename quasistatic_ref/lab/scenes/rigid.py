@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts, point_jacobian
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID
-from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
+from quasistatic_ref.step.data import Contacts, Extra, StepData
 
 
 def free_step(M: ArrayLike, force: ArrayLike, contacts: Contacts, h: float) -> StepData:

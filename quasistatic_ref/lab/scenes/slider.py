@@ -6,8 +6,9 @@ import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z, contacts_of
 from quasistatic_ref.lab.thresholds import exact
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 M, GYRATION, STIFFNESS, H = 0.3, 0.03, 1e6, 0.01
 """Mass [kg], radius of gyration [m], of the pusher [N/m], time step [s]."""

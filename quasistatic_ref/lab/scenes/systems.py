@@ -10,11 +10,11 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud, Shape
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.step.data import Array
 
 
 def words(values: ArrayLike) -> str:

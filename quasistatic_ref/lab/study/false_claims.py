@@ -17,7 +17,7 @@ import numpy as np
 
 from quasistatic_ref.lab.study.problems.problem import Answer
 from quasistatic_ref.lab.study.promises import RESIDUALS, Promise
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
 FACTOR = 10.0

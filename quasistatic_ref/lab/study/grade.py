@@ -28,9 +28,9 @@ from quasistatic_ref.lab.study.problems.problem import Answer, Problem
 from quasistatic_ref.lab.study.promises import RESIDUALS, UNSTATED, Promise
 from quasistatic_ref.lab.study.row import FAILED, NAN, SOLVED, WRONG_SHAPE
 from quasistatic_ref.lab.study.solvers import Solver
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import Units
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
 SLACK = 1e-13

@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.lab.program.mechanism import kinematics, slices
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 UNITS = {"floating": 3, "planar": 2, "continuous": 0}
 """Where in a joint's entries of q its quaternion, or (cos, sin), begins."""

@@ -5,7 +5,7 @@ from typing import ClassVar
 import numpy as np
 
 from quasistatic_ref.model.joints.joint import Coordinate, Joint
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array
 
 
 class AxisJoint(Joint):

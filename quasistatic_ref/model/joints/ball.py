@@ -6,7 +6,7 @@ from quasistatic_ref.model import screw
 from quasistatic_ref.model.joints.joint import QUATERNION
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.rotation import quaternion
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array
 
 
 class Ball(TwistJoint):

@@ -3,10 +3,10 @@
 import numpy as np
 
 from quasistatic_ref.model import screw
-from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import COSINE_SINE
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.angles import cos_sin
+from quasistatic_ref.numbers.arrays import Array
 
 
 class Continuous(AxisJoint):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array
 
 QUATERNION = "quaternion"
 COSINE_SINE = "(cos, sin)"

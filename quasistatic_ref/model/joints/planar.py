@@ -4,11 +4,11 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.model import screw
-from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.joints.joint import COSINE_SINE
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
-from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.ordered import length
+from quasistatic_ref.numbers.angles import cos_sin
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import length
 
 
 class Planar(TwistJoint):

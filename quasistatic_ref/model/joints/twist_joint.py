@@ -4,7 +4,7 @@ from abc import abstractmethod
 from typing import ClassVar
 
 from quasistatic_ref.model.joints.joint import Coordinate, Joint
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array
 
 AXES = (("x", "m"), ("y", "m"), ("z", "m"), ("rx", "rad"), ("ry", "rad"), ("rz", "rad"))
 """Entries of a twist, and their units."""

@@ -15,10 +15,9 @@ from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
 from quasistatic_ref.model.readers.text import check_points, number_or_nan, point_lines
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import PointCloud
-from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.data import Mask
 from quasistatic_ref.tolerances import LARGE
 
 SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")

@@ -11,8 +11,8 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull, hull_of_mesh
-from quasistatic_ref.step.arrays import Array, Indices
 
 MESHES = (".stl", ".obj", ".dae", ".ply", ".off", ".glb", ".gltf", ".3mf")
 WITH_UNITS = (".dae", ".3mf")

@@ -3,9 +3,9 @@
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.frozen import finite
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Sphere
-from quasistatic_ref.step.arrays import Array
 
 Homogeneous = Sphere | Box | Cylinder | Capsule
 """The shapes that a URDF has a name for, meshes aside."""

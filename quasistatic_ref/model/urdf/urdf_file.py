@@ -14,9 +14,9 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.model.urdf.urdf_tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
-from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.ordered import product
 
 INERTIA_TRIANGLE: Final = 1e-6
 """How far the largest principal moment of inertia may exceed the sum of the other two, relative.

@@ -18,8 +18,8 @@ from quasistatic_ref.model.readers.mesh_files import (
 )
 from quasistatic_ref.model.urdf.urdf_file import FileMesh, UrdfFile, written_shape
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import Capsule, PlacedShape, Sphere
-from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LOADED
 
 READ = {

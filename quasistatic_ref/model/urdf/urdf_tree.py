@@ -9,7 +9,7 @@ import numpy as np
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import JOINTS
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array
 
 Pose = tuple[Array, Array]
 

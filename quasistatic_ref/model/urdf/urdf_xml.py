@@ -17,7 +17,7 @@ import pinocchio as pin
 from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.model.readers.text import decimal
 from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.tolerances import LARGE
 
 ALIKE = 0.6

@@ -38,11 +38,11 @@ from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import field_values
+from quasistatic_ref.numbers.arrays import Array, finite, read_only
 from quasistatic_ref.simulate.failures import NoFixedPoint
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.step.arrays import Array, finite, read_only
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import slip_norms
 from quasistatic_ref.tolerances import ACCURACY

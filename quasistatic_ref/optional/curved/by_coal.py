@@ -22,13 +22,13 @@ import numpy as np
 from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.curved.settle import settled
 from quasistatic_ref.optional.curved.ways_out import rival_directions
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Ellipsoid, Shape
 from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.shapes.shape import coal_polytope
-from quasistatic_ref.step.data import Array
 
 WITNESS: Final = 1e-10
 """Largest disagreement of a convex pair's closest points with its distance and normal, relative to

@@ -12,9 +12,9 @@ import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import polytope
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape
-from quasistatic_ref.step.data import Array
 
 FLAT = 1e-11
 """Deviation [rad], or of lengths relative to the solid, at which a normal is that of a face."""

@@ -20,9 +20,9 @@ from quasistatic_ref.contact.crossings import (
 )
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.tied_faces import TURNED
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+from quasistatic_ref.numbers.ordered import crossed, dot, product, rotated
 from quasistatic_ref.shapes.placed_shape import Cone, Cylinder, Shape
-from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.step.ordered import crossed, dot, product, rotated
 from quasistatic_ref.tolerances import OVER_FACE, SKEW
 
 BOTH = np.array([[-1.0], [1.0]])

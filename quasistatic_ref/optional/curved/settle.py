@@ -13,8 +13,8 @@ from itertools import combinations
 import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.curved.faces import Face, curvature, face, placed_kinks
-from quasistatic_ref.step.data import Array
 
 NEAR = 1e-3
 """Angle [rad] between an approximate normal and the kinks that are tried."""

@@ -12,8 +12,8 @@ import numpy as np
 from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
-from quasistatic_ref.step.data import Array, Indices
-from quasistatic_ref.step.ordered import product
+from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.ordered import product
 
 SPREAD = 1024
 """Directions over the sphere, about 0.11 rad apart: no direction is farther than REACH from one."""

@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.model.mass_rates import MassRates
 from quasistatic_ref.optional.derivatives.model.tangent import difference_rates
 from quasistatic_ref.optional.derivatives.row_rates import RowRates
@@ -16,7 +17,7 @@ from quasistatic_ref.optional.derivatives.step.load_rates import load_rates
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.units import natural_units
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian
 
 Places = Mapping[str, slice]

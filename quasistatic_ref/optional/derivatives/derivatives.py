@@ -15,6 +15,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.optional.derivatives.gradient import (
     Derivatives,
     combined,
@@ -31,9 +32,7 @@ from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.arrays import checked_numbers
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import NEARLY
 
 __all__ = ["Derivatives", "derivatives"]

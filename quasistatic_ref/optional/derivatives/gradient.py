@@ -8,14 +8,13 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.optional.derivatives.data_rates import Places
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.optional.derivatives.step.reason import Obstacle, Reason
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.step.arrays import checked_numbers
-from quasistatic_ref.step.data import Array
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -5,6 +5,8 @@ from functools import cache
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Mask
+from quasistatic_ref.numbers.ordered import crossed
 from quasistatic_ref.optional.derivatives.contact.jumps import jumps
 from quasistatic_ref.optional.derivatives.contact.kinks import kinks
 from quasistatic_ref.optional.derivatives.step import reason
@@ -13,8 +15,6 @@ from quasistatic_ref.optional.derivatives.step.touching import Touching
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone, cone_matrix
-from quasistatic_ref.step.data import Mask
-from quasistatic_ref.step.ordered import crossed
 
 FIELDS = ("dq_dq",)
 

@@ -5,6 +5,7 @@ from collections.abc import Set
 import numpy as np
 
 from quasistatic_ref.formats.quoting import listed
+from quasistatic_ref.numbers.arrays import Mask
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.optimum_rates import OptimumRates
 from quasistatic_ref.optional.derivatives.step.reason import Obstacle, Reason
@@ -12,7 +13,6 @@ from quasistatic_ref.optional.derivatives.step.touching import Touching
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Mask
 from quasistatic_ref.tolerances import ON_RIM
 
 

@@ -12,12 +12,13 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import crossed
 from quasistatic_ref.optional.derivatives.contact.closest_point_rates import Rates
 from quasistatic_ref.optional.derivatives.contact.contact_rates import tangent_rates
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
-from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.step.data import Contacts
 from quasistatic_ref.step.friction import scaled_by
-from quasistatic_ref.step.ordered import crossed
 
 
 class RowRates:

@@ -9,6 +9,7 @@ import numpy as np
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.solution import SolverStatistics, step_solution
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.optional.derivatives.derivatives import check_derivable
 from quasistatic_ref.optional.derivatives.gradient import Derivatives, gradient
 from quasistatic_ref.optional.derivatives.kink_reasons import geometry_obstacles
@@ -17,8 +18,6 @@ from quasistatic_ref.optional.derivatives.step.barrier import barrier_rates, bar
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.arrays import checked_numbers
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import FILLED
 
 

@@ -20,6 +20,7 @@ from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.errors import InputError, NotDifferentiable
 from quasistatic_ref.model.configuration import normalised
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.derivatives import (
     check_derivable,
     check_nearly,
@@ -31,7 +32,6 @@ from quasistatic_ref.optional.derivatives.smoothed import check_kappa, smoothed
 from quasistatic_ref.optional.derivatives.step.reason import KINDS, Reason
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import NEARLY
 
 ARGUMENTS = ("q", "q_bar_a", "force", "kappa")

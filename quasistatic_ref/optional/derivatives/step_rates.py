@@ -4,6 +4,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.contact.contact_rates import contact_rates
 from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.data_rates import data_rates, parameter_units
@@ -14,7 +15,6 @@ from quasistatic_ref.optional.derivatives.row_rates import RowRates
 from quasistatic_ref.optional.derivatives.step.reason import Obstacle, Reason
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.data import Array
 
 
 class StepRates:

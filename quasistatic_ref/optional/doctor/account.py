@@ -18,6 +18,7 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.artifacts import pressing
 from quasistatic_ref.optional.doctor.telling import (
     drive_numbers,
@@ -37,7 +38,6 @@ from quasistatic_ref.simulate.account import (
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.friction import slip_norm
 from quasistatic_ref.tolerances import NEAR, SLIDES, SPINS, TOUCHES
 

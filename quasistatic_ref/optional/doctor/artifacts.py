@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.ordered import dot
 from quasistatic_ref.optional.doctor.start import free_bases
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array, Mask, StepData
-from quasistatic_ref.step.ordered import dot
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import BEARS
 
 LIGHT = 1e-3

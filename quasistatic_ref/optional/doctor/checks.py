@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor import (
     contradictions,
     drag,
@@ -22,7 +23,6 @@ from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.data import Array
 
 
 class Check(NamedTuple):

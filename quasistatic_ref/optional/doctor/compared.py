@@ -15,12 +15,13 @@ import numpy as np
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.artifacts import pressing
 from quasistatic_ref.optional.doctor.equilibrium import statics
 from quasistatic_ref.optional.doctor.start import SHORT, least, slices
 from quasistatic_ref.parts import if_there
 from quasistatic_ref.step.cones import ELLIPSOID, cone
-from quasistatic_ref.step.data import Array, Mask, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import slip_norms
 
 if TYPE_CHECKING:

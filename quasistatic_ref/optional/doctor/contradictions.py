@@ -7,11 +7,11 @@ from itertools import product
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.start import Start, body
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.step.data import Array
 
 DENSITIES = 10.0, 25_000.0
 """From foam to tungsten and gold [kg/m^3]."""

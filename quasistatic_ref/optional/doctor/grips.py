@@ -5,12 +5,12 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref.numbers.arrays import Indices, Mask
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import centre, least
 from quasistatic_ref.optional.doctor.task import Task
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.step.data import Indices, Mask
 from quasistatic_ref.tolerances import SLIPPED
 
 TURNED = 0.1

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.model.joints.planar import Planar
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.doctor.artifacts import pressing
 from quasistatic_ref.optional.doctor.equilibrium import borne, unsqueezed
 from quasistatic_ref.optional.doctor.run import Run
@@ -15,7 +16,7 @@ from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array, Indices, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import CRAWL, LOCKED, REPEATED, SAME_NORMAL
 

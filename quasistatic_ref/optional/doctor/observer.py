@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.account import scene_notes
 from quasistatic_ref.optional.doctor.artifacts import (
     boundary_layer,
@@ -27,7 +28,7 @@ from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.observer import Observer, Recording
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 
 class Doctor(Observer):

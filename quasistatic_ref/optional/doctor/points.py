@@ -9,6 +9,7 @@ from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.start import (
     Start,
     body,
@@ -20,7 +21,6 @@ from quasistatic_ref.optional.doctor.start import (
 from quasistatic_ref.parts import if_there
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import REPEATED, SUNK
 
 UPWARDS = 0.5

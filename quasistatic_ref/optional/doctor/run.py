@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.account import pair_accounts, sides
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.compared import Compared, RunStep
@@ -22,7 +23,7 @@ from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 ACCURATE = ("clarabel", "daqp")
 """Backends whose answers have ten digits without a proof."""

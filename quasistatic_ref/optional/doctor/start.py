@@ -13,11 +13,11 @@ from quasistatic_ref.errors import ContactError, ModelError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.extension import Extension
 
 FARTHEST = 1.0

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
 from quasistatic_ref.optional.doctor.telling import amount
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEYOND, FILLED, LEAP, SUNK
 
 JUMP = 0.1

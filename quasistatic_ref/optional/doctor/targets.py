@@ -5,11 +5,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.account import drive, stiffness
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.telling import amount
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEYOND, IN_METRES
 
 GROSS = 100.0

@@ -12,6 +12,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.numbers.arrays import Indices, Mask
 from quasistatic_ref.optional.doctor.account import side
 from quasistatic_ref.optional.doctor.placed import inside
 from quasistatic_ref.optional.doctor.run import Run
@@ -19,7 +20,6 @@ from quasistatic_ref.optional.doctor.start import joining, least
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.step.data import Indices, Mask
 from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import BEYOND, FILLED, LAGS, SLIPPED, STALLED, SUNK
 

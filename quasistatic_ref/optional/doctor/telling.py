@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate.account import Account, Drive, Motion, PairAccount, Stop
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import FILLED
 
 PRINTED = 4

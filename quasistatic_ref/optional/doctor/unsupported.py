@@ -10,12 +10,13 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import SHORT, Start, body, joining, least
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.step.data import Array, Extra, Mask
+from quasistatic_ref.step.data import Extra
 from quasistatic_ref.tolerances import NEAR
 
 ROUNDS = 100

@@ -18,6 +18,8 @@ from quasistatic_ref.certify.minimiser import rounded_quotients
 from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.apex import apex
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     BITS,
@@ -31,8 +33,6 @@ from quasistatic_ref.optional.ellipsoid.forces import compliant_forces
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.optional.gap import duality_gap, fractions
-from quasistatic_ref.precision import working_precision
-from quasistatic_ref.step.arrays import Array, Mask
 from quasistatic_ref.step.cones import ELLIPSOID, Judge, Rows, Violations
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import ENCLOSED, IMPULSES

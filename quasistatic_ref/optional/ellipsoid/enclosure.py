@@ -21,6 +21,8 @@ from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm, exact_matri
 from quasistatic_ref.certify.minimiser import rounded_quotients
 from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.certify.rows import contact_rows
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.apex import apex
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import raised
@@ -28,8 +30,7 @@ from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, diagonal, 
 from quasistatic_ref.optional.ellipsoid.newton import OPEN, SLIDES, contact_states, newton_pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import ScaledBlocks, scaled_blocks
 from quasistatic_ref.optional.gap import duality_gap, fractions, inner, nearest_above, square_root
-from quasistatic_ref.precision import working_precision
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import ENCLOSED
 
 BITS: Final = 640

@@ -18,6 +18,8 @@ from flint import arb
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     BITS,
     checked,
@@ -27,8 +29,7 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
 )
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from quasistatic_ref.optional.gap import square_root
-from quasistatic_ref.precision import working_precision
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 P_OF_WRENCH: Final = [2, 0, 1, 3]
 """Where the parts of p stand in a wrench."""

@@ -4,8 +4,9 @@ from collections.abc import Iterator, Sequence
 
 from flint import arb, fmpq
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.gap import fractions, nearest_above
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 ONE = fmpq(1)
 

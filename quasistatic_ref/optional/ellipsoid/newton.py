@@ -19,9 +19,9 @@ from typing import Final
 import numpy as np
 from flint import arb, arb_mat
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, column, diagonal, length
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import largest
-from quasistatic_ref.step.data import Array
 
 EPSILON: Final = arb(2) ** -60
 """An iteration gains at most the 60 bits of this number; its linear systems lose as many."""

@@ -5,10 +5,11 @@ from dataclasses import dataclass
 from flint import arb
 
 from quasistatic_ref.certify.form import ExactForm
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, column, diagonal
 from quasistatic_ref.optional.gap import inner, square_root
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,6 +21,7 @@ from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import BackendError, InputError, StepDataError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.extensions.conic import conic_program, conic_residuals
 from quasistatic_ref.optional.extensions.quadratic import quadratic_program
 from quasistatic_ref.optional.extensions.rises import with_rises
@@ -34,7 +35,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import RELAXED, Solver
 from quasistatic_ref.solve.units import Units, driven, in_si, natural_step, natural_units
 from quasistatic_ref.step.cones import cone, frictionless
-from quasistatic_ref.step.data import Array, Extra, StepData, no_rows
+from quasistatic_ref.step.data import Extra, StepData, no_rows
 from quasistatic_ref.step.extension import Extension, Symbols, none
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 

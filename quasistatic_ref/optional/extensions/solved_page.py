@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.problem import StepProblem
 
 

@@ -9,9 +9,9 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.optional.extensions.urdf_joints import urdf_joints
-from quasistatic_ref.step.arrays import freeze_copies
-from quasistatic_ref.step.data import Array, Extra, Indices
+from quasistatic_ref.step.data import Extra
 
 
 @dataclass(frozen=True, eq=False)

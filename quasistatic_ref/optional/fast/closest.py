@@ -7,11 +7,11 @@ import numpy as np
 from quasistatic_ref.contact.distance import ClosestPoints, check_finite, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import UNIQUE_NORMAL
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.step.data import Array, Indices
 
 
 def solid_size(pair: ContactPair) -> Array | None:

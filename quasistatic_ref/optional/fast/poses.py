@@ -5,7 +5,7 @@ import numpy as np
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
 from quasistatic_ref.model.workspace import ORIGIN, WORLD
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 
 class Poses:

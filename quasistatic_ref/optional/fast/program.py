@@ -6,12 +6,12 @@ from typing import Any
 import daqp
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.steps import Steps
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import HessianInBothUnits, Units
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.groups import Group
 from quasistatic_ref.step.standard_form import StandardForm
 

@@ -15,6 +15,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.optional.fast.library import ffi, library, missing
 from quasistatic_ref.optional.fast.poses import Poses
 from quasistatic_ref.optional.fast.program import NaturalProgram
@@ -29,9 +30,8 @@ from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import HessianInBothUnits, StepInBothUnits
-from quasistatic_ref.step.arrays import without_warnings
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.groups import labels
 from quasistatic_ref.step.standard_form import StandardForm, standard_form

@@ -7,15 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.numbers.arrays import Array, Indices, read_only
+from quasistatic_ref.numbers.pivots import positive_definite
 from quasistatic_ref.optional.fast.closest import Closest
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.cones import cone, cone_function, cone_matrix
 from quasistatic_ref.step.contacts import Contacts, friction_coefficients
-from quasistatic_ref.step.data import Array, Indices, StepData, hessian, no_rows, row_layout
-from quasistatic_ref.step.pivots import positive_definite
+from quasistatic_ref.step.data import StepData, hessian, no_rows, row_layout
 from quasistatic_ref.step.standard_form import StandardForm
 
 FRAMES = ("d1", "d2", "J", "tau", "g")

@@ -5,12 +5,12 @@ Sines and angles that C cannot decide are Python's.
 
 import numpy as np
 
-from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.angles import cos_sin
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
-from quasistatic_ref.step.data import Array
 
 
 class Sums:

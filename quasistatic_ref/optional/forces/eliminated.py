@@ -16,9 +16,9 @@ from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import EXACT, MatrixForm, Row, StepForm, columns
 from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.forces.faces import Rows, face, nearest_face
-from quasistatic_ref.precision import working_precision
-from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import scaled_by
 

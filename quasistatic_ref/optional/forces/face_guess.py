@@ -17,8 +17,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from scipy.optimize import nnls
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.forces.faces import Rows, face, rows_of
-from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian, scaled_by
 from quasistatic_ref.step.standard_form import linear_term

@@ -12,8 +12,8 @@ from flint import arb_mat, fmpq_mat
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.form import EXACT, MatrixForm, exact_matrix, fraction
-from quasistatic_ref.precision import working_precision
-from quasistatic_ref.step.arrays import Array, read_only
+from quasistatic_ref.numbers.arrays import Array, read_only
+from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 

@@ -43,13 +43,13 @@ from quasistatic_ref.certify.failures import StepInfeasible, StepNotSolved
 from quasistatic_ref.certify.form import EXACT, MatrixForm, StepForm, columns, exact_matrix
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.numbers.arrays import Array, without_warnings
+from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.forces.eliminated import eliminated_optimum
 from quasistatic_ref.optional.forces.face_guess import guessed_faces
 from quasistatic_ref.optional.forces.faces import cone_rows
 from quasistatic_ref.optional.forces.of_group import NOTHING_MOVES, group_compliance
-from quasistatic_ref.precision import working_precision
-from quasistatic_ref.step.arrays import without_warnings
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian, scaled_by
 from quasistatic_ref.step.groups import group_steps
 

@@ -22,9 +22,9 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Indices, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian, scaled_by
 from quasistatic_ref.step.groups import labels
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.touches import StateContact
-from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.tolerances import CREEP, FORCES_AGREE, STEADY
 

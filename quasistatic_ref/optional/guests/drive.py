@@ -14,10 +14,10 @@ import numpy as np
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.settled import numbered
 from quasistatic_ref.optional.guests.system import MujocoSystem
 from quasistatic_ref.simulate.target import piecewise_linear
-from quasistatic_ref.step.arrays import Array
 
 if TYPE_CHECKING:
     from mujoco import MjData

@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.fates import kind_of, named
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState
-from quasistatic_ref.step.arrays import Array
 
 
 class Spring(NamedTuple):

@@ -13,13 +13,13 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.optional.guests import constraints, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
 from quasistatic_ref.optional.guests.loads import Spring, diagonal_of_H, loads
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural, moved, mujoco_state
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.units import coordinate_units
-from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.extension import Rises

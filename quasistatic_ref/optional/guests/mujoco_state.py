@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.step.arrays import Array, Indices, Mask
 from quasistatic_ref.tolerances import FULL_RANK
 
 if TYPE_CHECKING:

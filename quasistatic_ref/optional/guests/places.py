@@ -12,6 +12,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import UNIQUE_NORMAL
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState
 from quasistatic_ref.optional.guests.touches import USED_OR_IN_GAP, friction
 from quasistatic_ref.shapes.convex_mesh import convex_hull
@@ -25,7 +26,6 @@ from quasistatic_ref.shapes.placed_shape import (
     Shape,
     Sphere,
 )
-from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import FILLED, REPEATED
 
 if TYPE_CHECKING:

@@ -14,6 +14,7 @@ from quasistatic_ref.errors import InputError, ModelError, ScenarioError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import Kinematics, System
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.drive import Drive, Driven, drive_of
 from quasistatic_ref.optional.guests.mujoco import default_cone, first_equality
 from quasistatic_ref.optional.guests.places import overlapped_children
@@ -29,7 +30,6 @@ from quasistatic_ref.simulate.settings import usable_backend
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.extension import ExtensionOfQ
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.mujoco_state import check_finite
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.step.arrays import Array
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural
-from quasistatic_ref.step.arrays import Array, Mask
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.tolerances import DEEP
 

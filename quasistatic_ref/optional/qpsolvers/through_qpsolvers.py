@@ -7,11 +7,11 @@ from time import perf_counter
 import numpy as np
 import qpsolvers
 
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
 from quasistatic_ref.solve.units import StepInBothUnits, within_reach
-from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 

@@ -14,8 +14,8 @@ from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.formats.npz import array_of, npz_arrays, readable
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
 from quasistatic_ref.model.readers.text import check_points
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.step.arrays import Array
 
 LARGEST_HEADER = 2**20
 """Bytes in which the number of a file's points must stand."""

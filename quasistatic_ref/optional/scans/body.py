@@ -14,11 +14,11 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.readers.clouds import seen_points
 from quasistatic_ref.model.readers.mesh_files import MESHES, loaded_mesh
 from quasistatic_ref.model.rotation import rotation
+from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.optional.scans.closed import closed_mesh
 from quasistatic_ref.optional.scans.cloud import spacing, stray, thinned
 from quasistatic_ref.optional.scans.lying import points_to_lie_on
 from quasistatic_ref.optional.scans.solid import MOST, Solid, solid_of_points
-from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
 
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254}
 """[m]"""

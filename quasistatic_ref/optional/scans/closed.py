@@ -5,7 +5,7 @@ import trimesh
 from manifold3d import Manifold, Mesh64
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.numbers.arrays import Array, Indices
 
 DIGITS = 7
 """Digits of the extent to which corners at one place agree: a bit of a float32 is 6e-8 [-]."""

@@ -5,7 +5,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import ConvexHull, cKDTree
 
-from quasistatic_ref.step.arrays import Array, Indices, Mask
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 
 LINKED = 6.0
 """Points of one surface are linked by gaps of at most so many median distances to the nearest."""

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.contact.jacobian import tangents
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array
 
 FEWEST = 4
 """Fewest contacts that are suggested: corners of a face."""

@@ -8,8 +8,8 @@ import trimesh
 from scipy.spatial import ConvexHull, Delaunay, QhullError
 
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.scans.cloud import smoothed, spacing
-from quasistatic_ref.step.arrays import Array, Indices, Mask
 
 FACES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
 """Corners of the face of a tetrahedron that lies across from each of its corners, wound outwards

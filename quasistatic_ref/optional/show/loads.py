@@ -9,8 +9,8 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 
 if TYPE_CHECKING:
+    from quasistatic_ref.numbers.arrays import Array, Mask
     from quasistatic_ref.simulate.trajectory import Trajectory
-    from quasistatic_ref.step.arrays import Array, Mask
 
 BEARING: Final = 1e-3
 """A contact bears load above this share of the largest normal force [-]."""

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat
 
+from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, interior_point
 from quasistatic_ref.optional.ellipsoid.newton import (
     INWARDS,
@@ -13,7 +14,6 @@ from quasistatic_ref.optional.ellipsoid.newton import (
     contact_states,
     newton_pair,
 )
-from quasistatic_ref.precision import working_precision
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import ROUNDING
 

@@ -14,8 +14,8 @@ from quasistatic_ref.lab.scenes.systems import (
     world_plane,
 )
 from quasistatic_ref.lab.thresholds import grid
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 M = 0.4

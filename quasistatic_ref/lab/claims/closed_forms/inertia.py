@@ -6,7 +6,7 @@ from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
 from quasistatic_ref.lab.thresholds import exact
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 STEPS = 40
 

@@ -7,7 +7,8 @@ import numpy as np
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.thresholds import exact, threshold_near
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.step.data import StepData
 
 MU = 0.6
 RADIUS = 0.012

@@ -6,7 +6,8 @@ from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, sum_of
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step
 from quasistatic_ref.lab.thresholds import exact, grid, thresholds
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 M = 0.3

@@ -10,8 +10,8 @@ from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.claims.engines.mujoco_scenes import Heap, heap
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import pyramid
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.friction import friction_rows
 
 SCENES = 12

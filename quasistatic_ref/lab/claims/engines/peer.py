@@ -16,11 +16,12 @@ from quasistatic_ref.lab.folders import peer_file
 from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates, Equations
 from quasistatic_ref.optional.derivatives.step.touching import touching_rows
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 TIGHT, AS_IT_COMES, DEFAULT = 1e-8, 1e-7, 1e-4
 """Of its runs with tolerances of 1e-12, with Clarabel's own and with OSQP [m, rad]: what these

@@ -11,7 +11,7 @@ from quasistatic_ref.lab.reality.measurements import loads_read, pairs_read, pus
 from quasistatic_ref.lab.reality.predict import prediction
 from quasistatic_ref.lab.reality.push import pushed_scene
 from quasistatic_ref.lab.reality.settings import Settings
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 EVERY, ADVANCE = 100, 2e-3
 """Of the pushes of each pair; the finger's way in a step [m]."""

@@ -8,8 +8,8 @@ from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.scenes.free_pair import geometry, pair_system
 from quasistatic_ref.lab.scenes.systems import cloud_on, on_link
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
-from quasistatic_ref.step.data import Array
 
 SHAPES: dict[str, Shape] = {
     "sphere": Sphere(0.05),

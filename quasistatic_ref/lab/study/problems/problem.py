@@ -8,8 +8,8 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from quasistatic_ref.certify.norm import error_length
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.units import Units
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
 QP, SOCP = "qp", "socp"

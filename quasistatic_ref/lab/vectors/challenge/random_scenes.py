@@ -22,7 +22,7 @@ from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
 )
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.tables import GRAVITY, free_body, link, on, scene
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 CONES = ("pyramid", "pyramid", "pyramid", "product", "facets-6", "facets-8", "frictionless")
 GAPS = (0.0005, 0.0, -0.0005, 0.01)

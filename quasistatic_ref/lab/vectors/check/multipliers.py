@@ -13,7 +13,7 @@ from quasistatic_ref.lab.vectors.check.compare import number_problem, tolerance_
 from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptance, failure
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 EPS = float(np.finfo(np.float64).eps)
 NEGLIGIBLE = 1e-9

@@ -22,7 +22,7 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.layers.qp import matrices
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 FIELDS = ("phi", "alpha", "beta", "n")
 SAME_WAY = 1e-12

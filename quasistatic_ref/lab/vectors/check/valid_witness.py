@@ -13,7 +13,7 @@ from quasistatic_ref.lab.program.distance import on_halfspace, points_on
 from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.tables import ORIGIN
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 Sides: TypeAlias = dict[str, tuple[Json, tuple[Array, Array]]]
 """Shape, and R and t of its pose, of ``alpha`` and of ``beta``."""

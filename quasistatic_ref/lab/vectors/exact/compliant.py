@@ -11,7 +11,7 @@ from quasistatic_ref.lab.vectors.exact.entered import exact
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.lab.vectors.exact.precision import number, rounded_results
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 Program: TypeAlias = "tuple[Array, Array, Array, Array]"
 """H, g, A and b."""

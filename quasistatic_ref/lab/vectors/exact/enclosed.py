@@ -14,10 +14,10 @@ from quasistatic_ref.lab.vectors.exact.conditioning import ROUNDINGS, floors
 from quasistatic_ref.lab.vectors.exact.precision import DIGITS, dyadic_fraction
 from quasistatic_ref.lab.vectors.exact.rational import UNIT, tolerance
 from quasistatic_ref.lab.vectors.expected import Expected
+from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.enclosure import BITS as PROVED
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, enclosed_error
 from quasistatic_ref.optional.gap import square_root
-from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.data import StepData
 
 GAP = arb(2) ** -280

@@ -5,8 +5,8 @@ import numpy as np
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.form import MatrixForm, exact_matrix
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.pivots import exact_factor
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.pivots import exact_factor
 
 
 def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> MatrixForm:

@@ -21,7 +21,7 @@ from quasistatic_ref.certify.rounding import nearest_fraction, nearest_in
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.lab.program import number as kinds
 from quasistatic_ref.lab.vectors.trees import mapped
-from quasistatic_ref.precision import working_precision
+from quasistatic_ref.numbers.precision import working_precision
 
 Real: TypeAlias = Any
 """An fmpq or an arb. They mix freely, which their type hints cannot say."""

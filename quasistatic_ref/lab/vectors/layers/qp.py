@@ -27,7 +27,8 @@ from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.lab.vectors.exact.precision import rounded_results, short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.step.data import StepData
 
 UNIQUE = 1e-6
 """Largest tolerance of lam, relative to its largest entry, at which its entries are compared."""

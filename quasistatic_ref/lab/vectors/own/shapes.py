@@ -8,10 +8,10 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.rotation import rotation
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes import placed_shape as shapes
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PointCloud, Shape
-from quasistatic_ref.step.data import Array
 
 
 def own_shape(shape: dict[str, Any]) -> Shape:

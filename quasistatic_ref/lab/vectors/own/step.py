@@ -17,11 +17,12 @@ from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.own.shapes import own_shape
 from quasistatic_ref.lab.vectors.own.system import OwnSystem, own_system
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.forces.forces import contact_forces
 from quasistatic_ref.optional.forces.of_group import group_compliance
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.data import Contacts, StepData
 from quasistatic_ref.step.groups import group_steps
 from quasistatic_ref.step.standard_form import standard_form
 

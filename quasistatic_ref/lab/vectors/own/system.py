@@ -15,7 +15,7 @@ from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of, words
 from quasistatic_ref.lab.vectors.converters import places
 from quasistatic_ref.model.system import System
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.numbers.arrays import Array
 
 _BASES = ("floating", "planar")
 

@@ -24,9 +24,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
-from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import CONSISTENT, SPLIT, UNIQUE
 
 

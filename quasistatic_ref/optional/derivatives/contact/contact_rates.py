@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.contact.closest_point_rates import (
     Rates,
     closest_point_rates,
@@ -16,7 +17,7 @@ from quasistatic_ref.optional.derivatives.contact.couples import (
 )
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
-from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.step.data import Contacts
 from quasistatic_ref.tolerances import LEVEL, SPLIT, UNIQUE
 
 

@@ -6,10 +6,10 @@ from quasistatic_ref.contact.separations import tied_normals
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.contact.tied_faces import TURNED, faces_apart
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import Ellipsoid, HalfSpace, PointCloud, Shape, Sphere
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import TIED
 
 CURVED = "the derivative of a contact of curved solids"

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import (
     Box,
@@ -28,7 +29,6 @@ from quasistatic_ref.shapes.placed_shape import (
     Shape,
     Sphere,
 )
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
 
 NONE = np.zeros((0, 3))

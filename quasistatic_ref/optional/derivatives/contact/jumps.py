@@ -12,11 +12,11 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates
 from quasistatic_ref.optional.derivatives.contact.couples import Couple, PairInWorld
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import REPEATED, TIED
 
 LEVEL = 1e-11

@@ -4,12 +4,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.derivatives.contact.closest_point_rates import Rates
 from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates, dependent
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import FILLED, TIED, UNIQUE
 
 PARALLEL = reason.MANY, "has more than one closest pair of points: parallel surfaces"

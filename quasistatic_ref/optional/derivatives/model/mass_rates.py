@@ -9,9 +9,9 @@ import numpy as np
 
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.optional.derivatives.model.tangent import bracket, cross_matrix
-from quasistatic_ref.step.arrays import Array
 
 SWAPPED = [3, 4, 5, 0, 1, 2]
 

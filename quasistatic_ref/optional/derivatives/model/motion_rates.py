@@ -15,8 +15,8 @@ import numpy as np
 
 from quasistatic_ref.model.column_map import JointColumns
 from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.model.tangent import bracket
-from quasistatic_ref.step.arrays import Array
 
 
 class MotionRates:

@@ -16,8 +16,8 @@ import numpy as np
 
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
-from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.ordered import crossed
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import crossed
 
 TERMS = 28
 """Of the series: of a turn by pi the rest is below 1e-16 of the twist."""

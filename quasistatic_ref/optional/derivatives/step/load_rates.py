@@ -6,7 +6,8 @@ By q it changes by h K_q d(q_bar_a (-) q_a), by h times the change of gravity's 
 
 import numpy as np
 
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.step.data import StepData
 
 
 def load_rates(step: StepData, x: Array) -> dict[str, Array]:

@@ -7,13 +7,13 @@ than dv: as much, at most, is taken from it.
 
 import numpy as np
 
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.derivatives.step.optimum_rates import (
     DataRates,
     Equations,
     OptimumRates,
 )
 from quasistatic_ref.optional.derivatives.step.touching import BEARING, bearing, unit_rows
-from quasistatic_ref.step.data import Array, Indices
 
 
 def nearly_weak(

@@ -19,8 +19,8 @@ from typing import Final
 import numpy as np
 from scipy.optimize import nnls
 
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.derivatives.step.touching import Touching, bearing, unit_rows
-from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT, SPLIT
 
 INDEPENDENT: Final = 3e-4

@@ -2,7 +2,7 @@
 
 from typing import Final, NamedTuple
 
-from quasistatic_ref.step.data import Mask
+from quasistatic_ref.numbers.arrays import Mask
 
 WEAK = "weakly active row"
 """A row touches without load: a contact that is just reached, friction at its limit."""

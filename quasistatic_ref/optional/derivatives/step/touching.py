@@ -13,8 +13,8 @@ import numpy as np
 from scipy.optimize import nnls
 
 from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.step.cones import cone_matrix
-from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.friction import frame_jacobian, impulses, scaled_by
 from quasistatic_ref.step.standard_form import linear_term
 from quasistatic_ref.tolerances import DEPENDENT, FILLED, SPLIT

@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.style import PAGE, figure_style, panels
 from quasistatic_ref.simulate.account import Account
-from quasistatic_ref.step.arrays import Array
 
 MILLI: Final = 1e3
 BAR: Final = 0.3

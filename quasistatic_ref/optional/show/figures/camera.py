@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from matplotlib.patches import Patch
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import listed
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.looks import CONE_EDGE, CONE_FACE, FORCE
 from quasistatic_ref.optional.show.figures.moments import (
@@ -27,7 +28,6 @@ from quasistatic_ref.optional.show.figures.pens import (
 )
 from quasistatic_ref.optional.show.figures.style import legend_above, scaled
 from quasistatic_ref.optional.show.loads import BEARING
-from quasistatic_ref.step.arrays import Array
 
 PARTS: Final = ("contacts", "frames", "cones", "forces")
 """What of contacts can be drawn."""

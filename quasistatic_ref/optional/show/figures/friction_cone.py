@@ -10,6 +10,7 @@ from matplotlib.patches import Patch, Polygon
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.looks import (
     CONE_EDGE,
     CONE_FACE,
@@ -18,7 +19,6 @@ from quasistatic_ref.optional.show.figures.looks import (
     force_arrow,
 )
 from quasistatic_ref.optional.show.figures.style import legend_above
-from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import cone, cone_matrix
 
 FAINT: Final = 0.5

@@ -14,9 +14,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.patheffects import withStroke
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.style import scaled
-from quasistatic_ref.step.arrays import Array
 
 if TYPE_CHECKING:
     from quasistatic_ref.model.system import System

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.friction_cone import limit_at
 from quasistatic_ref.optional.show.figures.looks import link_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points
@@ -15,7 +16,6 @@ from quasistatic_ref.optional.show.loads import bearing, shown_forces
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.arrays import Array
 
 SLIP = 1e-9
 """A contact that bears load slides where beta moves along the tangents by more in a step, or turns

@@ -9,6 +9,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.patches import Polygon
 from scipy.spatial import ConvexHull, QhullError
 
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.looks import (
     CONE_EDGE,
@@ -24,7 +25,6 @@ from quasistatic_ref.optional.show.figures.moments import Moment
 from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
-from quasistatic_ref.step.arrays import Array
 
 PLANES: Final = {"xy": Camera(-90, 90), "xz": Camera(-90, 0), "yz": Camera(0, 0)}
 """Views along an axis of the world, named by what is to the right and what is up."""

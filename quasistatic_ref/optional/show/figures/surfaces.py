@@ -7,8 +7,8 @@ import trimesh
 
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.solids.polytope import polytope
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes import placed_shape as shapes
-from quasistatic_ref.step.arrays import Array
 
 AROUND, UP = 48, 24
 """Corners of round shapes around their axis and along it: no level is in the middle of a side."""

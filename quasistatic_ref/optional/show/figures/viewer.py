@@ -18,6 +18,7 @@ import numpy as np
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.draw import force_scale
 from quasistatic_ref.optional.show.figures.looks import (
     CAMERA,
@@ -35,7 +36,6 @@ from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.arrays import Array
 
 FRAMES_PER_SECOND = 30
 LONGEST = 0.25

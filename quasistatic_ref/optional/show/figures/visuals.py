@@ -18,11 +18,11 @@ from quasistatic_ref.model.urdf.urdf_file import (
     written_shape,
 )
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.looks import body_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points, triangles
 from quasistatic_ref.shapes.shape import Shape
 from quasistatic_ref.simulate.scene import HasScene
-from quasistatic_ref.step.arrays import Array
 
 AROUND, UP = 32, 12
 """Corners of round shapes around their axis and along it."""

@@ -4,7 +4,7 @@ from threading import Thread
 
 from flint import ctx
 
-from quasistatic_ref.precision import working_precision
+from quasistatic_ref.numbers.precision import working_precision
 
 
 def test_a_precision_lasts_until_its_block_ends_whatever_other_threads_ask_for():

@@ -5,7 +5,7 @@ import math
 import mpmath
 import numpy as np
 
-from quasistatic_ref.model.angles import angle_of, cos_sin
+from quasistatic_ref.numbers.angles import angle_of, cos_sin
 
 HARD = (0.0, 5e-324, 1e-310, 1e-8, math.pi / 2, math.pi, 1e22, 1e300, 1.7976931348623157e308)
 """Zero and subnormal numbers, cosines that cancel, and turns of 1,000 bits."""

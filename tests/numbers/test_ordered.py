@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.step.ordered import crossed, dot, length, norm, product, rotated
+from quasistatic_ref.numbers.ordered import crossed, dot, length, norm, product, rotated
 
 RNG = np.random.default_rng(3)
 

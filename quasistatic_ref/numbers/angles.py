@@ -9,7 +9,7 @@ import math
 
 from flint import arb
 
-from quasistatic_ref.precision import working_precision
+from quasistatic_ref.numbers.precision import working_precision
 
 PRECISIONS = (128, 512, 2048)
 """Bits, tried in turn. Of 128 a number is too near to the middle between two float64 numbers once

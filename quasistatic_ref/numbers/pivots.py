@@ -22,7 +22,7 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array
 
 SYMMETRIC: Final = 1e-12
 """Largest |S - S'| relative to the largest entry of a stiffness or mass matrix.
@@ -32,7 +32,7 @@ is removed: the lower triangle counts."""
 
 DEFINITE: Final = 1e-14
 """Smallest pivot of a stiffness or mass matrix relative to its diagonal entry, which has the same
-unit; decided without rounding (step/pivots.py).
+unit; decided without rounding (numbers/pivots.py).
 
 Cholesky of a singular matrix leaves rounding of 1e-16 for a pivot; a matrix this near to one has
 a condition number above 1e14, and its inverse no correct digit."""

@@ -14,7 +14,7 @@ from operator import add
 
 import numpy as np
 
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.numbers.arrays import Array
 
 YZX = np.array([1, 2, 0])
 ZXY = np.array([2, 0, 1])

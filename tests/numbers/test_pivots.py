@@ -6,8 +6,8 @@ import pytest
 from quasistatic_ref import StepData, StepDataError, solve_step
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.numbers.pivots import DEFINITE, positive_pivots
 from quasistatic_ref.solve.units import float_inverse
-from quasistatic_ref.step.pivots import DEFINITE, positive_pivots
 from tests.oracles.attacked_steps import positive_definite, singular
 from tests.tolerances import ROUNDING
 

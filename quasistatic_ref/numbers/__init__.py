@@ -1,0 +1,1 @@
+"""Arrays, ordered sums, pivots, precision and angles: numerics that several folders need."""
