@@ -57,8 +57,8 @@ _HOMES = {
     "optional.show.figures.viewer": "view_written",
     "simulate.motions": "relative_turn",
     # What can go wrong.
-    "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
-    "BackendError NotDifferentiable",
+    "errors": "QuasistaticError InputError MissingKey StepDataError ModelError ContactError "
+    "ScenarioError BackendError NotDifferentiable",
     "certify.failures": "StepNotSolved StepInfeasible StepIllPosed",
     "simulate.failures": "LimitExceeded NoFixedPoint RunFailed",
 }

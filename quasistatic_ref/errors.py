@@ -44,8 +44,8 @@ class QuasistaticError(Exception):
         return _rebuilt, (type(self), self.args, self.__dict__)
 
 
-class InputError(QuasistaticError):
-    """Something given by the user cannot be used.
+class InputError(QuasistaticError, ValueError):
+    """Something given by the user cannot be used; a ValueError.
 
     Parameters
     ----------
@@ -92,6 +92,20 @@ class InputError(QuasistaticError):
         if self.file is None:
             self.file = file
         return self
+
+
+class MissingKey(InputError, KeyError):
+    """A name in square brackets is none of those that there are; a KeyError.
+
+    Examples
+    --------
+    >>> run = qr.load_scenario("sphere_spin", steps=1).run(progress=False)
+    >>> try:
+    ...     run["phy"]
+    ... except KeyError as error:
+    ...     print(error)
+    phy: is not an array of this trajectory; did you mean 'phi'?
+    """
 
 
 class StepDataError(InputError):

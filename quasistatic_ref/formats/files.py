@@ -149,6 +149,8 @@ def bytes_read(
         return path.read_bytes()
     except FileNotFoundError:
         raise error("no such file", file=path) from None
+    except InputError:
+        raise
     except (OSError, ValueError) as failure:  # ValueError: a NUL character in the name
         reason = getattr(failure, "strerror", None) or str(failure)
         raise error(f"cannot be read: {reason}", file=path) from None
@@ -172,6 +174,8 @@ def json_read(path: str | Path) -> Any:
             _check_characters(text, value)
     except json.JSONDecodeError as error:
         raise InputError(f"is not JSON: {error}", file=path) from None
+    except InputError:
+        raise
     except (RecursionError, ValueError):  # nested too deeply, or an integer of too many digits
         raise InputError("is not usable JSON: too deep, or a number too long", file=path) from None
     return value
@@ -210,6 +214,8 @@ def toml_read(
         except tomllib.TOMLDecodeError as failure:
             wanted = "TOML" if Path(path).suffix == ".toml" else what
             raise error(f"is not {wanted}: {failure}") from None
+        except InputError:
+            raise
         except (RecursionError, ValueError):
             raise error("is nested too deeply, or holds an unusable number") from None
 

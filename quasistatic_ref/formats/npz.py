@@ -103,6 +103,8 @@ def header_of(path: str | Path, what: str, header: NDArray[Any] | None) -> Any:
         try:
             text = text_of(header.tobytes(), path)
             return json.loads(text, object_pairs_hook=unique_fields)
+        except InputError:
+            raise
         except (ValueError, RecursionError):
             raise InputError(f"is not {what}: its header is not JSON") from None
 
@@ -121,6 +123,8 @@ def readable(path: str | Path, problem: str) -> Iterator[None]:
     try:
         with about_file(path), warnings.catch_warnings(action="ignore"):
             yield
+    except InputError:
+        raise
     except UNREADABLE as error:
         reason = " ".join(str(error).split())[:80]
         raise InputError(f"{problem}{': ' if reason else ''}{reason}", file=path) from None

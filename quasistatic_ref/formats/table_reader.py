@@ -169,6 +169,8 @@ class TableReader:
             if any(isinstance(v, bool) or not isinstance(v, int | float) for v in array.flat):
                 raise self.error_about(field, f"must contain numbers only ({wanted})", value)
             numbers = array.astype(np.float64)
+        except InputError:
+            raise
         except (ValueError, OverflowError, TypeError, RuntimeError):  # 33 axes and more
             raise self.error_about(field, f"must be {wanted} finite numbers", value) from None
         if numbers.shape == (0,) and 0 in shape:

@@ -13,6 +13,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.readers.mesh_files import PACKAGE
 
@@ -70,6 +71,8 @@ def _path(
         if text.startswith(PACKAGE):
             return _installed(table, field, text)
         inside = isinstance(text, OwnWord) or lies_in(path, [folder, *roots])
+    except InputError:
+        raise
     except (ValueError, RuntimeError, OSError) as error:  # a NUL character; links in a circle
         raise table.error_about(field, f"cannot be a path: {error}", text) from None
     if not inside:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.certify.contact_forces import ContactForces, forces_near
 from quasistatic_ref.certify.solution import UNKNOWN
-from quasistatic_ref.errors import InputError, about_file
+from quasistatic_ref.errors import InputError, MissingKey, about_file
 from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.formats.npz import json_array, npz_record
 from quasistatic_ref.formats.plain import Plain
@@ -102,7 +102,7 @@ class Trajectory(Plain, HasPage):
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self.arrays:
             near = nearest_name(str(name), self.arrays)
-            raise InputError(f"is not an array of this trajectory{near}", field=str(name))
+            raise MissingKey(f"is not an array of this trajectory{near}", field=str(name))
         return self.arrays[name]
 
     def __getattr__(self, name: str) -> NDArray[Any]:
@@ -308,7 +308,7 @@ class Trajectory(Plain, HasPage):
         -------
         dict of str to ndarray, shape (steps, 3)
             Sums of :attr:`forces` over the pair's contacts [N], world frame. A name of no pair is
-            answered by an InputError that lists the pairs.
+            answered by a MissingKey that lists the pairs.
 
         Raises
         ------

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.pairs import contact_layout
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, MissingKey
 from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate.scene import HasScene
@@ -105,7 +105,7 @@ class ByPair(dict[str, Array]):
     """What is known of each pair, by its name; another name is answered by the names of all."""
 
     def __missing__(self, name: str) -> Array:
-        raise InputError(f"is no pair; {known_names(self)}", field=str(name))
+        raise MissingKey(f"is no pair; {known_names(self)}", field=str(name))
 
 
 def pair_forces(contacts: ContactsOverSteps, pairs: Sequence[str]) -> dict[str, Array]:

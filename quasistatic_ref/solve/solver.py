@@ -241,6 +241,8 @@ class BackendSolver(Solver):
             raise StepNotSolved(self.name, status, both.si_step, accuracy)
         try:
             out_of_reach = self.write(both)
+        except InputError:
+            raise
         except ValueError as error:  # of CVXPY's own checks, which may overflow
             status = f"not called: {error}"
             raise StepNotSolved(self.name, status, both.si_step, accuracy) from error

@@ -1,8 +1,17 @@
 """Errors are sentences that carry the data behind them."""
 
+import pickle
+
 import pytest
 
-from quasistatic_ref import InputError, QuasistaticError, StepNotSolved, errors
+from quasistatic_ref import (
+    InputError,
+    QuasistaticError,
+    Sphere,
+    StepNotSolved,
+    errors,
+    load_scenario,
+)
 from quasistatic_ref.formats.quoting import LONGEST, MOST_NAMES, suggestion
 from tests.helpers import point_on_floor
 
@@ -20,6 +29,28 @@ def test_bad_input_and_an_unsolved_step_are_two_families():
     assert not issubclass(StepNotSolved, InputError)
     for name in ("StepDataError", "ModelError", "ContactError", "ScenarioError", "BackendError"):
         assert issubclass(getattr(errors, name), InputError)
+
+
+@pytest.mark.parametrize(
+    ("kind", "wrong"),
+    [
+        (ValueError, lambda run: Sphere(-1)),
+        (ValueError, lambda run: load_scenario("no_such_scene")),
+        (KeyError, lambda run: run["phy"]),
+        (KeyError, lambda run: run.pair_forces()["roof"]),
+    ],
+)
+def test_bad_input_is_an_error_of_python_s_too_and_says_its_plain_sentence(kind, wrong):
+    run = load_scenario("sphere_spin", steps=1).run(progress=False)
+    with pytest.raises(kind) as caught:
+        wrong(run)
+    assert isinstance(caught.value, InputError)
+    assert str(caught.value) == str(InputError(caught.value.problem, **fields(caught.value)))
+    assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
+
+
+def fields(error):
+    return {name: getattr(error, name) for name in ("field", "value", "file")}
 
 
 @pytest.mark.parametrize(

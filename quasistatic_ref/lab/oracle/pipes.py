@@ -39,6 +39,8 @@ def _request(line: bytes) -> TableReader:
         raise InputError("is not UTF-8 text", field="the line") from None
     try:
         return TableReader(json.loads(text, object_pairs_hook=unique_fields))
+    except InputError:
+        raise
     except (ValueError, RecursionError) as error:
         raise InputError(f"is not JSON: {error}", field="the line") from None
 

@@ -218,6 +218,8 @@ def _loaded(text: str, base: str) -> tuple[pin.Model, pin.GeometryModel]:
         geometry = pin.buildGeomFromUrdfString(
             model, with_spheres(_readable(text)[0]), pin.GeometryType.COLLISION
         )
+    except ModelError:
+        raise
     except (ValueError, RuntimeError) as error:
         reason = " ".join(str(error).split())
         if "valid URDF" in reason:

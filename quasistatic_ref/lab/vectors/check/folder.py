@@ -165,6 +165,8 @@ def answer_judged(
         output = converted(layer, case.input, answer, answers.tangent, answers.quaternion)
         verdict = verdict_to_digits(layer, case.input, record, output, digits)
         verdict = verdict.named(case.id)
+    except InputError:
+        raise
     except (ValueError, TypeError, KeyError, IndexError, ArithmeticError) as error:
         # Of a shape that only a conversion meets before its shape is checked.
         output = answer
