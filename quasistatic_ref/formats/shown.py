@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.formats.quoting import shown_value
-from quasistatic_ref.parts import page_html, page_text
+from quasistatic_ref.parts import if_there
 
 
 class Shown:
@@ -24,11 +24,18 @@ class HasPage(Shown):
     """What ``optional/show`` has a page for; where that part is missing, its fields are shown."""
 
     def __repr__(self) -> str:
-        page = page_text(self)
-        return super().__repr__() if page is None else page
+        with if_there():
+            from quasistatic_ref.optional.show.pages import text
+
+            return text(self)
+        return super().__repr__()
 
     def _repr_html_(self) -> str | None:
-        return page_html(self)
+        with if_there():
+            from quasistatic_ref.optional.show.pages import html
+
+            return html(self)
+        return None
 
 
 def _short(value: object) -> str:

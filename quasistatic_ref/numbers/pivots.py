@@ -16,8 +16,10 @@ of S are at least those of L L', which are the squares of L's diagonal.
 """
 
 import math
+from collections.abc import Iterable
+from fractions import Fraction
 from functools import lru_cache
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -74,20 +76,26 @@ def symmetric(key: str, S: Array) -> Array:
     return np.asarray(np.tril(S) + np.tril(S, -1).mT)
 
 
-def surely_definite_sum(S: Array) -> bool:
-    """Whether the exact sum that S was formed as is positive definite.
+def positive_sum(S: Array, terms: Iterable[tuple[Fraction, Array]]) -> bool:
+    """Whether the exact sum that S was formed as obeys the rule.
 
-    S is (n, n), with entries of which no diagonal term is negative, so that each is off by at most
-    8 u (S_ii S_jj)^1/2. The exact sum is then at least S - 8 n u D, D the diagonal of S.
+    Float64 shows it where S is normal and no diagonal term is negative: each entry is then off by
+    at most 8 u (S_ii S_jj)^1/2, so that the exact sum is at least S - 8 n u D, D the diagonal of S.
 
     Parameters
     ----------
     S : ndarray, shape (n, n)
-        Symmetric [any unit].
+        Symmetric [any unit]; not finite if a term's sum is not.
+    terms : iterable of (Fraction, ndarray)
+        A factor and a matrix, shape (n, n), that it multiplies; the factors together may be those
+        of a multiple of S.
     """
-    return bool(np.isfinite(S).all()) and positive_pivots(
-        S * (1 - 16 * len(S) * U * np.eye(len(S)))
-    )
+    if not np.isfinite(S).all():
+        return False
+    if _surely_positive(S * (1 - 16 * len(S) * U * np.eye(len(S)))):
+        return True
+    exact = np.frompyfunc(Fraction, 1, 1)
+    return _exactly_positive(sum(factor * exact(term) for factor, term in terms))
 
 
 @lru_cache(maxsize=16)
@@ -111,7 +119,12 @@ def positive_pivots(S: Array) -> bool:
     blocks = _diagonal_blocks(S)
     if len(blocks) > 1:
         return all(map(positive_pivots, blocks))
-    return exact_factor(S, DEFINITE) is not None
+    return _exactly_positive(S)
+
+
+def _exactly_positive(S: Any) -> bool:
+    """Whether the pivots of a matrix (n, n), floats or fractions [any unit], obey the rule."""
+    return all(exact_factor(block, DEFINITE) is not None for block in _diagonal_blocks(S))
 
 
 def _surely_positive(S: Array) -> bool:
@@ -148,7 +161,7 @@ def exact_factor(S: Array, share: float) -> Array | None:
     Parameters
     ----------
     S : ndarray, shape (n, n)
-        Symmetric and finite [any unit].
+        Symmetric and finite, floats or fractions [any unit].
     share : float
         Above which part of its diagonal entry a pivot must be, from 0 to below 1 [-].
 
@@ -158,7 +171,7 @@ def exact_factor(S: Array, share: float) -> Array | None:
         None if a pivot is not above it.
     """
     fractions = [[v.as_integer_ratio() for v in row] for row in S.tolist()]
-    common = max((q for row in fractions for _, q in row), default=1)  # a power of two
+    common = math.lcm(*(q for row in fractions for _, q in row))
     rest = [[p * (common // q) for p, q in row[i:]] for i, row in enumerate(fractions)]
     diagonal = [row[0] for row in rest]
     part, whole = share.as_integer_ratio()

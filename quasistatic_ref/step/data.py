@@ -6,8 +6,10 @@ tangents are in the world frame; SI units. The JSON form is version 1 of ``quasi
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
@@ -27,7 +29,7 @@ from quasistatic_ref.numbers.arrays import (
     column_count,
     read_only,
 )
-from quasistatic_ref.numbers.pivots import positive_definite, surely_definite_sum, symmetric
+from quasistatic_ref.numbers.pivots import positive_definite, positive_sum, symmetric
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.contacts import Contacts
@@ -230,9 +232,24 @@ class StepData(Plain, HasPage):
         check_and_freeze(self, {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)})
         for key in ("K_q", "M_u"):
             object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
-        if extra.cost is not None and not surely_definite_sum(self.H):
+        if extra.cost is not None and not self._definite_with(extra.cost[0]):
             problem = "must leave the H of the step positive definite: a cost must be convex"
             raise StepDataError(problem, field="extra.H", value=extra.cost[0].tolist())
+
+    def _definite_with(self, of_cost: Array) -> bool:
+        """Whether H, with that of a cost, shape (n_v, n_v), is positive definite without rounding.
+
+        It is judged times h over a power of two near h: no entry then leaves float64's range.
+        """
+        h, twos = math.frexp(self.h)
+        part, whole = Fraction(h), Fraction(2) ** -twos
+        n_a = self.n_a
+        K_q = np.zeros(of_cost.shape)
+        M_u = np.zeros(of_cost.shape)
+        K_q[:n_a, :n_a] = self.K_q
+        M_u[n_a:, n_a:] = self.M_u
+        terms = [(part * Fraction(self.h), K_q), (whole, M_u), (part, of_cost)]
+        return positive_sum(self.H, terms)
 
     def momentum(self, delta_q: Array) -> Array:
         """M_u delta_q_u, shape (..., n_u) [kg m, kg m^2], of delta_q, shape (..., n_v) [m, rad]."""

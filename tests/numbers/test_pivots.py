@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import StepData, StepDataError, solve_step
+from quasistatic_ref import Extra, StepData, StepDataError, solve_step
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.numbers.pivots import DEFINITE, positive_pivots
@@ -75,3 +75,25 @@ def test_a_hessian_that_rounding_makes_indefinite_is_refused_in_a_sentence():
     assert not positive_definite(step.H)
     with pytest.raises(StepDataError, match="look for a link of almost no mass"):
         solve_step(step, "none")
+
+
+@pytest.mark.parametrize(("sixteenths", "definite"), [(9, False), (10, True)])
+@pytest.mark.parametrize("of", ["K_q", "M_u"])
+def test_a_cost_is_added_without_rounding_also_where_numbers_are_subnormal(
+    of, sixteenths, definite
+):
+    """With t = 2^-1074 the determinant of [[1 + e, 1], [1, e]] t is (e + e^2 - 1) t^2.
+
+    That is -31/256 t^2 for e = 9/16, and 4/256 t^2 for e = 10/16; float64 rounds e t to t.
+    """
+    t = 2.0**-1074
+    block = np.eye(2) * sixteenths / 16 * 2.0**-474
+    a, u, h = (2, 0, 2.0**-600) if of == "K_q" else (0, 2, 2.0**600)
+    zero = np.zeros
+    step = StepData(h, block[:a, :a], block[:u, :u], zero(a), zero(u), zero(a), no_contacts(2))
+    cost = Extra((), zero((0, 2)), [], H=[[t, t], [t, 0.0]])
+    if definite:
+        assert step.replace(extra=cost).extra == cost
+    else:
+        with pytest.raises(StepDataError, match="a cost must be convex"):
+            step.replace(extra=cost)
