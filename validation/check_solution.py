@@ -28,55 +28,101 @@ def need(condition, sentence):
         raise ValueError(sentence)
 
 
-def array(record, name, *shape):
-    """The field `name`: a finite float64, or nested lists of them; -0.0 counts as 0.0."""
-    value = record[name]
-    if shape:
-        right = isinstance(value, list) and len(value) == shape[0]
-        need(right, f"{name} has not {shape[0]} entries")
-        return [array({name: entry}, name, *shape[1:]) for entry in value]
-    finite = type(value) in (int, float) and abs(value) <= sys.float_info.max
-    need(finite, f"{name} is no finite number: {value!r}")
-    return float(value) + 0.0
+def read(value, like, name):
+    """A field: a table of {fields}, a list of [what], numbers of a (shape), a type or a choice."""
+    if isinstance(like, dict):
+        need(isinstance(value, dict), f"{name} is no table of fields")
+        for key in [*like, *value]:
+            need(key in like and key in value, f"{name}.{key} is missing, or unknown")
+        return {key: read(value[key], kind, f"{name}.{key}") for key, kind in like.items()}
+    if isinstance(like, list | tuple) and like:
+        size, each = (None, *like) if isinstance(like, list) else (like[0], like[1:])
+        right = isinstance(value, list) and size in (None, len(value))
+        need(right, f"{name} is no list of the right length: {value!r}")
+        return [read(entry, each, name) for entry in value]
+    if like == ():
+        finite = type(value) in (int, float) and abs(value) <= sys.float_info.max
+        need(finite, f"{name} is no finite number: {value!r}")
+        return float(value) + 0.0  # -0.0 counts as 0.0
+    one_of = [(type(v), v) for v in like] if isinstance(like, set) else [(like, value)]
+    words = like if isinstance(like, set) else f"a {like.__name__}"
+    need((type(value), value) in one_of, f"{name} must be {words}, and is {value!r}")
+    return value
 
 
-def symmetric(record, name, n):
-    """The field `name`, n x n: the lower triangle counts."""
-    S = array(record, name, n, n)
-    return [[S[max(i, j)][min(i, j)] for j in range(n)] for i in range(n)]
+def once(pairs):
+    """A table in JSON, none of whose fields is there twice."""
+    need(len(dict(pairs)) == len(pairs), f"a field is there twice: {[key for key, _ in pairs]}")
+    return dict(pairs)
+
+
+def table(path):
+    """The table in a JSON file; one longer than 64 MiB is cut there, and then no JSON."""
+    with open(path, encoding="utf-8-sig") as file:
+        value = json.loads(file.read(2**26), object_pairs_hook=once)
+    need(isinstance(value, dict), f"{path} is no table of fields")
+    return value
+
+
+def symmetric(S, name):
+    """A matrix that is symmetric but for rounding: the lower triangle counts."""
+    n, most = range(len(S)), max((abs(v) for row in S for v in row), default=0.0)
+    same = all(abs(S[i][j] - S[j][i]) <= 1e-12 * most for i in n for j in n)
+    need(same, f"{name} is not symmetric")
+    return [[S[max(i, j)][min(i, j)] for j in n] for i in n]
 
 
 def step_read(record):
     """The step, with its fields in the order in which they are hashed."""
-    kind = record["format"], record["version"]
-    need(kind == ("quasistatic-ref/step", 1), "the step is not of version 1")
-    n_a, n_u, n_v = record["n_a"], record["n_u"], record["n_a"] + record["n_u"]
-    step = {"format": "quasistatic-ref/step", "version": 1, "cone": record.get("cone", "pyramid")}
-    step |= {"h": array(record, "h"), "n_a": n_a, "n_u": n_u}
-    for name, n in {"K_q": n_a, "M_u": n_u}.items():
-        step[name] = symmetric(record, name, n)
-        need(definite(fractions(step[name])), f"{name} is not positive definite")
-    vectors = {"tau_a": n_a, "tau_u": n_u, "delta_q_bar_a": n_a}
-    step |= {name: array(record, name, n) for name, n in vectors.items()}
+    record = {"cone": "pyramid", "extra": {"names": [], "A": [], "b": []}} | record
+    n_a, n_u, extra = (record.get(name) for name in ("n_a", "n_u", "extra"))
+    need(type(n_a) is type(n_u) is int, f"n_a or n_u is no whole number: {n_a!r}, {n_u!r}")
+    n_v, m = n_a + n_u, len(read(read(extra, dict, "extra").get("names"), [str], "extra.names"))
+    axes = dict.fromkeys(("n", "d1", "d2"), (3,))
+    contact = {"name": str, "phi": (), **axes, "J": (4, n_v), "mu_v": (), "mu_omega": ()}
+    like = {"format": {"quasistatic-ref/step"}, "version": {1}, "cone": str, "h": ()}
+    like |= {"n_a": int, "n_u": int, "K_q": (n_a, n_a), "M_u": (n_u, n_u)}
+    like |= {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)}
+    like |= {"contacts": [contact | {"rows": {4, 6}}]}
+    like |= {"extra": {"names": [str], "A": (m, n_v), "b": (m,)}}
+    cost = "H" in extra or "g" in extra  # 1/2 x'Hx - g'x; what is left out is zero
+    if cost:
+        like["extra"] |= {"H": (n_v, n_v), "g": (n_v,)}
+        record["extra"] = {"H": [[0.0] * n_v] * n_v, "g": [0.0] * n_v} | extra
+    step = read(record, like, "step")
     need(step["h"] > 0, "h is not positive")
-    step["contacts"] = [contact_read(contact, n_v) for contact in record["contacts"]]
-    extra, cost = record.get("extra", {"names": []}), {}
-    m = len(extra["names"])
-    if "H" in extra or "g" in extra:  # of a cost 1/2 x'Hx - g'x; what is left out is zero
-        both = {"H": [[0.0] * n_v] * n_v, "g": [0.0] * n_v} | extra
-        cost = {"H": symmetric(both, "H", n_v), "g": array(both, "g", n_v)}
-    if m or cost:
-        rows = {"A": array(extra, "A", m, n_v), "b": array(extra, "b", m)}
-        step["extra"] = {"names": extra["names"], **rows, **cost}
+    for name in ("K_q", "M_u"):
+        step[name] = symmetric(step[name], name)
+        need(definite(fractions(step[name])), f"{name} is not positive definite")
+    if cost:
+        H = step["extra"]["H"] = symmetric(step["extra"]["H"], "extra.H")
+        need(all(row[i] >= 0 for i, row in enumerate(H)), "extra.H has a negative diagonal entry")
+    elif not m:
+        del step["extra"]
+    for contact in step["contacts"]:
+        need(min(contact["mu_v"], contact["mu_omega"]) >= 0, "mu_v or mu_omega is negative")
+        d1, d2, n = frame = [fractions(contact[axis]) for axis in ("d1", "d2", "n")]
+        off = max(abs(dot(u, v) - (u is v)) for u in frame for v in frame)
+        volume = sum(n[i] * (d1[i - 2] * d2[i - 1] - d1[i - 1] * d2[i - 2]) for i in range(3))
+        need(off <= 1e-9 and volume > 0, "d1, d2, n are no right-handed orthonormal frame")
     return step
 
 
-def contact_read(record, n_v):
-    """A contact, with its fields in the order in which they are hashed."""
-    size = {"phi": (), "n": (3,), "d1": (3,), "d2": (3,), "J": (4, n_v), "mu_v": (), "mu_omega": ()}
-    numbers = {name: array(record, name, *shape) for name, shape in size.items()}
-    need(record["rows"] in (4, 6), "rows is neither 4 nor 6")
-    return {"name": record["name"], **numbers, "rows": record["rows"]}
+def solution_read(record):
+    """The solution, of kind exact, or a proof that there is none."""
+    head = {"format": {"quasistatic-ref/solution"}, "version": {2}, "cone": str}
+    head |= {"step_sha256": str, "status": {"optimal", "infeasible"}}
+    if record.get("status") == "infeasible":
+        return read(record, head | {"farkas": [str]}, "solution")
+    claims = record.get("certificate", {})
+    exact = isinstance(claims, dict) and claims.get("kind") == "exact"
+    need(exact, "only certificates of kind exact are judged here")
+    least = ("smallest_inactive_slack", "smallest_active_multiplier")
+    kinds = {name: {None} if claims.get(name, 0) is None else () for name in least}
+    kinds |= {"kind": str, "active": [[int]], "error_bound": ()}
+    kinds |= {"multipliers_unique": bool, "differentiable": bool}
+    numbers = {"delta_q": [()], "lam": [[()]], "lam_extra": [()], "wrench": [[()]]}
+    return read(record, head | numbers | {"certificate": kinds}, "solution")
 
 
 def fractions(values):
@@ -103,8 +149,9 @@ def along(M, v):
 
 
 def definite(S):
-    """Whether a symmetric matrix is positive definite: all pivots of elimination are positive."""
-    while S and S[0][0] > 0:
+    """Whether each pivot of elimination is above 1e-14 of its entry on the diagonal."""
+    least = [max(Fraction(1e-14) * row[i], 0) for i, row in enumerate(S)]
+    while S and S[0][0] > least[-len(S)]:
         first, *rest = S
         S = [[v - r[0] / first[0] * w for v, w in zip(r[1:], first[1:], strict=True)] for r in rest]
     return not S
@@ -185,19 +232,15 @@ def infeasible(A, b, y):
 
 def verdicts(step, solution):
     """Each claim of a solution, and whether it holds."""
-    kind = solution["format"], solution["version"]
-    need(kind == ("quasistatic-ref/solution", 2), "the solution is not of version 2")
     text = json.dumps(step, ensure_ascii=False) + "\n"
     same = solution["step_sha256"] == hashlib.sha256(text.encode()).hexdigest()
     yield "of this step", same and solution["cone"] == step["cone"]
     H, g, A, b, weights = problem(step)
-    need(definite(H), "H is not positive definite")
+    need(definite(H), "H is not positive definite: the cost of extra is not convex")
     if solution["status"] == "infeasible":
         yield "Eq. (10) has no solution", infeasible(A, b, solution["farkas"])
         return
     claims = solution["certificate"]
-    judged = solution["status"] == "optimal" and claims["kind"] == "exact"
-    need(judged, "only optimal solutions with certificates of kind exact are judged here")
     counts = [len(rows) for rows in weights] + [len(A) - sum(map(len, weights))]
     W = [sum(counts[:j]) + i for j, i in claims["active"] if 0 <= i < counts[j] and j >= 0]
     x_lam = solved(
@@ -209,10 +252,10 @@ def verdicts(step, solution):
     yield "active names independent rows, in order", ordered and x_lam is not None
     x, lam_W = x_lam[: len(H)], x_lam[len(H) :]
     slack = [v - w for v, w in zip(along(A, x), b, strict=True)]
-    lam = [array({"lam": c}, "lam", k) for c, k in zip(solution["lam"], counts[:-1], strict=True)]
-    every = [v for c in lam for v in c] + array(solution, "lam_extra", counts[-1])
+    lam = [read(c, (k,), "lam") for c, k in zip(solution["lam"], counts[:-1], strict=True)]
+    every = [v for c in lam for v in c] + read(solution["lam_extra"], (counts[-1],), "lam_extra")
     right, idle = [rounded(v) for v in lam_W], [i for i in range(len(A)) if i not in W]
-    yield "Eq. (9), delta_q", array(solution, "delta_q", len(H)) == [rounded(v) for v in x]
+    yield "Eq. (9), delta_q", solution["delta_q"] == [rounded(v) for v in x]
     yield "Eq. (9), lam", [every[w] for w in W] == right
     yield "Eq. (10)", all(v >= 0 for v in slack)
     yield "Eq. (11), positive on active", all(v > 0 for v in lam_W)
@@ -221,7 +264,7 @@ def verdicts(step, solution):
         [rounded(dot(column, impulses) / Fraction(step["h"])) for column in zip(*rows, strict=True)]
         for rows, impulses in zip(weights, fractions(lam), strict=True)
     ]
-    yield "wrench", array(solution, "wrench", len(weights), 4) == forces
+    yield "wrench", solution["wrench"] == forces
     flags = claims["multipliers_unique"], claims["differentiable"]
     true = flags == (True, True) or any(slack[i] == 0 for i in idle)  # then flags are not judged
     least = min((rounded(v) for v in slack if v), default=None) if flags[1] else 0.0
@@ -230,21 +273,21 @@ def verdicts(step, solution):
     yield "certificate", true
 
 
-def main(step_path, solution_path):
+def main(*paths):
     """Print what holds, up to the first claim that does not; the exit status."""
     try:
-        with open(step_path, "rb") as step, open(solution_path, "rb") as solution:
-            claims = verdicts(step_read(json.load(step)), json.load(solution))
-        for claim, holds in claims:
+        need(len(paths) == 2, "two files are asked for, STEP.json and SOLUTION.json")
+        step, solution = map(table, paths)
+        for claim, holds in verdicts(step_read(step), solution_read(solution)):
             print(f"{claim}: {'holds' if holds else 'FAILS'}")
             if not holds:
                 return 1
     except (ArithmeticError, LookupError, OSError, RecursionError, TypeError, ValueError) as error:
-        print(f"cannot be judged: {type(error).__name__}, {error}")
+        print(f"cannot be judged: {error}")
         return 2
     return 0
 
 
 if __name__ == "__main__":
     sys.set_int_max_str_digits(0)  # the fractions of a Farkas vector may be long
-    sys.exit(main(*sys.argv[1:3]))
+    sys.exit(main(*sys.argv[1:]))

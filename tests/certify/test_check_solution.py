@@ -49,7 +49,7 @@ def test_it_is_short_and_imports_the_standard_library_alone():
     imported = {line for line in lines if line.startswith(("import ", "from "))}
     allowed = {"import hashlib", "import json", "import sys", "from fractions import Fraction"}
     allowed |= {"from operator import add"}
-    assert len(lines) <= 250
+    assert len(lines) <= 300
     assert imported == allowed
 
 
@@ -112,6 +112,52 @@ def test_minimisers_on_rows_that_are_not_those_of_the_optimum_break_their_equati
         texts = step_text(step), json.dumps(wrong)
         assert outcome(*texts) == (1, line)
         assert verify_refusal(tmp_path, *texts) is not None
+
+
+NEARLY_SINGULAR = [[1, 1, 0], [1, 1 + 2**-48, 0], [0, 0, 1]]
+NO_FILE = {
+    "true for a number": ("solution", ("certificate", "error_bound"), False, "is no finite number"),
+    "a number for true": ("solution", ("certificate", "differentiable"), 1, "must be a bool"),
+    "a float for a version": ("solution", ("version",), 2.0, "version must be {2}"),
+    "a float for rows": ("step", ("contacts", 0, "rows"), 4.0, "rows must be {4, 6}"),
+    "true for a count": ("step", ("n_a",), False, "n_a or n_u is no whole number"),
+    "a number for a name": ("step", ("contacts", 0, "name"), 7, "name must be a str"),
+    "a field too many": ("solution", ("note",), "", "solution.note is missing, or unknown"),
+    "a field too few": ("step", ("tau_u",), ..., "step.tau_u is missing, or unknown"),
+    "no symmetric matrix": ("step", ("M_u", 0, 2), 0.1, "M_u is not symmetric"),
+    "a pivot of 4e-15": ("step", ("M_u",), NEARLY_SINGULAR, "M_u is not positive definite"),
+    "friction below zero": ("step", ("contacts", 0, "mu_v"), -0.5, "mu_v or mu_omega is negative"),
+    "a left-handed frame": ("step", ("contacts", 0, "n"), [0, 0, -1], "no right-handed"),
+    "no table": ("step", (), [], "is no table of fields"),
+    "no table of claims": ("solution", ("certificate",), [], "only certificates of kind exact"),
+}  # fmt: skip
+"""What each is: the file, the field, what stands there, and what the checker says."""
+
+
+@pytest.mark.parametrize(("file", "where", "value", "words"), NO_FILE.values(), ids=NO_FILE)
+def test_what_is_no_file_of_its_format_is_refused_here_and_by_verify(
+    outcome, tmp_path, file, where, value, words
+):
+    step = scenes()["exact", "sticks, six rows of rank four"]
+    texts = {"step": step_text(step), "solution": solved_text(step)}
+    texts[file] = json.dumps(with_value(json.loads(texts[file]), where, value))
+    status, line = outcome(*texts.values())
+    assert (status, words in line) == (2, True), line
+    assert verify_refusal(tmp_path, *texts.values()) is not None
+
+
+def test_a_field_that_is_there_twice_and_files_that_are_none_are_refused(outcome, capsys):
+    step = scenes()["exact", "sticks, six rows of rank four"]
+    solution = solved_text(step)
+    for text in (
+        '{"cone": "pyramid", ' + solution[1:],
+        solution.replace('{"kind"', '{"kind": 1, "kind"'),
+    ):
+        status, line = outcome(step_text(step), text)
+        assert (status, "a field is there twice" in line) == (2, True)
+    for paths, words in (((), "two files are asked for"), (("/dev/zero",) * 2, "Expecting value")):
+        assert checker.main(*paths) == 2
+        assert words in capsys.readouterr().out
 
 
 def test_what_is_not_claimed_or_not_judged_here_is_said(outcome):
