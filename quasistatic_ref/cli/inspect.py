@@ -62,7 +62,7 @@ def system_record(
         "coordinates": [
             {"name": c.name, "unit": c.unit, "actuated": c.actuated} for c in system.coordinates
         ],
-        "positions": [name for joint in system.joints for name in joint.positions],
+        "positions": [p.heading for joint in system.joints for p in joint.positions],
         "mimics": [asdict(mimic) for mimic in system.mimics],
         "n_a": system.n_a,
         "n_u": system.n_u,

@@ -1,6 +1,6 @@
 """Entries of q and of delta_q by the names of bodies, joints and coordinates."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,28 +30,16 @@ class Named:
 
     def __init__(self, joints: Sequence[Joint]) -> None:
         self._joints = {joint.name: joint for joint in joints}
-        self._q: dict[str, list[int]] = {}
-        self._change: dict[str, list[int]] = {}
-        for joint in joints:
-            q = range(joint.q.start, joint.q.stop)
-            v = range(joint.v.start, joint.v.stop)
-            body = joint.name.partition("/")[0]
-            self._q.setdefault(body, []).extend(q)
-            self._change.setdefault(body, []).extend(v)
-            for name, i in zip(joint.positions, q, strict=True):
-                self._q[name.partition(" ")[0]] = [i]
-            for coordinate, i in zip(joint.coordinates, v, strict=True):
-                self._change[coordinate.name] = [i]
-            self._q[joint.name] = [*q]
-            self._change[joint.name] = [*v]
+        self._q = _Places((j, j.q, [position.name for position in j.positions]) for j in joints)
+        self._change = _Places((j, j.v, [entry.name for entry in j.coordinates]) for j in joints)
 
     def q(self, name: str) -> Indices:
-        """Indices of entries of q, and of q_a; ModelError if there is no such name."""
-        return _indices(self._q, name)
+        """Indices of entries of q, and of q_a; ModelError if there is none of that name, or two."""
+        return self._q.indices(name)
 
     def change(self, name: str) -> Indices:
-        """Indices of entries of delta_q, and of forces; ModelError if there is no such name."""
-        return _indices(self._change, name)
+        """Indices of entries of delta_q, and of forces; ModelError as of :meth:`q`."""
+        return self._change.indices(name)
 
     def placed(self, q: Array, values: Values) -> Array:
         """Copy of q, shape (n_q,), with named values.
@@ -67,12 +55,14 @@ class Named:
         Raises
         ------
         ModelError
-            If there is no such name, or a value is not of its kind.
+            If there is no such name, it has two meanings, or a value is not of its kind.
         """
         placed = q.copy()
         for name, value in values.items():
             joint = self._joints.get(name, self._joints.get(f"{name}/base"))
-            places = self.q(name if joint is None else joint.name)
+            places = self.q(name)
+            if joint is not None:
+                places = self.q(joint.name)
             unit = None if joint is None else joint.unit
             if joint is not None and unit == QUATERNION and isinstance(value, Mapping):
                 placed[places] = _pose(joint, name, value, placed[places])
@@ -85,13 +75,6 @@ class Named:
                 raise ModelError(f"must be {wanted}", field=name, value=value)
             placed[places] = entries
         return placed
-
-
-def _indices(known: Mapping[str, list[int]], name: str) -> Indices:
-    if name not in known:
-        problem = f"is not a body, joint or coordinate{suggestion(str(name), known)}"
-        raise ModelError(problem, field="name", value=name)
-    return np.array(known[name], dtype=np.int64)
 
 
 def _pose(joint: Joint, name: str, pose: Mapping[str, ArrayLike], before: Array) -> Array:
@@ -107,3 +90,39 @@ def _pose(joint: Joint, name: str, pose: Mapping[str, ArrayLike], before: Array)
         else:
             after[joint.lengths :] = quaternion(numbers)
     return after
+
+
+class _Places:
+    """Indices of entries by the names of bodies, joints and entries.
+
+    Parameters
+    ----------
+    joints : iterable of tuple
+        Each joint, where its entries stand, and their names.
+    """
+
+    def __init__(self, joints: Iterable[tuple[Joint, slice, Sequence[str]]]) -> None:
+        self._meanings: dict[str, dict[tuple[int, ...], str]] = {}
+        bodies: dict[str, list[int]] = {}
+        for joint, place, names in joints:
+            entries = range(place.start, place.stop)
+            bodies.setdefault(joint.name.partition("/")[0], []).extend(entries)
+            self._add(joint.name, entries, f"the joint {joint.name}")
+            for name, i in zip(names, entries, strict=True):
+                self._add(name, [i], f"an entry of {joint.name}")
+        for body, of_body in bodies.items():
+            self._add(body, of_body, f"the body {body}")
+
+    def _add(self, name: str, entries: Sequence[int], meaning: str) -> None:
+        self._meanings.setdefault(name, {}).setdefault(tuple(entries), meaning)
+
+    def indices(self, name: str) -> Indices:
+        if name not in self._meanings:
+            problem = f"is not a body, joint or coordinate{suggestion(str(name), self._meanings)}"
+            raise ModelError(problem, field="name", value=name)
+        entries, *others = self._meanings[name]
+        if others:
+            meanings = " or ".join(self._meanings[name].values())
+            problem = f"can mean {meanings}; ask for a whole joint, or rename one of them"
+            raise ModelError(problem, field="name", value=name)
+        return np.array(entries, dtype=np.int64)

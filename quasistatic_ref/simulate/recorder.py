@@ -271,7 +271,7 @@ class Recorder:
             "n_u": self.system.n_u,
             "coordinates": [c.name for c in self.system.coordinates],
             "units": [c.unit for c in self.system.coordinates],
-            "positions": [name for joint in self.system.joints for name in joint.positions],
+            "positions": [p.heading for joint in self.system.joints for p in joint.positions],
             "slots": list(self.layout.slots),
             "steps": self.steps,
             "failed": failed,

@@ -26,10 +26,8 @@ def test_each_entry_stands_under_the_name_that_tables_give_it():
     q = np.arange(SYSTEM.n_q) * 1.0
     for joint in SYSTEM.joints:
         np.testing.assert_array_equal(np.atleast_1d(SYSTEM.of(q, joint.name)), q[joint.q])
-        for i, name in enumerate(joint.positions):
-            assert (
-                SYSTEM.of(q, name.partition(" ")[0]) == q[joint.q][i] or len(joint.positions) == 1
-            )
+        for i, position in enumerate(joint.positions):
+            assert SYSTEM.of(q, position.name) == q[joint.q][i]
     delta_q = np.arange(SYSTEM.n_v) * 1.0
     for i, coordinate in enumerate(SYSTEM.coordinates):
         assert SYSTEM.change_of(delta_q, coordinate.name) == i
@@ -116,3 +114,55 @@ def test_the_power_of_a_load_is_force_times_velocity_of_its_point():
             np.testing.assert_allclose(SYSTEM.difference(q, there), 0.1 * delta_q, atol=1e-14)
     with pytest.raises(ModelError, match="name: has a fixed base, so a load has no effect"):
         SYSTEM.load(q, "rail", force=(1, 0, 0))
+
+
+def arm(*names, kind="revolute"):
+    """A chain of joints about z, all actuated, of these names."""
+    links = "".join(
+        f'<link name="{i}"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" '
+        f'ixz="0" iyz="0"/></inertial></link><joint name="{name}" type="{kind}"><parent '
+        f'link="{i - 1}"/><child link="{i}"/><axis xyz="0 0 1"/><limit effort="1" velocity="1" '
+        'lower="-1" upper="1"/></joint>'
+        for i, name in enumerate(names, 1)
+    )
+    return f'<robot name="arm"><link name="0"/>{links}</robot>'
+
+
+def test_a_name_with_a_space_moves_its_own_joint():
+    """K_q and targets by name are of the same joint, whatever another joint is called."""
+    positions = {"left": 0.1, "left knee": 0.2}
+    urdf = arm("left", "left knee")
+    system = qr.System([qr.Body("arm", urdf, actuated="all", positions=positions)])
+    stiffness = {"arm/left": 100.0, "arm/left knee": 200.0}
+    simulator = qr.Simulator(system, [], h=0.01, K_q=stiffness)
+    np.testing.assert_array_equal(simulator.K_q, np.diag([100.0, 200.0]))
+    run = qr.rollout(simulator, system.q_start, {"arm/left": 0.5}, 3, progress=False)
+    np.testing.assert_allclose(run.q[-1], [0.5, 0.2], atol=1e-15)
+    assert [system.of(system.q_start, name) for name in stiffness] == [0.1, 0.2]
+    assert [drive.of.name for drive in run.account().drives] == ["arm/left", "arm/left knee"]
+    wheel = qr.System([qr.Body("arm", arm("left [knee]", kind="continuous"), actuated="all")])
+    assert wheel.of(wheel.q_start, "arm/left [knee].cos") == 1.0
+    turned = qr.Simulator(wheel, [], h=0.01, K_q=100.0)
+    run = qr.rollout(turned, wheel.q_start, {"arm/left [knee]": 0.5}, 2, progress=False)
+    assert run.account().drives[0].of.name == "arm/left [knee]"
+
+
+MUG = {"xyz": (0, 0, 0.3)}
+
+
+@pytest.mark.parametrize("names", [("mug", "mug.x"), ("mug.x", "mug")])
+def test_a_name_that_two_things_have_is_refused_when_it_is_asked_for(names):
+    system = qr.System([qr.Body.of_shape(name, qr.Sphere(0.05), 0.3) for name in names])
+    says = r"can mean an entry of mug/base or the body mug.x; ask .* \(got 'mug.x'\)"
+    with pytest.raises(ModelError, match=says):
+        system.of(system.q_start, "mug.x")
+    with pytest.raises(ModelError, match=says):
+        system.placed({"mug.x": MUG})
+    q = system.placed({"mug.x/base": MUG})
+    np.testing.assert_array_equal(system.of(q, "mug.x/base"), [0, 0, 0.3, 0, 0, 0, 1])
+    assert system.of(q, "mug.z") == 0
+    assert system.of(q, "mug.x.z") == 0.3
+    both = arm("wheel", "wheel.cos", kind="continuous")
+    arms = qr.System([qr.Body("arm", both, actuated="all")])
+    with pytest.raises(ModelError, match=r"an entry of arm/wheel or the joint arm/wheel.cos"):
+        arms.of(arms.q_start, "arm/wheel.cos")

@@ -36,7 +36,7 @@ class Served(NamedTuple):
         system = self.scenario.system
         return {
             "h": self.scenario.h,
-            "q": [name.partition(" ")[0] for joint in system.joints for name in joint.positions],
+            "q": [p.name for joint in system.joints for p in joint.positions],
             "n_q_a": system.n_q_a,
             "delta_q": [coordinate.name for coordinate in system.coordinates],
             "contacts": list(self.simulator.layout.slots),

@@ -4,7 +4,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from quasistatic_ref.model.joints.joint import Coordinate, Joint
+from quasistatic_ref.model.joints.joint import Coordinate, Joint, Position
 from quasistatic_ref.numbers.arrays import Array
 
 
@@ -26,9 +26,9 @@ class AxisJoint(Joint):
         return (Coordinate(self.name, self.name, self.measure, self.actuated),)
 
     @property
-    def positions(self) -> tuple[str, ...]:
-        """Its entry of q, with its unit."""
-        return (f"{self.name} [{self.measure}]",)
+    def positions(self) -> tuple[Position, ...]:
+        """Its entry of q."""
+        return (Position(self.name, self.measure),)
 
     @classmethod
     def at(cls, position: float) -> list[float]:

@@ -13,7 +13,7 @@ class Ball(TwistJoint):
     """A ball joint: delta_q is a rotation vector in the frame of the link that it moves."""
 
     twist = (3, 4, 5)
-    entries = ("qx [-]", "qy [-]", "qz [-]", "qw [-]")
+    entries = ("qx", "qy", "qz", "qw")
     pinocchio = pin.JointModelSpherical
     lengths = 0
     unit = QUATERNION

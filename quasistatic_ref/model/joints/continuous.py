@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.model import screw
 from quasistatic_ref.model.joints.axis_joint import AxisJoint
-from quasistatic_ref.model.joints.joint import COSINE_SINE
+from quasistatic_ref.model.joints.joint import COSINE_SINE, Position
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array
 
@@ -16,9 +16,9 @@ class Continuous(AxisJoint):
     in_c = 2
 
     @property
-    def positions(self) -> tuple[str, ...]:
-        """Its entries of q, with their units."""
-        return (f"{self.name}.cos [-]", f"{self.name}.sin [-]")
+    def positions(self) -> tuple[Position, ...]:
+        """Its entries of q."""
+        return Position(f"{self.name}.cos", "-"), Position(f"{self.name}.sin", "-")
 
     @classmethod
     def at(cls, position: float) -> list[float]:

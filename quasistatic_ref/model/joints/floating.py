@@ -15,7 +15,7 @@ class Floating(TwistJoint):
     """A floating base: q (+) delta_q = q exp6(delta_q)."""
 
     twist = (0, 1, 2, 3, 4, 5)
-    entries = ("x [m]", "y [m]", "z [m]", "qx [-]", "qy [-]", "qz [-]", "qw [-]")
+    entries = ("x", "y", "z", "qx", "qy", "qz", "qw")
     pinocchio = pin.JointModelFreeFlyer
     lengths = 3
     unit = QUATERNION

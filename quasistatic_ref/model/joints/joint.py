@@ -3,7 +3,7 @@
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array
@@ -31,6 +31,26 @@ class Coordinate:
     joint: str
     unit: str
     actuated: bool
+
+
+class Position(NamedTuple):
+    """One entry of q.
+
+    Parameters
+    ----------
+    name : str
+        ``arm/elbow``, ``arm/wheel.cos``, ``mug.z``.
+    unit : str
+        ``"m"``, ``"rad"`` or ``"-"``.
+    """
+
+    name: str
+    unit: str
+
+    @property
+    def heading(self) -> str:
+        """What tables and files call it: ``arm/elbow [rad]``."""
+        return f"{self.name} [{self.unit}]"
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,8 +107,8 @@ class Joint(Plain, ABC):
 
     @property
     @abstractmethod
-    def positions(self) -> tuple[str, ...]:
-        """Its entries of q, with their units: ``arm/elbow [rad]``, ``mug.z [m]``."""
+    def positions(self) -> tuple[Position, ...]:
+        """Its entries of q."""
 
     @property
     def unit_part(self) -> slice:

@@ -15,7 +15,7 @@ class Planar(TwistJoint):
     """A planar base: delta_q is x and y along the body's own axes, and the angle."""
 
     twist = (0, 1, 5)
-    entries = ("x [m]", "y [m]", "cos [-]", "sin [-]")
+    entries = ("x", "y", "cos", "sin")
     pinocchio = pin.JointModelPlanar
     lengths = 2
     unit = COSINE_SINE

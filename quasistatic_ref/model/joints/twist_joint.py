@@ -3,7 +3,7 @@
 from abc import abstractmethod
 from typing import ClassVar
 
-from quasistatic_ref.model.joints.joint import Coordinate, Joint
+from quasistatic_ref.model.joints.joint import Coordinate, Joint, Position
 from quasistatic_ref.numbers.arrays import Array
 
 AXES = (("x", "m"), ("y", "m"), ("z", "m"), ("rx", "rad"), ("ry", "rad"), ("rz", "rad"))
@@ -18,7 +18,7 @@ class TwistJoint(Joint):
     twist : tuple of int
         Which entries, in ascending order: 0-2 linear, 3-5 angular.
     entries : tuple of str
-        Its entries of q, with their units.
+        What its entries of q are called.
     pinocchio : type
         The joint's class in pinocchio.
     """
@@ -36,10 +36,12 @@ class TwistJoint(Joint):
         )
 
     @property
-    def positions(self) -> tuple[str, ...]:
-        """Its entries of q, with their units."""
+    def positions(self) -> tuple[Position, ...]:
+        """Its entries of q: lengths first."""
         owner = self.name.removesuffix("/base")
-        return tuple(f"{owner}.{entry}" for entry in self.entries)
+        units = ["m"] * self.lengths + ["-"] * (len(self.entries) - self.lengths)
+        named = zip(self.entries, units, strict=True)
+        return tuple(Position(f"{owner}.{entry}", unit) for entry, unit in named)
 
     @classmethod
     @abstractmethod

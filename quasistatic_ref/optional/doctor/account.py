@@ -166,12 +166,13 @@ def joints_of(positions: list[str], n_a: int) -> Iterator[Joint]:
 
 def _first_joint(positions: list[str], actuated: bool) -> Joint:
     """The joint to which the first of some entries of q belong."""
-    entry = positions[0].partition(" [")[0]
+    entry = positions[0].rpartition(" [")[0]  # a unit is the last of a heading
     owner = entry.rpartition(".")[0]
     for kind in (*BASES.values(), *JOINTS.values()):
         for name in (owner if "/" in owner else f"{owner}/base", entry):
             joint = kind(name, actuated, slice(0), slice(0))
-            if list(joint.positions) == positions[: len(joint.positions)]:
+            headings = [position.heading for position in joint.positions]
+            if headings == positions[: len(headings)]:
                 return joint
     raise InputError("is no entry of a base or joint", field="positions", value=positions[0])
 
@@ -362,7 +363,7 @@ def _angle_in(body: Joint, hand: Joint, q: Array) -> Array:
 def _stops(run: Trajectory, joints: set[str]) -> Iterator[Stop]:
     """The limits that a joint came to; they are rows of an extension, by their names."""
     for i, name in enumerate(run.header["extra"]):
-        joint, at, end = name.partition(" at its ")
+        joint, at, end = name.rpartition(" at its ")
         if at and end.endswith(" limit") and joint in joints:
             force = run["lam_extra"][:, i] / float(run.header["h"])
             if (force > 0).any():

@@ -55,7 +55,7 @@ def test_a_link_on_a_ball_turns_about_its_point_with_its_inertia_there(base):
     found = system.gravity_force(q, gravity)
     assert_within(found, torque, 32 * ROUNDING)
     names = [c.name.rpartition(".")[2] for c in system.coordinates]
-    entries = [name.rpartition(".")[2] for j in system.joints for name in j.positions]
+    entries = [p.heading.rpartition(".")[2] for j in system.joints for p in j.positions]
     assert names == ["rx", "ry", "rz"]
     assert entries == ["qx [-]", "qy [-]", "qz [-]", "qw [-]"]
 
