@@ -75,14 +75,12 @@ class Workspace:
             before += model.njoints - 1
         self._turns = any(part.turns for part in self.parts)
         self._latest: tuple[bytes, list[Array]] | None = None
-        self._moved: list[Array] = []
         self._none = np.zeros((6, 0))
         self._gravity: tuple[float, ...] | None = None
 
     def move(self, q: Array) -> None:
         """Have pinocchio write the poses and the columns at q, shape (n_q,), into the parts."""
-        self._moved = self._part_qs(q)
-        for part, q_part in zip(self.parts, self._moved, strict=True):
+        for part, q_part in zip(self.parts, self._part_qs(q), strict=True):
             pin.computeJointJacobians(part.model, part.data, q_part)
             pin.updateFramePlacements(part.model, part.data)
 
@@ -119,22 +117,15 @@ class Workspace:
 
         Gravity is the acceleration of free fall in the world frame, three numbers [m/s^2].
         """
-        torques = self._gravity_torques(self._part_qs(q), gravity)
-        return torques[0] if len(torques) == 1 else np.concatenate([self._none[0], *torques])
-
-    def weigh(self, gravity: tuple[float, ...]) -> None:
-        """Have pinocchio write the same, at the q of the last move, into the parts."""
-        self._gravity_torques(self._moved, gravity)
-
-    def _gravity_torques(self, part_qs: list[Array], gravity: tuple[float, ...]) -> list[Array]:
         if gravity != self._gravity:
             for part in self.parts:
                 part.model.gravity.linear = np.array(gravity)
             self._gravity = gravity
-        return [
+        torques = [
             pin.computeGeneralizedGravity(part.model, part.data, q_part)
-            for part, q_part in zip(self.parts, part_qs, strict=True)
+            for part, q_part in zip(self.parts, self._part_qs(q), strict=True)
         ]
+        return torques[0] if len(torques) == 1 else np.concatenate([self._none[0], *torques])
 
 
 def _groups(world: World) -> Iterator[tuple[pin.Model, list[str]]]:

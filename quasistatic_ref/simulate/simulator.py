@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
@@ -19,7 +20,7 @@ from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
-from quasistatic_ref.numbers.arrays import Array, checked_array
+from quasistatic_ref.numbers.arrays import Array, checked_array, without_warnings
 from quasistatic_ref.parts import needing
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import (
@@ -35,19 +36,15 @@ from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED, check_certify
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.solve import check_accuracy, solve_step, solved_step
+from quasistatic_ref.solve.solve import check_accuracy, solve_step, solved
 from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, hessian, seconds
 from quasistatic_ref.step.extension import Extension
 
 GRAVITY = (0.0, 0.0, -9.81)
-FIXED = {
-    *("system", "pairs", "h", "K_q", "gravity"),
-    *("accuracy", "certify", "cone", "law", "limits", "backend"),
-}
-"""What a simulator is made of: its problem, and what C keeps of it, are of these."""
 P = ParamSpec("P")
 R = TypeVar("R")
 S = TypeVar("S", bound="Simulator")
@@ -125,9 +122,6 @@ class Simulator(Settings, Shown):
     backend : str, optional
         Name of a backend, as `solver` of :func:`~quasistatic_ref.solve.solve.solve_step`, of which
         `accuracy` and `certify` are arguments too.
-    fast : bool
-        No argument: a :class:`~quasistatic_ref.optional.fast.simulator.FastSimulator` takes the
-        same steps sooner.
     cone : str
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
     law : str
@@ -147,6 +141,8 @@ class Simulator(Settings, Shown):
         1.0 at each coordinate on which gravity acts, otherwise 0.0 [-].
     solver : Solver or None
         The object that solved the last step; it solves the next one, too, if that step fits it.
+    working_set : tuple of int
+        Without a backend: rows of the last step, from which the next one is solved.
 
     Raises
     ------
@@ -155,7 +151,7 @@ class Simulator(Settings, Shown):
     BackendError
         If the backend is unknown or not installed, or does not take the cone.
     InputError
-        If `fast` is wanted, or the law is unknown or does not take `certify`.
+        If the law is unknown or does not take `certify`.
 
     Examples
     --------
@@ -166,6 +162,7 @@ class Simulator(Settings, Shown):
     """
 
     fast: ClassVar[bool] = False
+    replaceable: ClassVar[tuple[str, ...]] = (DEFAULT,)
 
     def __init__(
         self,
@@ -177,7 +174,6 @@ class Simulator(Settings, Shown):
         gravity: Sequence[float] = GRAVITY,
         gravity_acts: Array | None = None,
         backend: str | None = None,
-        fast: bool = False,
         accuracy: float = Settings.accuracy,
         certify: str = Settings.certify,
         cone: str = Settings.cone,
@@ -185,9 +181,6 @@ class Simulator(Settings, Shown):
         extension: Callable[[Array], Extension] | None = None,
         limits: Limits | None = None,
     ) -> None:
-        if fast:
-            problem = "is no argument; write qr.FastSimulator(qr.Simulator(...))"
-            raise InputError(problem, field="fast", value=fast)
         pairs = tuple(pairs)
         check_accuracy(accuracy)
         check_certify(backend, certify)
@@ -214,6 +207,7 @@ class Simulator(Settings, Shown):
         self.gravity_factor = np.concatenate([self.gravity_acts, np.ones(system.n_u)])
         self.solver: Solver | None = None
         self.spares: dict[str, Solver] = {}
+        self.working_set: tuple[int, ...] = ()
         # H of Eq. (13): refused where it leaves float64's range
         hessian(self.h, self.K_q, system.M_u(system.q_start))
 
@@ -282,7 +276,8 @@ class Simulator(Settings, Shown):
         return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
 
     def start_cold(self) -> None:
-        """Forget what the solver keeps of earlier steps, if answers depend on it."""
+        """Forget what is kept of earlier steps, if answers depend on it."""
+        self.working_set = ()
         if self.solver is not None and self.solver.remembers:
             self.solver = None
 
@@ -368,17 +363,24 @@ class Simulator(Settings, Shown):
                 from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution
             return simulated_solution(step, solver, self.accuracy)
         try:
-            return solved_step(step, solver, self.accuracy, self.certify)
+            return self.solved(StepInBothUnits(step), solver)
         except StepNotSolved as failure:
             return self.otherwise_solved(step, failure)
 
-    def otherwise_solved(
-        self, step: StepData, failure: StepNotSolved, default: str = DEFAULT
-    ) -> StepSolution:
+    def solved(self, both: StepInBothUnits, solver: Solver) -> StepSolution:
+        """A step by one solver; errors as of :func:`~quasistatic_ref.solve.solve.solve_step`."""
+        solution = without_warnings(
+            solved, both, solver, self.accuracy, self.certify, self.working_set
+        )
+        if self.backend == NONE:
+            self.working_set = flat_rows(both.si_step, solution.certificate.active)
+        return solution
+
+    def otherwise_solved(self, step: StepData, failure: StepNotSolved) -> StepSolution:
         """A step that the backend failed, by the next one that solves it, or exactly.
 
         Its ``statistics.unanswered`` counts such steps. A backend that was asked for by name is
-        replaced with ``"residual"`` only, unless it is the `default`: ``"full"`` needs none, and
+        replaced with ``"residual"`` only, unless it is a default one: ``"full"`` needs none, and
         ``"off"`` is a question to that backend.
 
         Raises
@@ -386,7 +388,7 @@ class Simulator(Settings, Shown):
         StepNotSolved
             The `failure`, if it is a proof, or is not to be mended.
         """
-        replaced = self.certify == "residual" or self.backend == default
+        replaced = self.certify == "residual" or self.backend in self.replaceable
         if type(failure) is not StepNotSolved or not replaced:
             raise failure
         exact = [NONE] if cone(self.cone).polyhedral else []

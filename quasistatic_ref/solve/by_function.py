@@ -14,8 +14,9 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Mask
+from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import BackendSolver, OptionSet
+from quasistatic_ref.solve.solver import BackendSolver
 from quasistatic_ref.solve.units import StepInBothUnits, within_reach
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
@@ -53,9 +54,9 @@ class FunctionSolver(BackendSolver):
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.template, self.wanted)
 
-    def option_sets(self, accuracy: float) -> list[OptionSet]:
-        """One set without options, at the accuracy of the call [-]."""
-        return [OptionSet(accuracy, {})]
+    def option_sets(self, accuracy: float) -> list[tuple[float, Options]]:
+        """The accuracy of the call [-], without options."""
+        return [(accuracy, {})]
 
     def write(self, both: StepInBothUnits) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
@@ -63,7 +64,7 @@ class FunctionSolver(BackendSolver):
         self.form = standard_form(near)
         return out_of_reach
 
-    def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
+    def reply(self, options: Options, both: StepInBothUnits) -> Reply:
         """What the function returns."""
         H, g, A, b = self.form
         begin = perf_counter()

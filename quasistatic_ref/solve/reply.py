@@ -7,7 +7,7 @@ from quasistatic_ref.numbers.arrays import Array
 
 @dataclass(eq=False)
 class Reply:
-    """What came back from one call of a solver: as it is, not judged.
+    """What a solver answered: as it is, not judged; of a step, in natural units.
 
     Parameters
     ----------
@@ -26,6 +26,8 @@ class Reply:
         Of the whole call [s], in a study.
     solve_time, setup : float or None
         Of solving and of setting up [s], by the solver's own account, in a study.
+    accuracy : float
+        That the solver was asked for in this call, in natural units [-].
     """
 
     x: Array | None
@@ -37,3 +39,11 @@ class Reply:
     call_seconds: float = 0.0
     solve_time: float | None = None
     setup: float | None = None
+    accuracy: float = 0.0
+
+    @property
+    def answer(self) -> tuple[Array, Array]:
+        """X and lam, where it has both."""
+        assert self.x is not None
+        assert self.lam is not None
+        return self.x, self.lam

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,16 +12,18 @@ import numpy as np
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate, exact_certificate
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
-from quasistatic_ref.certify.exact import ExactOptimum, check_length
+from quasistatic_ref.certify.exact import ExactOptimum, check_length, step_optimum
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
+from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array, finite, without_warnings
+from quasistatic_ref.numbers.arrays import finite, without_warnings
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.solver import FREE, NaturalAnswer, Solver
+from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.solver import FREE, Solver
 from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
@@ -115,13 +117,7 @@ def solve_step(
         solver.check(step)
     else:
         solver = solver_for(step, solver, fast)
-    return solved_step(step, solver, accuracy, certify)
-
-
-def solved_step(step: StepData, solver: Solver, accuracy: float, certify: str) -> StepSolution:
-    """The same for a solver that fits the step, from arguments that are checked."""
-    both = without_warnings(solver.in_both_units, step)
-    return without_warnings(solved, both, solver, accuracy, certify)
+    return without_warnings(solved, StepInBothUnits(step), solver, accuracy, certify)
 
 
 def check_accuracy(accuracy: float) -> None:
@@ -130,8 +126,14 @@ def check_accuracy(accuracy: float) -> None:
         raise InputError("must be a number greater than 0", field="accuracy", value=accuracy)
 
 
-def solved(both: StepInBothUnits, solver: Solver, accuracy: float, certify: str) -> StepSolution:
-    """The optimum of a step that fits a solver, from the step in both units.
+def solved(
+    both: StepInBothUnits,
+    solver: Solver,
+    accuracy: float,
+    certify: str,
+    start: Sequence[int] = (),
+) -> StepSolution:
+    """The optimum of a step that fits a solver, from arguments that are checked.
 
     It is called through :func:`~quasistatic_ref.numbers.arrays.without_warnings`.
 
@@ -140,11 +142,16 @@ def solved(both: StepInBothUnits, solver: Solver, accuracy: float, certify: str)
     both : StepInBothUnits
     solver, accuracy, certify
         As of :func:`solve_step`, and its errors.
+    start : sequence of int
+        Rows from which the exact method starts where no backend answers.
     """
     if certify == "full":
-        solution = _certified(both, solver, accuracy)
+        solution = proved(both, solver, accuracy, start)
     else:
-        solution = uncertified(both, solver, solver.full_answer(both, accuracy), certify)
+        reply = solver.answer(both, accuracy)
+        if not reply.solved:
+            raise StepNotSolved(solver.name, reply.status, both.si_step, reply.accuracy)
+        solution = judged(both, solver, reply, certify)
     residuals = solution.certificate.residuals.values()
     good = all(map(finite, (solution.delta_q, solution.lam, solution.lam_extra)))
     good = good and all(map(math.isfinite, residuals))
@@ -164,38 +171,86 @@ def _far_from_largest(solution: StepSolution) -> bool:
     )
 
 
-def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSolution:
+def answered(
+    both: StepInBothUnits, solver: Solver, accuracy: float
+) -> tuple[Reply | None, SolverStatistics]:
+    """A backend's answer, its status and time; it may not call its answer a solution."""
+    statistics = SolverStatistics(
+        solver.name, "not called", None, None, accuracy, interface=solver.interface
+    )
+    if not both.si_form.b.size:
+        return None, statistics._replace(status=FREE)
+    if solver.name == NONE:
+        return None, statistics
+    try:
+        reply = solver.answer(both, accuracy)
+    except StepNotSolved as failure:
+        return None, statistics._replace(status=f"failed: {failure.status}", unanswered=True)
+    if not reply.solved:
+        return reply, statistics._replace(status=f"failed: {reply.status}")
+    return reply, said(solver, reply)
+
+
+def said(solver: Solver, reply: Reply) -> SolverStatistics:
+    """What a solver said of its answer."""
+    return SolverStatistics(
+        solver.name,
+        reply.status,
+        reply.iterations,
+        reply.seconds,
+        reply.accuracy,
+        interface=solver.interface,
+    )
+
+
+def proved(
+    both: StepInBothUnits, solver: Solver, accuracy: float, start: Sequence[int]
+) -> StepSolution:
     """The proved optimum. The backend's answer, right or wrong, is only where its search starts.
 
-    If the backend fails, the exact method (certify/exact.py) starts cold: the same answer.
+    If the backend fails, the exact method (certify/exact.py) starts elsewhere: the same answer. In
+    a curved cone, where no enclosure of the optimum is found, the backend's answer is judged.
 
-    In a curved cone, where no enclosure of the optimum is found, the backend's answer, judged.
+    Parameters
+    ----------
+    both : StepInBothUnits
+    solver, accuracy
+        As of :func:`solve_step`.
+    start : sequence of int
+        Rows from which the exact method starts where the backend claims no solution.
+
+    Raises
+    ------
+    StepInfeasible, StepIllPosed
+    StepNotSolved
+        If no enclosure is found, and the backend has no answer that passes the judge.
     """
     step = both.si_step
-    units = both.units
-    curved = curved_cone(step)
-    last, statistics = _answer_and_statistics(both, solver, accuracy)
-    answer = last if last is not None and last.claimed else None
+    reply, statistics = answered(both, solver, accuracy)
     check_arithmetic()  # a backend may have changed it
     begin = time.perf_counter()
-    si_answer = None
-    digits = None
-    if answer is not None:
-        si_answer = in_si(answer.natural_delta_q, answer.natural_lam, units)
+    answer = None if reply is None else in_si(*reply.answer, both.units)
+    claimed = reply is not None and reply.solved
+    curved = curved_cone(step)
     optimum: Enclosed | ExactOptimum | None
     if curved is not None:
-        optimum = curved.optimum(step, si_answer)
+        optimum = curved.optimum(step, answer if claimed else None)
+        if optimum is None and reply is not None and claimed:
+            return judged(both, solver, reply, "residual")
         if optimum is None:
-            return _not_enclosed(both, solver, answer, statistics)
+            status = f"{statistics.status}; and no answer strictly inside of all cones was found"
+            raise StepNotSolved(solver.name, status, step, statistics.accuracy)
         check_length(step, optimum.delta_q, groups(step))
     else:
-        optimum = solver.optimum(both, answer)
+        if reply is not None and claimed:
+            x, y = reply.answer
+            form = both.natural_form
+            start = warm_rows(form.A, y, form.A @ x - form.b)
+        optimum = step_optimum(step, start)
     delta_q = optimum.delta_q
     lam = optimum.lam
-    if last is not None:
-        measured, _ = in_si(last.natural_delta_q, last.natural_lam, units)
-        digits = correct_digits(step, measured, delta_q)
-    residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, units)))
+    digits = None if answer is None else correct_digits(step, answer[0], delta_q)
+    residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, both.units)))
     statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
     if isinstance(optimum, ExactOptimum):
         certificate = exact_certificate(step, optimum, residuals)
@@ -204,62 +259,15 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     return step_solution(step, delta_q, lam, certificate, statistics, optimum.net)
 
 
-def _not_enclosed(
-    both: StepInBothUnits,
-    solver: Solver,
-    answer: NaturalAnswer | None,
-    statistics: SolverStatistics,
-) -> StepSolution:
-    """The backend's answer, judged by its residuals; StepNotSolved if it has none."""
-    if answer is None:
-        status = f"{statistics.status}; and no answer strictly inside of all cones was found"
-        raise StepNotSolved(solver.name, status, both.si_step, statistics.accuracy)
-    return uncertified(both, solver, answer, "residual")
-
-
-def _answer_and_statistics(
-    both: StepInBothUnits, solver: Solver, accuracy: float
-) -> tuple[NaturalAnswer | None, SolverStatistics]:
-    """A backend's answer, its status and time; it may not call its answer a solution."""
-    answer: NaturalAnswer | None = None
-    unanswered = False
-    status = "not called"
-    if not both.si_form.b.size:
-        status = FREE
-    elif solver.name != NONE:
-        try:
-            answer = solver.answer(both, accuracy)
-        except StepNotSolved as failure:
-            status = f"failed: {failure.status}"
-            unanswered = True
-        else:
-            if answer.claimed:
-                return answer, answer.statistics
-            status = f"failed: {answer.statistics.status}"
-    statistics = SolverStatistics(
-        solver.name,
-        status,
-        None,
-        None,
-        accuracy,
-        interface=solver.interface,
-        unanswered=unanswered,
-    )
-    return answer, statistics
-
-
-def uncertified(
-    both: StepInBothUnits, solver: Solver, answer: NaturalAnswer, certify: str
-) -> StepSolution:
+def judged(both: StepInBothUnits, solver: Solver, reply: Reply, certify: str) -> StepSolution:
     """A backend's own answer as a solution in SI units.
 
     Parameters
     ----------
     both : StepInBothUnits
-        Of :meth:`~quasistatic_ref.solve.solver.Solver.in_both_units`.
     solver : Solver
-    answer : NaturalAnswer
-        In the natural units of `both` [-].
+    reply : Reply
+        Its answer, in the natural units of `both` [-].
     certify : str
         ``"residual"``: refused if its residuals are not small; ``"off"``: not looked at, with a
         certificate that claims nothing.
@@ -269,26 +277,19 @@ def uncertified(
     StepNotSolved
         If a residual is above ``RESIDUAL_LIMIT`` or not a number.
     """
-    delta_q, lam = in_si(answer.natural_delta_q, answer.natural_lam, both.units)
-    certificate = NOTHING_CLAIMED
-    statistics = answer.statistics
-    if certify != "off":
-        begin = time.perf_counter()
-        certificate = _judged(both, solver, answer, delta_q, lam)
-        statistics = statistics._replace(proof_time=time.perf_counter() - begin)
-    return step_solution(both.si_step, delta_q, lam, certificate, statistics)
-
-
-def _judged(
-    both: StepInBothUnits, solver: Solver, answer: NaturalAnswer, delta_q: Array, lam: Array
-) -> Certificate:
-    """The residuals of an answer as it is given, in SI units."""
+    step = both.si_step
+    delta_q, lam = in_si(*reply.answer, both.units)
+    statistics = said(solver, reply)
+    if certify == "off":
+        return step_solution(step, delta_q, lam, NOTHING_CLAIMED, statistics)
+    begin = time.perf_counter()
     check_arithmetic()
-    x, y = in_natural(delta_q, lam, both.units)  # SI units may have rounded them: subnormals
-    residuals = both.natural_residuals(x, y)
+    # SI units may have rounded the answer: subnormals.
+    residuals = both.natural_residuals(*in_natural(delta_q, lam, both.units))
     if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
         worst = "NaN" if math.isnan(residuals.worst) else f"{residuals.worst:.1e}"
-        status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
-        accuracy = answer.statistics.accuracy
-        raise StepNotSolved(solver.name, status, both.si_step, accuracy, residuals)
-    return Certificate("residual", dict(vars(residuals)), step=both.si_step)
+        status = f"it said {reply.status}, but its worst residual is {worst}"
+        raise StepNotSolved(solver.name, status, step, reply.accuracy, residuals)
+    certificate = Certificate("residual", dict(vars(residuals)), step=step)
+    statistics = statistics._replace(proof_time=time.perf_counter() - begin)
+    return step_solution(step, delta_q, lam, certificate, statistics)

@@ -6,17 +6,13 @@ of its own, and :func:`~quasistatic_ref.solve.choice.solver_for` chooses among t
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 from typing import ClassVar, Final
 
 import numpy as np
 
-from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.solution import SolverStatistics
-from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array, Mask, finite
+from quasistatic_ref.numbers.arrays import Mask, finite
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     QPSOLVERS,
@@ -44,46 +40,6 @@ and all at 1e-9; of 40 grasp steps 37 at 1e-12 and all at 1e-11."""
 
 FREE = "not called: the step has no rows"
 """Status of a step that is H delta_q = g."""
-
-
-@dataclass(eq=False)
-class NaturalAnswer:
-    """A solver's answer, of finite numbers.
-
-    Parameters
-    ----------
-    natural_delta_q : ndarray, shape (n_v,)
-        In natural units [-].
-    natural_lam : ndarray, shape (m,)
-        In natural units [-], contact-major, the user's own rows last.
-    statistics : SolverStatistics
-    claimed : bool
-        Whether the solver calls it a full solution.
-    """
-
-    natural_delta_q: Array
-    natural_lam: Array
-    statistics: SolverStatistics
-    claimed: bool = True
-
-
-@dataclass(eq=False)
-class OptionSet:
-    """A set of options, and what a solver keeps for it.
-
-    Parameters
-    ----------
-    accuracy : float
-        In natural units [-].
-    options : dict
-        The backend's own.
-    kept : object
-        The solver's.
-    """
-
-    accuracy: float
-    options: Options
-    kept: object = None
 
 
 class Solver(ABC):
@@ -120,7 +76,7 @@ class Solver(ABC):
         self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
         if name.removeprefix(QPSOLVERS) == "highs":
             greeting_silenced()
-        self._option_sets: dict[float, list[OptionSet]] = {}
+        self._option_sets: dict[float, list[tuple[float, Options]]] = {}
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.template, self.name)
@@ -146,18 +102,13 @@ class Solver(ABC):
         """In what of ``fixed`` a step is not like the one that the problem was compiled for."""
         return differences(self.template, step, self.fixed)
 
-    def in_both_units(self, step: StepData) -> StepInBothUnits:
-        """The step in SI units and in natural units."""
-        return StepInBothUnits(step)
-
     @abstractmethod
-    def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
-        """The backend's answer to a step, in natural units; rows out of reach bear no load.
+    def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:
+        """The backend's answer to a step, of finite numbers; rows out of reach bear no load.
 
         Parameters
         ----------
         both : StepInBothUnits
-            Of :meth:`in_both_units`.
         accuracy : float
             In natural units [-].
 
@@ -167,29 +118,6 @@ class Solver(ABC):
             If it gives none, or one whose numbers are not finite; or if it may not return and the
             rows of the step are unlike each other.
         """
-
-    def full_answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
-        """The same, if the backend calls it a full solution; StepNotSolved of anything less."""
-        answer = self.answer(both, accuracy)
-        if not answer.claimed:
-            statistics = answer.statistics
-            raise StepNotSolved(self.name, statistics.status, both.si_step, statistics.accuracy)
-        return answer
-
-    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
-        """The exact optimum, sought from the rows that an answer shows to be active, or from cold.
-
-        It does not depend on where it is sought from.
-
-        Raises
-        ------
-        StepInfeasible, StepIllPosed
-        """
-        warm = []
-        if answer is not None:
-            form = both.natural_form
-            warm = warm_rows(form.A, answer.natural_lam, form.A @ answer.natural_delta_q - form.b)
-        return step_optimum(both.si_step, warm)
 
 
 class BackendSolver(Solver):
@@ -210,23 +138,21 @@ class BackendSolver(Solver):
         """
 
     @abstractmethod
-    def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
-        """What the backend says to the problem as it is written."""
+    def reply(self, options: Options, both: StepInBothUnits) -> Reply:
+        """What the backend says to the problem as it is written, with options in its own names."""
 
-    def option_sets(self, accuracy: float) -> list[OptionSet]:
-        """The sets of options for an accuracy in natural units [-], in the order to be tried."""
+    def option_sets(self, accuracy: float) -> list[tuple[float, Options]]:
+        """Accuracies in natural units [-] with options, in the order in which they are tried."""
         if accuracy not in self._option_sets:
             entry = BACKENDS.get(self.name.removeprefix(QPSOLVERS)) or backend(self.name)
             least = max(accuracy, entry.floor)
             factors = (1.0,) if cone(self.template.cone).polyhedral else RELAXED
             self._option_sets[accuracy] = [
-                OptionSet(k * least, options)
-                for k in factors
-                for options in entry.option_sets(k * least)
+                (k * least, options) for k in factors for options in entry.option_sets(k * least)
             ]
         return self._option_sets[accuracy]
 
-    def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
+    def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:
         """The answer, by each set of options in turn until one solves the step; else the last one.
 
         Raises
@@ -235,7 +161,9 @@ class BackendSolver(Solver):
             If there is none; or, before any call, if the backend may not return from such rows.
         """
         if not both.si_form.b.size:
-            return self.free(both, accuracy)
+            form = both.natural_form
+            x = np.linalg.solve(form.H, form.g).astype(np.float64)
+            return Reply(x, np.zeros(0), True, FREE, accuracy=accuracy)
         if self.unsafe and not both.row_ratio <= ALIKE:
             status = f"not called: its rows differ by {both.row_ratio:.0e} in natural units"
             raise StepNotSolved(self.name, status, both.si_step, accuracy)
@@ -247,12 +175,11 @@ class BackendSolver(Solver):
             status = f"not called: {error}"
             raise StepNotSolved(self.name, status, both.si_step, accuracy) from error
         cause: Exception | None = None
-        answer: NaturalAnswer | None = None
-        for option_set in self.option_sets(accuracy):
-            tried = option_set.accuracy
+        answer: Reply | None = None
+        for tried, options in self.option_sets(accuracy):
             status = "an answer that is not finite"
             try:
-                reply = self.reply(option_set, both)
+                reply = self.reply(options, both)
             except Exception as error:  # whatever another package raises
                 status = f"the solver failed: {error}"
                 cause = error
@@ -264,31 +191,18 @@ class BackendSolver(Solver):
                 if out_of_reach is not None:
                     # Residuals are those of the true gap.
                     reply.lam[out_of_reach] = 0.0
-                statistics = SolverStatistics(
-                    self.name,
-                    "optimal" if reply.solved else reply.status,
-                    reply.iterations,
-                    reply.seconds,
-                    tried,
-                    interface=self.interface,
-                )
-                answer = NaturalAnswer(reply.x, reply.lam, statistics, reply.solved)
+                reply.accuracy = tried
+                answer = reply
                 if reply.solved:
-                    return answer
+                    reply.status = "optimal"
+                    return reply
         if answer is not None:
             return answer
         raise StepNotSolved(self.name, status, both.si_step, tried) from cause
 
-    def free(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
-        """The answer to a step without rows, H delta_q = g: no backend is asked."""
-        form = both.natural_form
-        statistics = SolverStatistics(self.name, FREE, None, None, accuracy, None, self.interface)
-        delta_q: Array = np.linalg.solve(form.H, form.g).astype(np.float64)
-        return NaturalAnswer(delta_q, np.zeros(0), statistics)
-
 
 class NoSolver(Solver):
-    """No backend: the exact method starts from the working set of the step before, if any.
+    """No backend: it answers no step.
 
     Parameters
     ----------
@@ -300,18 +214,7 @@ class NoSolver(Solver):
 
     interface = "none"
     fixed = ()
-    remembers = True
 
-    def __init__(self, template: StepData, name: str) -> None:
-        super().__init__(template, name)
-        self._working_set: tuple[int, ...] = ()
-
-    def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
+    def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:
         """No answer: StepNotSolved."""
         raise StepNotSolved(self.name, "not called", both.si_step, accuracy)
-
-    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
-        """The exact optimum, sought from the working set of the step before; errors of the base."""
-        optimum = step_optimum(both.si_step, self._working_set)
-        self._working_set = optimum.working_set
-        return optimum

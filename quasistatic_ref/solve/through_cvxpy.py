@@ -13,7 +13,7 @@ from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.compiled import CompiledMap, ProblemData, is_large, problem_data
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import BackendSolver, NaturalAnswer, OptionSet
+from quasistatic_ref.solve.solver import BackendSolver
 from quasistatic_ref.solve.units import StepInBothUnits, within_reach
 from quasistatic_ref.step.data import KIND, StepData
 
@@ -51,7 +51,7 @@ class CvxpySolver(BackendSolver):
         super().__init__(template, name)
         self.problem = CvxpyProblem(template)
 
-    def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
+    def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:
         """The backend's answer, unless CVXPY would compile the step for minutes: StepNotSolved."""
         if (n_c := both.si_step.contacts.n_c) > MOST_CONTACTS:
             status = (
@@ -67,13 +67,12 @@ class CvxpySolver(BackendSolver):
         self.problem.set_parameters(near)
         return out_of_reach
 
-    def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
+    def reply(self, options: Options, both: StepInBothUnits) -> Reply:
         """What the backend says, from a cold start.
 
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY
         raises TypeError on a second warm start anyway.)
         """
-        options = option_set.options
         data = None if self._map is None else self._map.data(options)
         return cvxpy_reply(self.problem, self.name, options, False, data)
 

@@ -13,7 +13,7 @@ conversion loses nothing, unless a number leaves the range of float64.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Final, NamedTuple
 
@@ -64,11 +64,10 @@ class Units(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class HessianInBothUnits:
-    """H, and what natural units take from it alone; a solver keeps it while H is the same.
+    """What natural units take from H alone.
 
     Parameters
     ----------
-    H : ndarray, shape (n_v, n_v)
     coordinate : ndarray, shape (n_v,)
         Diagonal of S [m or rad, per (N m s)^0.5].
     H_inverse : ndarray, shape (n_v, n_v)
@@ -81,7 +80,6 @@ class HessianInBothUnits:
         Whether the units of all coordinates are finite and positive.
     """
 
-    H: Array
     coordinate: Array
     H_inverse: Array
     squared: Array
@@ -90,13 +88,13 @@ class HessianInBothUnits:
 
 
 def hessian_in_both_units(H: Array) -> HessianInBothUnits:
-    """H, shape (n_v, n_v) [N m s/m^2], and what natural units take from it alone."""
-    return replace(_in_both_units(H.tobytes(), len(H)), H=H)
+    """What natural units take from H alone, shape (n_v, n_v) [N m s/m^2]."""
+    return _in_both_units(H.tobytes(), len(H))
 
 
 @lru_cache(maxsize=4)
 def _in_both_units(entries: bytes, n: int) -> HessianInBothUnits:
-    """The same: most steps of a run have the same H."""
+    """It is kept, since most steps of a run have the same H."""
     H = np.frombuffer(entries).reshape(n, n)
     coordinate = coordinate_units(np.diag(H))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
@@ -105,7 +103,7 @@ def _in_both_units(entries: bytes, n: int) -> HessianInBothUnits:
     squared = coordinate * coordinate
     for array in (coordinate, inverse, squared, natural_H):
         read_only(array)
-    return HessianInBothUnits(H, coordinate, inverse, squared, natural_H, usable)
+    return HessianInBothUnits(coordinate, inverse, squared, natural_H, usable)
 
 
 def float_inverse(H: Array) -> Array:
@@ -338,38 +336,37 @@ class StepInBothUnits:
     Parameters
     ----------
     si_step : StepData
-    hessian : HessianInBothUnits, optional
-        Of an earlier step: taken over, with what follows, if H is the same array.
-    si_form : StandardForm, optional
-        That of the step, where it is known.
-    units : Units, optional
-        Its natural units, where they are known.
-
-    Raises
-    ------
-    StepDataError
-        If products of its numbers leave the range of float64.
     """
 
-    def __init__(
-        self,
-        si_step: StepData,
-        hessian: HessianInBothUnits | None = None,
-        si_form: StandardForm | None = None,
-        units: Units | None = None,
-    ) -> None:
-        if hessian is None or hessian.H is not si_step.H:
-            hessian = si_form = units = None
+    def __init__(self, si_step: StepData) -> None:
         self.si_step = si_step
-        self.si_form = standard_form(si_step) if si_form is None else si_form
+
+    @cached_property
+    def si_form(self) -> StandardForm:
+        """Its standard form in SI units."""
+        return standard_form(self.si_step)
+
+    @cached_property
+    def hessian(self) -> HessianInBothUnits:
+        """What natural units take from H; StepDataError as of `units`."""
         try:
-            self.hessian = hessian or hessian_in_both_units(self.si_form.H)
-            self.units = units or units_of(self.si_form, self.hessian)
+            return hessian_in_both_units(self.si_form.H)
         except np.linalg.LinAlgError:
             raise out_of_range() from None
-        _, length, size = self.units
-        if not (self.hessian.usable and 0 < length < math.inf and 0 < size < math.inf):
+
+    @cached_property
+    def units(self) -> Units:
+        """Its natural units.
+
+        Raises
+        ------
+        StepDataError
+            If products of its numbers leave the range of float64.
+        """
+        units = units_of(self.si_form, self.hessian)
+        if not (self.hessian.usable and 0 < units.length < math.inf and 0 < units.size < math.inf):
             raise out_of_range()
+        return units
 
     @cached_property
     def natural_step(self) -> StepData:

@@ -102,10 +102,10 @@ def make_backend_lie(monkeypatch, spoil):
 
 
 LIES = {
-    "a motion a little off": lambda a: {"natural_delta_q": a.natural_delta_q + 1e-4},
-    "no multipliers": lambda a: {"natural_lam": 0 * a.natural_lam},
-    "no motion": lambda a: {"natural_delta_q": 0 * a.natural_delta_q},
-    "not a number": lambda a: {"natural_delta_q": np.nan * a.natural_delta_q},
+    "a motion a little off": lambda a: {"x": a.x + 1e-4},
+    "no multipliers": lambda a: {"lam": 0 * a.lam},
+    "no motion": lambda a: {"x": 0 * a.x},
+    "not a number": lambda a: {"x": np.nan * a.x},
 }
 
 

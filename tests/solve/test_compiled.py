@@ -9,6 +9,7 @@ from quasistatic_ref import Extra
 from quasistatic_ref.solve.compiled import CompiledMap, problem_data
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.solve.units import StepInBothUnits
 from tests.helpers import planted_step, random_step
 
 SIZES = [(7, 6, (6,) * 10 + (4,) * 5), (3, 0, (4, 4)), (0, 4, (6, 4)), (2, 3, ())]
@@ -59,12 +60,12 @@ def test_every_number_of_the_data_has_the_bits_of_cvxpy_s(cone, n_a, n_u, rows, 
 def test_answers_have_the_bits_of_the_problem_s_own_solve(rng):
     step, _, _ = planted_step(rng, 3, 4, (6, 4, 6))
     solver = CvxpySolver(step, "clarabel")
-    both = solver.in_both_units(step)
+    both = StepInBothUnits(step)
     solver.write(both)
-    option_set = solver.option_sets(1e-12)[0]
-    reply = solver.reply(option_set, both)
+    _, options = solver.option_sets(1e-12)[0]
+    reply = solver.reply(options, both)
     problem = solver.problem
-    problem.problem.solve(cp.CLARABEL, warm_start=False, **option_set.options)
+    problem.problem.solve(cp.CLARABEL, warm_start=False, **options)
     assert reply.solved
     assert reply.x.tobytes() == problem.primal().tobytes()
     assert reply.lam.tobytes() == problem.dual().tobytes()

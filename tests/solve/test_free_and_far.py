@@ -62,7 +62,7 @@ def test_what_is_far_away_costs_no_answer(backend, far, what):
 def replying(monkeypatch, status, x):
     """Let CVXPY's backends answer so, without a solution's status."""
 
-    def reply(self, option_set, both):
+    def reply(self, options, both):
         m = both.si_form.b.size
         return Reply(None if x is None else x(both), np.zeros(m), False, status)
 

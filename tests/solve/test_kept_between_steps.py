@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, StepDataError, StepNotSolved, solve_step
+from quasistatic_ref import Extra, StepDataError, StepNotSolved, load_scenario, solve_step
+from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.solution import step_solution
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.solver import NoSolver
 from quasistatic_ref.solve.units import StepInBothUnits
 from tests.helpers import pinch, point_on_floor
 from tests.tolerances import OPTIMUM, ROUNDING
@@ -31,17 +31,27 @@ def test_only_backends_that_may_not_return_are_kept_from_unlike_rows():
         solver_for(unlike, "qpsolvers:quadprog").answer(StepInBothUnits(unlike), 1e-9)
 
 
-def test_without_a_backend_the_exact_method_starts_from_the_working_set_of_the_step_before():
+def test_without_a_backend_the_exact_method_starts_from_the_working_set_of_the_step_before(
+    monkeypatch,
+):
     step = pinch(grip=5.0)
-    solver = NoSolver(step, "none")
-    cold, warm = (solver.optimum(solver.in_both_units(step), None) for _ in range(2))
+    cold = step_optimum(step)
+    warm = step_optimum(step, cold.working_set)
     assert cold.walks > warm.walks == 0
     for name in ("delta_q", "net", "slack"):
         assert getattr(cold, name).tobytes() == getattr(warm, name).tobytes()
     fewer = pushed_point()
     assert fewer.m < max(cold.working_set)  # a row that the next step does not have
-    onward = solver.optimum(solver.in_both_units(fewer), None)
+    onward = step_optimum(fewer, cold.working_set)
     assert onward.delta_q.tobytes() == solve_step(fewer, "none").delta_q.tobytes()
+    starts = []
+    monkeypatch.setattr(solve, "step_optimum", lambda *a: starts.append(a[1]) or step_optimum(*a))
+    simulator = load_scenario("two_finger_pinch", ["solver.backend=none"]).simulator()
+    simulator.solution(step)
+    simulator.solution(fewer)
+    simulator.start_cold()
+    simulator.solution(step)
+    assert starts == [(), cold.working_set, ()]
 
 
 @pytest.mark.parametrize("step", [pushed_point(), pinch(grip=5.0)])
@@ -67,7 +77,7 @@ def test_a_wrench_that_is_not_finite_is_refused_where_anything_is_claimed(monkey
     lam = np.full(len(good.lam), 1e300)
     with np.errstate(over="ignore"):
         bad = step_solution(step, good.delta_q, lam, good.certificate, good.statistics)
-    monkeypatch.setattr(solve, "uncertified", lambda *_: bad)
+    monkeypatch.setattr(solve, "judged", lambda *_: bad)
     with pytest.raises(StepDataError, match="range of float64"):
         solve_step(step, certify="residual")
     assert solve_step(step, certify="off") is bad

@@ -19,7 +19,7 @@ from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.optional.fast.library import ffi, library, missing
 from quasistatic_ref.optional.fast.poses import Poses
 from quasistatic_ref.optional.fast.program import NaturalProgram
-from quasistatic_ref.optional.fast.solver import DAQP, FastSolver
+from quasistatic_ref.optional.fast.solver import DAQP, FastSolver, FormedStep
 from quasistatic_ref.optional.fast.steps import Steps
 from quasistatic_ref.optional.fast.sums import Sums
 from quasistatic_ref.simulate.law import CONVEX
@@ -27,9 +27,7 @@ from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, Stopwatch, by_one_thread
 from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import DEFAULT
-from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.solve.units import HessianInBothUnits, StepInBothUnits
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
@@ -117,6 +115,7 @@ class FastSimulator(Simulator):
     """
 
     fast = True
+    replaceable = (DEFAULT, DAQP)
 
     def __init__(self, simulator: Simulator) -> None:
         if type(simulator) is not Simulator:
@@ -143,7 +142,7 @@ class FastSimulator(Simulator):
         self._link_count = len(links)
         self._compared = False
         self._natural: NaturalProgram | None = None
-        self._hessian: HessianInBothUnits | None = None
+        self._last: FormedStep | None = None
         self._surely_within = SURELY * self.limits.reach**2
 
     @property
@@ -211,7 +210,7 @@ class FastSimulator(Simulator):
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
 
-    def _in_both_units(self, step: StepData, form: StandardForm) -> StepInBothUnits:
+    def _in_both_units(self, step: StepData, form: StandardForm) -> FormedStep:
         """The step in both units, and its program written into DAQP's."""
         solver = self.solver
         natural = self._natural
@@ -223,15 +222,18 @@ class FastSimulator(Simulator):
             # The template's J has no zeros by chance.
             self.solver = solver = FastSolver(self._steps.template)
             self._natural = natural = NaturalProgram(self._steps, solver.program)
-        hessian = self._hessian
+        both = FormedStep(step, form)
+        last = self._last
         units = None
-        if hessian is not None and hessian.H is step.H:
-            units = natural.write(hessian)
-        both = without_warnings(StepInBothUnits, step, hessian, form, units)
-        self._hessian = both.hessian
+        if last is not None and last.si_form.H is form.H:
+            both.hessian = last.hessian
+            units = natural.write(both.hessian)
         if units is None:
-            solver.program.write(both.natural_form)
-        solver.written = both.units
+            solver.program.write(without_warnings(lambda: both.natural_form))
+        else:
+            both.units = units
+        self._last = both
+        solver.written = both
         return both
 
     def _is_plain(
@@ -242,7 +244,7 @@ class FastSimulator(Simulator):
         step: StepData,
         form: StandardForm,
         points: ClosestPoints,
-        both: StepInBothUnits | None,
+        both: FormedStep | None,
     ) -> bool:
         """Whether a step, its matrices and its program are those of the plain path."""
         kinematics = self.system.kinematics(q)
@@ -261,15 +263,15 @@ class FastSimulator(Simulator):
         by_c = bits((program.f, program.A, program.b))
         return units is None or (by_c == by_core and units[1:] == both.units[1:])
 
-    def _solution(self, step: StepData, both: StepInBothUnits | None, q: Array) -> StepSolution:
+    def _solution(self, step: StepData, both: FormedStep | None, q: Array) -> StepSolution:
         """The solution of a step from q, (n_q,); errors as of the plain path."""
         if both is None:
             return self.solution(step) if self.extension is None else self.extended(step, q)
         assert self.solver is not None  # which fits the step in both units
         try:
-            return without_warnings(solved, both, self.solver, self.accuracy, self.certify)
+            return self.solved(both, self.solver)
         except StepNotSolved as failure:
-            return self.otherwise_solved(step, failure, DAQP)
+            return self.otherwise_solved(step, failure)
 
     def fitting_solver(self, step: StepData) -> Solver:
         """The solver of the last step if it fits this step, else a new one."""

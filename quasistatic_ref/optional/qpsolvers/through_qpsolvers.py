@@ -10,7 +10,7 @@ import qpsolvers
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import BackendSolver, OptionSet
+from quasistatic_ref.solve.solver import BackendSolver
 from quasistatic_ref.solve.units import StepInBothUnits, within_reach
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
@@ -40,10 +40,10 @@ class QpsolversSolver(BackendSolver):
         self.form = standard_form(near)
         return out_of_reach
 
-    def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
+    def reply(self, options: Options, both: StepInBothUnits) -> Reply:
         """What the backend says, from a cold start."""
         name = self.name.removeprefix(QPSOLVERS)
-        return qpsolvers_reply(self.form, name, option_set.options)
+        return qpsolvers_reply(self.form, name, options)
 
 
 def qpsolvers_reply(

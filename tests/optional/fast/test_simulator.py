@@ -276,8 +276,6 @@ def test_what_is_no_plain_simulator_is_refused():
         pass
 
     plain = load_scenario("sphere_spin").simulator()
-    with pytest.raises(InputError, match=r"^fast: is no argument; write qr.FastSimulator"):
-        Simulator(**plain.settings(), fast=True)
     with pytest.raises(InputError, match=r"^simulator: has steps of its own.*got 'Own'"):
         FastSimulator(Own(**plain.settings()))
     with pytest.raises(InputError, match=r"^simulator: "):
