@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.contact.distance import ClosestPoints, closest_points
+from quasistatic_ref.contact.all_pairs import AllPairs
+from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import BackendError, InputError
@@ -219,6 +220,11 @@ class Simulator(Settings, Shown):
             raise InputError(problem, field=f"simulator.{name}", value=value) from None
 
     @cached_property
+    def all_pairs(self) -> AllPairs:
+        """Which pairs are searched at once."""
+        return AllPairs(self.pairs)
+
+    @cached_property
     def geometry(self) -> ContactGeometry:
         """Which coordinates move which contact."""
         return ContactGeometry(self.layout, self.system.column_map)
@@ -289,7 +295,7 @@ class Simulator(Settings, Shown):
         ContactError
             If a pair has no trustworthy normal, or a pose is not finite.
         """
-        return closest_points(self.pairs, kinematics)
+        return self.all_pairs.closest_points(kinematics)
 
     def step_data(
         self,

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import ClosestPoints, check_finite, pair_closest_points
+from quasistatic_ref.contact.all_pairs import AllPairs
+from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import UNIQUE_NORMAL
 from quasistatic_ref.numbers.arrays import Array, Indices
@@ -85,7 +86,9 @@ class Closest:
     def __init__(self, pairs: Sequence[ContactPair], poses: Poses, written: ClosestPoints) -> None:
         self._poses = poses
         self._by_c: list[tuple[Structure, ContactPair, ClosestPoints]] = []
-        self._by_core: list[tuple[ContactPair, ClosestPoints]] = []
+        self._written = written
+        by_core: list[ContactPair] = []
+        starts: list[int] = []
         end = 0
         for pair in pairs:
             start = end
@@ -93,23 +96,22 @@ class Closest:
             out = ClosestPoints._make(field[start:end] for field in written)
             size = solid_size(pair)
             if size is None:
-                self._by_core.append((pair, out))
+                by_core.append(pair)
+                starts.append(start)
             else:
                 self._by_c.append((cloud(pair, size, poses, out), pair, out))
+        self._by_core = AllPairs(by_core, starts)
 
     def write(self) -> None:
         """Write the contacts at the poses; ContactError as of ``closest_points``."""
-        left = self._by_core
         compiled = library().closest_of_cloud
+        left: list[tuple[ContactPair, ClosestPoints]] = []
         for structure, pair, out in self._by_c:
             if compiled(structure.pointer):
                 out.tie[:] = UNIQUE_NORMAL
             else:
-                left = [*left, (pair, out)]
-        if left:
-            kinematics = self._poses.kinematics()
-            check_finite(kinematics.R, kinematics.t)
-            for pair, out in left:
-                contacts = pair_closest_points(pair, kinematics.R, kinematics.t)
-                for field, values in zip(out, contacts, strict=True):
-                    field[:] = values + 0.0 if field is out.phi or field is out.n else values
+                left.append((pair, out))
+        if self._by_core.n_c:
+            self._by_core.write(self._poses.kinematics(), self._written)
+        for pair, out in left:
+            AllPairs([pair]).write(self._poses.kinematics(), out)

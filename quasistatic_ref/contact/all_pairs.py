@@ -1,0 +1,114 @@
+"""The closest points of a list of pairs: pairs of one kind at once, all others one by one."""
+
+from collections import defaultdict
+from collections.abc import Hashable, Sequence
+from typing import Final
+
+import numpy as np
+
+from quasistatic_ref.contact.batches.batch import Batch
+from quasistatic_ref.contact.batches.on_half_space import OnHalfSpaces
+from quasistatic_ref.contact.batches.spheres import Spheres
+from quasistatic_ref.contact.distance import ClosestPoints, check_finite, pair_closest_points
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.numbers.ordered import norm
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.placed_shape import Box, Capsule, HalfSpace, Shape, Sphere
+from quasistatic_ref.shapes.rounded import Rounded
+from quasistatic_ref.shapes.shape import AXES
+from quasistatic_ref.step.data import Indices
+from quasistatic_ref.tolerances import REPEATED
+
+Kind = tuple[type[Batch], Hashable]
+"""A batch and what is the same of all of its pairs."""
+
+MOST: Final = 512
+"""Most corners of a solid of a batch: with more, numbers take the time and not calls."""
+
+
+class AllPairs:
+    """What is the same in every step about the closest points of some pairs.
+
+    Parameters
+    ----------
+    pairs : sequence of ContactPair
+    start : ndarray of int, shape (P,), optional
+        Of each pair the place of its first contact, among those of which it is written; by default
+        they stand one after the other.
+
+    Attributes
+    ----------
+    n_c : int
+        Number of contacts of all pairs.
+    """
+
+    def __init__(self, pairs: Sequence[ContactPair], start: Sequence[int] | None = None) -> None:
+        counts = [pair.n_c for pair in pairs]
+        self.n_c = sum(counts)
+        first = np.cumsum([0, *counts])[:-1] if start is None else np.asarray(start)
+        self._rows = [np.arange(i, i + count) for i, count in zip(first, counts, strict=True)]
+        self._pairs = tuple(pairs)
+        self._singly: list[int] = []
+        kinds: dict[Kind, list[int]] = defaultdict(list)
+        for i, pair in enumerate(pairs):
+            kind = kind_of(pair)
+            (self._singly if kind is None else kinds[kind]).append(i)
+        self._batches = [
+            (
+                batch([pairs[i] for i in some]),
+                np.array(some),
+                np.array([self._rows[i] for i in some]),
+            )
+            for (batch, _), some in kinds.items()
+        ]
+
+    def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
+        """As of :func:`~quasistatic_ref.contact.distance.closest_points`, with its errors."""
+        n_c = self.n_c
+        vectors = np.zeros((3, n_c, 3))
+        contacts = ClosestPoints(np.zeros(n_c), *vectors, *np.zeros((2, n_c), dtype=np.int64))
+        self.write(kinematics, contacts)
+        return contacts
+
+    def write(self, kinematics: Kinematics, contacts: ClosestPoints) -> None:
+        """Write the same into fields of shape (n_c, ...)."""
+        R = kinematics.R
+        t = kinematics.t
+        check_finite(R, t)
+        left = [*self._singly]
+        for batch, some, rows in self._batches:
+            known, found = batch.contacts(R, t)
+            write(contacts, rows, found)
+            left += some[~known].tolist()
+        for i in sorted(left):
+            write(contacts, self._rows[i], pair_closest_points(self._pairs[i], R, t))
+
+
+def write(contacts: ClosestPoints, rows: Indices, found: ClosestPoints) -> None:
+    """Write the contacts of some rows, in which zero is 0.0, never -0.0."""
+    positive = found._replace(phi=found.phi + 0.0, n=found.n + 0.0)
+    for field, values in zip(contacts, positive, strict=True):
+        field[rows] = values
+
+
+def kind_of(pair: ContactPair) -> Kind | None:
+    """Of which batch a pair is, P pairs of one kind; None of one that is searched by itself."""
+    sides = (pair.alpha.shape, pair.beta.shape)
+    ball_last = isinstance(sides[1], Sphere)
+    ball, other = sides[::-1] if ball_last else sides
+    if isinstance(ball, Sphere) and isinstance(other, HalfSpace | Rounded) and pair.n_c == 1:
+        return Spheres, (ball_last, isinstance(other, HalfSpace))
+    plane_first = isinstance(sides[0], HalfSpace)
+    plane, solid = sides if plane_first else sides[::-1]
+    known = isinstance(plane, HalfSpace) and isinstance(solid, Box | Capsule | ConvexMesh)
+    if known and 1 < pair.n_c <= solid.corner_count <= MOST and _corners_are_apart(solid):
+        return OnHalfSpaces, (plane_first, solid.corner_count, pair.n_c)
+    return None
+
+
+def _corners_are_apart(solid: Shape) -> bool:
+    """Whether no corner is where another is: seen from any side, neither repeats the other."""
+    corners, _ = solid.corners(AXES[0])
+    apart = norm(corners[:, None] - corners)
+    return int(np.count_nonzero(apart <= 10 * REPEATED)) == len(corners)

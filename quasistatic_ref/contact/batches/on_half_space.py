@@ -1,0 +1,60 @@
+"""Boxes, convex meshes and capsules on half-spaces, all at once.
+
+Every corner of the solid is a candidate, and the closest pair follows from the corners.
+"""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from quasistatic_ref.contact.batches.batch import Batch, farthest_places, transposed
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.separations import UNIQUE_NORMAL
+from quasistatic_ref.numbers.ordered import dot, product, rotated
+from quasistatic_ref.shapes.placed_shape import HalfSpace
+from quasistatic_ref.shapes.shape import AXES
+from quasistatic_ref.step.data import Array, Mask
+
+FAR: Final = 1e3
+"""Places relative to the solid's size [-] up to which rounding, 1e-16 of them, is far below the
+length to which distances are rounded, 1e-9 of the size: the corners that are lowest then rank as
+the closest pair does, and hold it in their hull."""
+
+
+class OnHalfSpaces(Batch):
+    """Solids of one number of corners on half-spaces, which all are alpha's or all are beta's."""
+
+    def __init__(self, pairs: Sequence[ContactPair]) -> None:
+        super().__init__(pairs)
+        self._turn = 1 if isinstance(pairs[0].alpha.shape, HalfSpace) else -1
+        sides = [(pair.alpha.shape, pair.beta.shape)[:: self._turn] for pair in pairs]
+        planes = [plane for plane, _ in sides if isinstance(plane, HalfSpace)]
+        corners = [solid.corners(AXES[0]) for _, solid in sides]
+        self._normal = np.array([plane.normal for plane in planes])[:, None]
+        self._offset = np.array([plane.offset for plane in planes])[:, None]
+        self._corners = np.array([points for points, _ in corners])
+        self._radius = np.array([radius for _, radius in corners])[:, None]
+
+    def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
+        """The n_c corners that rank first."""
+        plane, solid = self.in_world(R, t)[:: self._turn]
+        towards_plane = transposed(plane[0])
+        turn = product(towards_plane, solid[0])
+        place = rotated(towards_plane, solid[1] - plane[1])
+        x = rotated(turn[:, None], self._corners) + place[:, None]
+        height = dot(x, self._normal) - self._offset
+        rank = np.rint((height - self._radius) / self.resolution[:, None])
+        order = rank.argsort(axis=1, kind="stable")[:, : self.n_c]
+        corner = np.take_along_axis(self._corners, order[..., None], axis=1)
+        height = np.take_along_axis(height, order, axis=1)
+        n = np.broadcast_to(rotated(plane[0][:, None], self._normal), corner.shape)
+        centre = rotated(solid[0][:, None], corner) + solid[1][:, None]
+        feet = centre - height[..., None] * n
+        tips = centre - self._radius[..., None] * n
+        alpha, beta = (feet, tips)[:: self._turn]
+        tie = np.full(order.shape, UNIQUE_NORMAL)
+        contacts = ClosestPoints(height - self._radius, alpha, beta, self._turn * n, order, tie)
+        places = np.maximum(farthest_places(plane, solid), np.abs(self._offset[:, 0]))
+        return places < FAR * self.size, contacts

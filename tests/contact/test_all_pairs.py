@@ -1,0 +1,114 @@
+"""Pairs searched at once against the search one by one: the same bits, or the same error.
+
+Of a thousand random scenes ``pytest -m long`` takes those that are left out here.
+"""
+
+import itertools
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref import Box, Capsule, ContactError, Cylinder, HalfSpace, Sphere, convex_hull
+from quasistatic_ref.contact.all_pairs import AllPairs
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.formats.plain import bits
+from tests.contact.still import pair, placed_shape, standing_links
+
+QUARTER = np.pi / 2
+
+
+def half_space(rng):
+    """One that is level, or any."""
+    return HalfSpace((0.0, 0.0, 1.0) if rng.random() < 0.5 else rng.normal(size=3), 0.0)
+
+
+def box(rng):
+    """One of few sizes, so that faces and edges are flush with others."""
+    return Box(rng.choice([0.02, 0.03, 0.05], size=3))
+
+
+def mesh(rng):
+    """The hull of a few corners, or a box as a mesh."""
+    corners = box(rng).corners(np.eye(3)[0])[0]
+    return convex_hull(corners if rng.random() < 0.5 else rng.normal(size=(12, 3)) / 30)
+
+
+SOLIDS = {
+    "half-space": half_space,
+    "box": box,
+    "mesh": mesh,
+    "capsule": lambda rng: Capsule(0.02, rng.choice([0.03, 0.05])),
+    "sphere": lambda rng: Sphere(rng.choice([0.02, 0.03])),
+    "cylinder": lambda rng: Cylinder(0.02, 0.03),
+}
+KINDS = [*itertools.combinations_with_replacement(SOLIDS, 2)][1:]
+"""Of both sides; two half-spaces are no pair."""
+
+
+def turn(rng):
+    """None, by quarters, about z, or any."""
+    match rng.integers(4):
+        case 0:
+            return np.eye(3)
+        case 1:
+            quarters = Rotation.from_euler("xyz", QUARTER * rng.integers(4, size=3))
+            return quarters.as_matrix().round()
+        case 2:
+            return Rotation.from_euler("z", rng.uniform(0, 6)).as_matrix()
+        case _:
+            return Rotation.random(rng=rng).as_matrix()
+
+
+def place(rng):
+    """On a grid of sizes, so that solids touch, or anywhere: apart, near and in penetration."""
+    grid = rng.choice([0.0, 0.01, 0.02, 0.04, 0.05, 0.07], size=3) * rng.choice([-1, 1], size=3)
+    return grid if rng.random() < 0.6 else rng.uniform(-0.1, 0.1, size=3)
+
+
+def scene(seed):
+    """Some pairs of one kind, mixed with others, and where their links are."""
+    rng = np.random.default_rng(seed)
+    kinds = [KINDS[seed % len(KINDS)]] * 5 + [KINDS[i] for i in rng.integers(len(KINDS), size=4)]
+    k = int(rng.choice([1, 2, 4, 5, 12]))
+    pairs = []
+    for i, names in enumerate(kinds):
+        sides = [SOLIDS[name](rng) for name in (names if rng.random() < 0.7 else names[::-1])]
+        on_links = [
+            placed_shape(solid, 2 * i + j + 1, turn(rng), place(rng) * (rng.random() < 0.3))
+            for j, solid in enumerate(sides)
+        ]
+        pairs.append(pair(*on_links, k if rng.random() < 0.8 else 4))
+    spread = 1e6 if rng.random() < 0.05 else 0.0
+    poses = [(turn(rng), place(rng) + spread) for _ in range(2 * len(kinds))]
+    return pairs, standing_links(*poses)
+
+
+def found(search, *arguments):
+    """The contacts, or what is said instead."""
+    try:
+        return search(*arguments)
+    except ContactError as refused:
+        return str(refused)
+
+
+FEW = 40
+
+
+@pytest.mark.parametrize(
+    "seed", [*range(FEW), *(pytest.param(i, marks=pytest.mark.long) for i in range(FEW, 1000))]
+)
+def test_pairs_at_once_are_those_one_by_one(seed):
+    """Pairs whose normal is not defined are left out, so that all others are compared, too."""
+    pairs, links = scene(seed)
+    at_once, singly = (
+        found(AllPairs(pairs).closest_points, links),
+        found(closest_points, pairs, links),
+    )
+    assert bits(at_once) == bits(singly)
+    every = [found(closest_points, [one], links) for one in pairs]
+    sound = [one for one, each in zip(pairs, every, strict=True) if not isinstance(each, str)]
+    expected = closest_points(sound, links)
+    written = AllPairs(sound).closest_points(links)
+    for name, values in written._asdict().items():
+        assert values.tobytes() == getattr(expected, name).tobytes(), name
