@@ -122,13 +122,14 @@ CLOSED_FORMS = (
 """The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""
 RESULT = re.compile(r"\*\*\((R\d+)\)([^*]*)\*\*")
 KEPT = re.compile(
-    r"(^```.*?^```$|\$\$.+?\$\$|\$[^$]+\$|`[^`\n]+`|\[[^\]]*\]\{#r\d+\})", re.MULTILINE | re.DOTALL
+    r"(^```.*?^```$|\$\$.+?\$\$|\$[^$]+\$|`[^`\n]+`|\[[^\]]*\]\{#r\d+\}|\[\(R\d+\)\]\([^)]*\))",
+    re.MULTILINE | re.DOTALL,
 )
-"""What of a page is no prose: fences, literals, formulas, results where they begin."""
+"""What of a page is no prose: fences, literals, formulas, results where they begin, links."""
 INCLUDED = {
-    "validation/results/claims.md": "claims.md",
-    "validation/vectors/README.md": "vectors.md",
-    "validation/contact_qp/README.md": "contact_qp.md",
+    "validation/results/claims.md": "included/claims.md",
+    "validation/vectors/README.md": "included/vectors.md",
+    "validation/contact_qp/README.md": "included/contact_qp.md",
 }
 """Pages of the repository that are pages of the site too: where they are, and where here."""
 CITED_RESULT = re.compile(r"\((R\d+)\)")
@@ -138,6 +139,12 @@ CITED_NAME = re.compile(r":(?:class|func|meth|attr|mod):`~?(?:\w+\.)*(\w+)`")
 
 def setup(app):
     """What pages say in one line and the site says at length."""
+    for file, page in INCLUDED.items():
+        include = f"```{{include}} ../../{file}\n:relative-images:\n```\n"
+        made = ROOT / "docs" / page
+        made.parent.mkdir(exist_ok=True)
+        if not made.is_file() or made.read_text("utf-8") != include:
+            made.write_text(include, encoding="utf-8")
     # It copies files when all is built, and says nothing about reading in parallel.
     app.extensions["sphinx-mathjax-offline"].parallel_read_safe = True
     app.connect("source-read", _expanded)
@@ -155,6 +162,12 @@ def _expanded(app, docname, source):
     """
     up = "../" * docname.count("/")
     text = source[0]
+    if docname.startswith("scripts/"):  # reStructuredText, in which code is indented
+        source[0] = "".join(
+            line if line[:1].isspace() else _prose_linked(line)
+            for line in text.splitlines(keepends=True)
+        )
+        return
     for file, page in INCLUDED.items():
         text = text.replace(f"]({up}../{file})", f"]({up}{page})")
     text = text.replace(f"]({up}gallery/README.md)", f"]({up}scripts/index.rst)")
@@ -258,5 +271,9 @@ def _bars(line):
 
 
 def _prose(text):
-    linked = CITED_RESULT.sub(lambda r: f":ref:`({r[1]}) <{r[1].lower()}>`", text)
-    return linked.replace("|", "\\|")
+    return _prose_linked(text).replace("|", "\\|")
+
+
+def _prose_linked(text):
+    """Results in reStructuredText lead to where they are derived."""
+    return CITED_RESULT.sub(lambda r: f":ref:`({r[1]}) <{r[1].lower()}>`", text)

@@ -51,6 +51,14 @@ def test_a_script_imports_public_names_alone_and_asserts_its_number(script):
     assert any(isinstance(node, ast.Assert) for node in nodes)
 
 
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+def test_a_figure_is_drawn_in_one_block(script):
+    """The site keeps what is drawn at the end of each block: a figure of two is half drawn."""
+    *earlier, last = script.read_text("utf-8").split("\n# %%\n")
+    assert "plt.subplots(" in last
+    assert not any("plt." in block for block in earlier)
+
+
 def test_the_page_shows_every_script():
     page = (GALLERY / "README.md").read_text("utf-8")
     for ending in ("py", "png"):

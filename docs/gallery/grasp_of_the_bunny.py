@@ -14,8 +14,7 @@ import numpy as np
 import quasistatic_ref as qr
 
 closed, top = 0.7, 2.9  # when the grip is closed, and when the lift ends [s]
-figure, panels = plt.subplots(1, 3, figsize=(8.5, 3.6), layout="constrained")
-turns, moments = {}, []
+turns, histories, moments = {}, {}, []
 for case, mu_omega in {"with torsion": None, "without torsion": 0}.items():
     changes = {} if mu_omega is None else {"contacts.grip.mu_omega": mu_omega}
     scenario = qr.load_scenario("bunny_grasp", changes, steps=290, fast=True)
@@ -25,16 +24,19 @@ for case, mu_omega in {"with torsion": None, "without torsion": 0}.items():
     time = np.append(0, run.t)
     lift = (time >= closed) & (time <= top)
     turns[case] = turn[lift].max()
-    panels[2].plot(time[lift], turn[lift], label=f"{case}: {turns[case]:.1f} degrees")
+    histories[case] = time[lift], turn[lift]
 
 # %%
 # The hand holds the bunny, or does not.
 assert turns["with torsion"] < 1e-9
 assert round(turns["without torsion"], 1) == 49.9
 
+figure, panels = plt.subplots(1, 3, figsize=(8.5, 3.6), layout="constrained")
 qr.draw_scenes(panels[:2], moments)
 for axes, case in zip(panels, turns, strict=False):
     axes.set_title(case)
+    panels[2].plot(*histories[case], label=f"{case}: {turns[case]:.1f} degrees")
 panels[2].set(xlabel="time t [s]", ylabel="turn in the hand [deg]")
-panels[2].legend(loc="center left", fontsize="x-small")
+panels[2].set_ylim(-3, 68)  # room for the legend above the curve
+panels[2].legend(loc="upper left", fontsize="x-small")
 plt.show()

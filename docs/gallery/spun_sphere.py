@@ -6,7 +6,9 @@ A sphere on the floor is spun by a torque that grows, after Figure 3 of the pape
 
 Up to mu_omega m g it does not move at all. Beyond, it turns, and it hovers: Eq. (7) asks for a gap
 of mu_omega theta where a step turns the sphere by theta. This boundary layer is the price of a
-convex step.
+convex step. At the end the torque is five times the limit, and with h = 20 ms, as here, the sphere
+hovers 5.86 mm above the floor. With h = 10 ms it is a quarter of that: the angle by which a torque
+turns the sphere in a step grows with h squared.
 """
 
 import matplotlib.pyplot as plt
@@ -33,6 +35,6 @@ formula = 1e3 * mu_omega * turn
 axes.plot(torque / limit, formula, color="0.6", linewidth=3, label=r"$\mu_\omega \theta$")
 axes.plot(torque / limit, 1e3 * lift, "k.", markersize=4, label="lift of the sphere")
 axes.set(xlabel=r"torque / ($\mu_\omega m g$) [-]", ylabel="height above the floor [mm]")
-axes.set_title(f"at the end: {1e3 * lift[-1]:.2f} mm")
+axes.set_title(f"at the end, with h = 20 ms: {1e3 * lift[-1]:.2f} mm")
 axes.legend()
 plt.show()

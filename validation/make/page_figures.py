@@ -15,20 +15,26 @@ from matplotlib.figure import Figure
 
 from docs.drawings import (
     both_laws,
+    cone_and_dual,
     cone_surfaces,
     contact_geometry,
     corner_loads,
     free_body,
+    friction_and_slip,
+    grasp_map,
+    limit_surface_and_twist,
     mass_of_a_free_body,
     metres,
     phi_and_j_of_a_cloud,
     plan_a_push,
     sliding_block,
     the_program,
+    turn_and_step,
     two_moving_bodies,
     what_smoothing_does,
     where_no_gradient_is,
     which_cone_is_real,
+    wrenches_of_a_grip,
 )
 from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.optional.show.figures.style import figure_style, figure_written, panels, scaled
@@ -36,9 +42,10 @@ from validation.tools.scripts import RESULTS, script_options
 
 Record = Mapping[str, Any]
 DRAWN = (
-    both_laws, cone_surfaces, contact_geometry, corner_loads, free_body, mass_of_a_free_body,
-    metres, phi_and_j_of_a_cloud, plan_a_push, sliding_block, the_program, two_moving_bodies,
-    what_smoothing_does, where_no_gradient_is,
+    both_laws, cone_and_dual, cone_surfaces, contact_geometry, corner_loads, free_body,
+    friction_and_slip, grasp_map, limit_surface_and_twist, mass_of_a_free_body, metres,
+    phi_and_j_of_a_cloud, plan_a_push, sliding_block, the_program, turn_and_step,
+    two_moving_bodies, what_smoothing_does, where_no_gradient_is, wrenches_of_a_grip,
 )  # fmt: skip
 """Each is the figure of its name."""
 

@@ -42,6 +42,20 @@ BEYOND = """
 }
 """
 """JavaScript: what reaches out of the window and stands in no box that scrolls."""
+RAW = """
+() => {
+  const text = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  const markup = /^#+ |!\\[|\\]\\(|^:::|\\$\\$|\\{(eq|cite|download)|<(details|summary)>/;
+  const raw = [];
+  while (text.nextNode()) {
+    const inside = text.currentNode.parentElement.closest('pre, code, script, mjx-container');
+    const words = text.currentNode.data.trim();
+    if (!inside && markup.test(words)) raw.push(words.slice(0, 80));
+  }
+  return raw;
+}
+"""
+"""JavaScript: prose in which markup stands that nothing has read."""
 
 
 @contextmanager
@@ -71,12 +85,14 @@ def offline_page() -> Iterator[tuple[Page, list[str]]]:
 
 
 def layout_faults(page: Page, site: Path) -> Iterator[str]:
-    """What is wider than the window, of every page of the site."""
+    """What is wider than the window, or shown as markup, of every page of the site."""
     paths = [path for path in sorted(site.rglob("*.html")) if "_static" not in path.parts]
     listings = [path for path in paths if LISTING in path.parts]
     for path in [path for path in paths if path not in listings[1:]]:
         page.goto(path.as_uri())
         page.wait_for_function("!window.MathJax?.startup || MathJax.startup.promise.then(() => 1)")
+        for words in page.evaluate(RAW):
+            yield f"{path.relative_to(site)} shows markup: {words}"
         for width in WIDTHS:
             page.set_viewport_size({"width": width, "height": HEIGHT})
             for element in page.evaluate(BEYOND):

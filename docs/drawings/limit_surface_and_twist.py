@@ -1,0 +1,60 @@
+"""The limit surface of a slider in the ellipsoid: each twist is normal to it at its load.
+
+A disk lies on a table in one contact with torsional friction and is pulled, along d1 and about n,
+a little harder than the contact can bear. Its slip and spin are drawn where its load meets the
+surface.
+"""
+
+import numpy as np
+
+from quasistatic_ref import solve_step
+from quasistatic_ref.lab.figures.labels import label_axes
+from quasistatic_ref.lab.scenes.rigid import rigid_step
+from quasistatic_ref.optional.show.figures import Figure, panels
+from quasistatic_ref.optional.show.figures.style import scaled
+
+M, GRAVITY, MU_V, C = 0.5, 9.81, 0.4, 0.03  # kg, m/s^2, -, m: C is mu_omega / mu_v
+RHO = C  # radius of gyration [m]: then drag does not turn the twist
+LIMIT = MU_V * M * GRAVITY  # N
+ANGLES = np.radians([0, 20, 40, 60, 80, 90])
+"""Of the load, between a pure force and a pure torque, in units of the half axes."""
+
+
+def main() -> tuple[np.ndarray, np.ndarray]:
+    """Loads (f_1, tau / C) on the surface [N], and twists (s_1, C omega) [m], (angles, 2) each."""
+    loads = LIMIT * np.column_stack([np.cos(ANGLES), np.sin(ANGLES)])
+    twists = []
+    for force, torque in 1.05 * loads:
+        wrench = (force, 0.0, -M * GRAVITY, 0.0, 0.0, C * torque)
+        step = rigid_step(
+            M, M * RHO**2, wrench, [[0.0, 0.0, 0.0]], [np.eye(3)],
+            mu_v=MU_V, mu_omega=MU_V * C, rows=6,
+        ).replace(cone="ellipsoid")  # fmt: skip
+        delta_q = solve_step(step).delta_q
+        twists.append([delta_q[0], C * delta_q[5]])
+    return loads, np.array(twists)
+
+
+def figure() -> Figure:
+    """A quarter of the surface, with a twist at each load."""
+    page, (axes,) = panels(5.6, 3.8)
+    turn = np.linspace(0, np.pi / 2, 100)
+    axes.plot(
+        LIMIT * np.cos(turn), LIMIT * C * 1e3 * np.sin(turn), color="0.6", linewidth=scaled(3)
+    )
+    axes.fill_between(LIMIT * np.cos(turn), LIMIT * C * 1e3 * np.sin(turn), color="0.93")
+    loads, twists = main()
+    for (force, torque), (slip, spin) in zip(loads, twists, strict=True):
+        # The normal of f_1^2 + (tau / C)^2 = LIMIT^2 is (f_1, tau / C^2): s_1 : omega (R28).
+        assert abs(slip * torque - spin * force) < 1e-6 * np.hypot(slip, spin) * LIMIT
+        length = 0.5 / np.hypot(slip, spin)
+        start = np.array([force, 1e3 * C * torque])
+        tip = start + length * np.array([slip, 1e3 * C * spin])
+        look = {"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0, "color": "#D55E00"}
+        axes.annotate("", tip, start, arrowprops=look | {"linewidth": scaled(1.8)})
+        axes.plot(*start, "o", color="#0072B2", markersize=scaled(5))
+    axes.text(0.75, 22, "what the contact bears", ha="center")
+    axes.text(1.45, 68, "arrows: the motion,\nslip and spin\nin the scales of the axes")
+    axes.set(xlim=(0, 2.7), ylim=(0, 81))
+    label_axes(axes, "friction force $f_1$ [N]", r"torque about the normal $\tau_n$ [N mm]")
+    return page
