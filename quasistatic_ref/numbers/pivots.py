@@ -87,8 +87,8 @@ def positive_sum(S: Array, terms: Iterable[tuple[Fraction, Array]]) -> bool:
     S : ndarray, shape (n, n)
         Symmetric [any unit]; not finite if a term's sum is not.
     terms : iterable of (Fraction, ndarray)
-        A factor and a matrix, shape (n, n), that it multiplies; the factors together may be those
-        of a multiple of S.
+        A factor [-] and a matrix, shape (n, n) [any unit], that it multiplies; the factors together
+        may be those of a multiple of S.
     """
     if not np.isfinite(S).all():
         return False
