@@ -14,7 +14,7 @@ from quasistatic_ref.errors import InputError, ModelError, about_field, about_fi
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
-from quasistatic_ref.model.readers.text import check_points, number_or_nan, point_lines
+from quasistatic_ref.model.readers.text import check_equal, check_points, number_or_nan, point_lines
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import PointCloud
@@ -92,13 +92,16 @@ def _check(points: Array, seen: Mask) -> None:
 def _of_text(path: Path) -> Array:
     """Points of a text of columns."""
     columns = [0, 1, 2]
-    width = None
+    width = stated = None
     points: list[list[float]] = []
     lines = point_lines(text_of(bytes_read(path, ModelError), path, ModelError))
     for number, line in enumerate(lines, start=1):
         text = line.split("#", 1)[0].strip()
         words = [word.strip().strip('"') for word in SEPARATOR.split(text)]
-        if not text or (width is None and len(words) == 1 and words[0].isdecimal()):
+        if not text:
+            continue
+        if width is None and stated is None and len(words) == 1 and words[0].isdecimal():
+            stated = int(words[0])
             continue
         if width is None:
             width = len(words)
@@ -110,13 +113,14 @@ def _of_text(path: Path) -> Array:
             problem = "must be three numbers, x y z"
             raise ModelError(problem, field=f"line {number}", value=line)
         if not points and (table := _table(lines[number - 1 :], text)) is not None:
-            check_points(len(table))
-            return table[:, columns]
+            points = table[:, columns].tolist()
+            break
         if len(words) != width:
             raise ModelError(f"must have {width} columns", field=f"line {number}", value=line)
         with about_field(f"line {number}"):
             points.append([number_or_nan(words[c]) for c in columns])
     check_points(len(points))
+    check_equal("points", len(points), len(points) if stated is None else stated)
     return np.array(points, dtype=np.float64).reshape(-1, 3)
 
 

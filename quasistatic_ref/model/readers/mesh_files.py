@@ -1,22 +1,20 @@
 """Mesh files: which file a URI means, what it holds, and the convex hull of that."""
 
-import importlib.util
-import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError, about_file
+from quasistatic_ref.errors import InputError, ModelError, about_file
+from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.model.readers.mesh import Mesh
+from quasistatic_ref.model.readers.mesh_texts import TEXTS
+from quasistatic_ref.model.readers.placed_meshes import PLACED, placed_mesh
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull, hull_of_mesh
 
-MESHES = (".stl", ".obj", ".dae", ".ply", ".off", ".glb", ".gltf", ".3mf")
-WITH_UNITS = (".dae", ".3mf")
-"""Files that say in which unit their coordinates are; the others are in metres."""
+MESHES = (*TEXTS, *PLACED)
 PACKAGE = "package://"
 LARGEST_MESH = 16 * 2**20
 """Largest mesh [bytes]."""
@@ -24,22 +22,6 @@ LARGEST_MESH = 16 * 2**20
 
 MOST_ABOVE = 8
 """Folders above a file in which its package is looked for, where no repository bounds them."""
-
-
-@dataclass(frozen=True, eq=False)
-class Mesh:
-    """What a mesh file holds, all of its objects where it places them.
-
-    Parameters
-    ----------
-    vertices : ndarray, shape (V, 3)
-        [m].
-    triangles : ndarray of int, shape (T, 3)
-        Numbers of their vertices; none in a file of points alone.
-    """
-
-    vertices: Array
-    triangles: Indices
 
 
 def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -> Path:
@@ -108,67 +90,31 @@ def _repository(folder: Path) -> list[Path]:
 
 
 def loaded_mesh(path: Path, *, finite: bool = True) -> Mesh:
-    """What a mesh file holds, as trimesh reads it.
+    """What a mesh file holds.
 
     Every object stands where the nodes of the file place it, in metres. A COLLADA file's ``Y_UP``
-    is not applied, as pinocchio, MuJoCo and Drake do not apply it to a link's mesh. Without
-    `finite`, vertices may be NaN or infinite.
+    is not applied, as pinocchio, MuJoCo and Drake do not apply it to a link's mesh, nor that of
+    glTF. Without `finite`, vertices may be NaN or infinite.
 
     Raises
     ------
     ModelError
-        If the file cannot be read, or a coordinate in it is not finite.
+        If the file cannot be read, a count in it is not that of what it holds, or a coordinate is
+        not finite.
     """
-    import trimesh  # takes as long as a short run
-
+    kind = path.suffix.lower()
     with about_file(path):
-        if path.suffix.lower() == ".dae" and importlib.util.find_spec("collada") is None:
-            raise ModelError("needs pycollada: pip install 'quasistatic-ref[dae]'")
+        content = bytes_read(path, ModelError)
         try:
-            with warnings.catch_warnings(), np.errstate(all="ignore"):
-                warnings.simplefilter("ignore")  # each file that is not usable ends in an error
-                if path.suffix.lower() == ".dae":
-                    _check_collada(path)
-                scene = trimesh.load_scene(
-                    path, process=False, maintain_order=True, skip_materials=True
-                )
-                mesh = _joined(scene.dump())
-        except Exception as error:
-            # Each format's reader raises its own kinds of errors.
-            reason = " ".join(str(error).split()) or type(error).__name__
-            raise ModelError(f"cannot be read as a mesh: {reason}") from None
-        numbers = mesh.triangles
-        if numbers.min(initial=0) < 0 or numbers.max(initial=-1) >= len(mesh.vertices):
-            raise ModelError("must be numbers of vertices", field="triangles")
-        if path.suffix.lower() in WITH_UNITS and scene.units is not None:
-            metres = trimesh.units.unit_conversion(scene.units, "meters")
-            mesh = replace(mesh, vertices=metres * mesh.vertices)
+            mesh = TEXTS[kind](content) if kind in TEXTS else placed_mesh(path, content)
+        except InputError:
+            raise
+        except Exception:  # each library raises its own kinds, in its own words
+            problem = "cannot be read as a mesh: it is malformed; export it again"
+            raise ModelError(problem) from None
         if finite and not np.isfinite(mesh.vertices).all():
             raise ModelError("must be finite numbers", field="vertices")
         return mesh
-
-
-def _check_collada(path: Path) -> None:
-    """An error of pycollada's where a geometry is malformed, which trimesh leaves out."""
-    from collada import Collada
-    from collada.common import DaeBrokenRefError, DaeUnsupportedError
-
-    Collada(str(path), ignore=[DaeUnsupportedError, DaeBrokenRefError])  # such as of images
-
-
-def _joined(placed: Sequence[Any]) -> Mesh:
-    """All objects as one; lines have no vertices that count."""
-    vertices = [np.zeros((0, 3))]
-    triangles = [np.zeros((0, 3), dtype=np.int64)]
-    count = 0
-    for part in placed:
-        if type(part).__name__ not in ("Trimesh", "PointCloud"):
-            continue
-        faces = np.asarray(getattr(part, "faces", ()), dtype=np.int64).reshape(-1, 3)
-        triangles.append(faces + count)
-        vertices.append(np.asarray(part.vertices, dtype=np.float64).reshape(-1, 3))
-        count += len(part.vertices)
-    return Mesh(np.concatenate(vertices), np.concatenate(triangles))
 
 
 def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
@@ -184,31 +130,36 @@ def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
 
 
 def hull_of_loaded(mesh: Mesh, scale: Array) -> ConvexMesh:
-    """Convex hull of all vertices, times `scale`, (3,) [-]; points alone are their own hull.
+    """Convex hull of the corners of all triangles, times `scale`, (3,) [-], or of points alone.
 
     Raises
     ------
     ModelError
         If there are fewer than four, or they have no volume.
     """
-    if not len(mesh.vertices):
+    corners = mesh.corners
+    if not len(corners):
         raise ModelError("is empty: the mesh has no vertices", field="vertices")
-    if len(mesh.vertices) < 4:
-        raise ModelError("must be at least four", field="vertices", value=len(mesh.vertices))
+    if len(corners) < 4:
+        raise ModelError("must be at least four", field="vertices", value=len(corners))
     if not len(mesh.triangles):
-        return convex_hull(np.unique(mesh.vertices * scale, axis=0))
-    return hull_of_mesh(mesh.vertices * scale, mesh.triangles)
+        return convex_hull(np.unique(corners * scale, axis=0))
+    numbers = np.unique(mesh.triangles, return_inverse=True)[1].reshape(-1, 3)
+    return hull_of_mesh(corners * scale, numbers)
 
 
 def hull_note(name: str, hull: ConvexMesh, mesh: Mesh) -> str:
     """What became of a mesh, as one line."""
     corners = f"{len(hull.vertices)} corners"
+    unused = len(mesh.vertices) - len(mesh.corners)
+    more = f"; vertices that no triangle uses are left out: {unused}" if unused else ""
+    more += f"; {mesh.note}" if mesh.note else ""
     if not len(mesh.triangles):
-        return f"{name}: a mesh of points alone, whose convex hull is taken, {corners}"
+        return f"{name}: a mesh of points alone, whose convex hull is taken, {corners}{more}"
     if hull.is_convex:
-        return f"{name}: convex mesh, {corners}"
-    more = 100 * hull.excess
+        return f"{name}: convex mesh, {corners}{more}"
+    percent = 100 * hull.excess
     return (
-        f"{name}: mesh replaced by its convex hull, {corners}; "
-        f"it is not convex (by {more:.2g} %), so a contact with it must say hull = true"
+        f"{name}: mesh replaced by its convex hull, {corners}; it is not convex "
+        f"(by {percent:.2g} %), so a contact with it must say hull = true{more}"
     )

@@ -16,8 +16,9 @@ from quasistatic_ref.model.readers.mesh_files import (
     loaded_mesh,
     mesh_path,
 )
+from quasistatic_ref.model.readers.xml_text import xml_root
 from quasistatic_ref.model.urdf.urdf_file import FileMesh, UrdfFile, written_shape
-from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+from quasistatic_ref.model.urdf.urdf_xml import Tag
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import Capsule, PlacedShape, Sphere
 from quasistatic_ref.tolerances import LOADED

@@ -5,11 +5,9 @@ attribute, a number with a tail.
 """
 
 import difflib
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from xml.etree.ElementTree import Element, TreeBuilder
-from xml.parsers import expat
+from xml.etree.ElementTree import Element
 
 import numpy as np
 import pinocchio as pin
@@ -22,54 +20,6 @@ from quasistatic_ref.tolerances import LARGE
 
 ALIKE = 0.6
 """Similarity by which a short name is taken for a misprint of another [-], as difflib counts it."""
-DEEPEST = 100
-"""Most elements in one another; other readers of XML recurse, and end the process."""
-
-
-def xml_root(text: str) -> Element:
-    """Root element of a document without a DOCTYPE.
-
-    Raises
-    ------
-    ModelError
-        If the text is not well-formed, is nested without end, or declares a document type:
-        entities of its own are never needed in a model, and can expand without bound.
-    """
-    # It says nothing more of a text; where it is not at the start, other readers pass it over.
-    text = re.sub(r"<\?xml\s[^>]*\?>", "", text, count=1)
-    builder = TreeBuilder()
-    parser = expat.ParserCreate()
-    parser.buffer_text = True
-
-    def refusal(*_: object) -> None:
-        problem = "a DOCTYPE is not allowed, because entities are not expanded"
-        raise ModelError(problem, field=f"line {parser.CurrentLineNumber}")
-
-    parser.StartDoctypeDeclHandler = refusal
-    depth = 0
-
-    def start(name: str, attributes: dict[str, str]) -> None:
-        nonlocal depth
-        depth += 1
-        if depth > DEEPEST:
-            problem = f"is nested deeper than {DEEPEST} elements"
-            raise ModelError(problem, field=f"line {parser.CurrentLineNumber}")
-        builder.start(name, attributes)
-
-    def end(name: str) -> None:
-        nonlocal depth
-        depth -= 1
-        builder.end(name)
-
-    parser.StartElementHandler = start
-    parser.EndElementHandler = end
-    parser.CharacterDataHandler = builder.data
-    try:
-        parser.Parse(text, True)
-    except expat.ExpatError as error:
-        problem = f"is not well-formed XML: {expat.ErrorString(error.code)}"
-        raise ModelError(problem, field=f"line {error.lineno}") from None
-    return builder.close()
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,9 @@
 from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
+from quasistatic_ref.model.readers.xml_text import xml_root
 from quasistatic_ref.model.system import System
-from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+from quasistatic_ref.model.urdf.urdf_xml import Tag
 
 
 class UrdfJoint(NamedTuple):

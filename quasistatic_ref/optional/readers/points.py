@@ -13,12 +13,14 @@ from quasistatic_ref.errors import InputError, ModelError, about_file
 from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.formats.npz import array_of, npz_arrays, readable
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
-from quasistatic_ref.model.readers.text import check_points
+from quasistatic_ref.model.readers.text import check_equal, check_points, check_unpacked
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import needed_package
 
 LARGEST_HEADER = 2**20
-"""Bytes in which the number of a file's points must stand."""
+"""Bytes in which the header of a PCD ends."""
+PCD_LINES = ("FIELDS", "SIZE", "COUNT", "WIDTH", "HEIGHT", "POINTS", "TYPE", "DATA")
+"""What it must have."""
 
 
 def file_points(path: Path) -> Array:
@@ -35,9 +37,9 @@ def file_points(path: Path) -> Array:
             points = KINDS[kind](path)
         except InputError:
             raise
-        except Exception as error:  # each library raises its own kinds
-            reason = " ".join(str(error).split()) or type(error).__name__
-            raise ModelError(f"cannot be read as {kind[1:].upper()}: {reason}") from None
+        except Exception:  # each library raises its own kinds, in its own words
+            problem = f"cannot be read as {kind[1:].upper()}: it is malformed; export it again"
+            raise ModelError(problem) from None
         if points.dtype.kind not in "fiu" or points.ndim != 2 or points.shape[1] != 3:
             shape = f"{points.dtype} of shape {points.shape}"
             raise ModelError("must contain numbers of shape (N, 3)", field="points", value=shape)
@@ -45,39 +47,61 @@ def file_points(path: Path) -> Array:
         return points.astype(np.float64)
 
 
-def _counted(points: Array, content: bytes, line: bytes) -> Array:
-    """The points, if they are as many as a line of the file's header says."""
-    header_count = re.search(line + rb"[ \t]+(\d+)", content[:LARGEST_HEADER], re.MULTILINE)
-    if header_count is not None and int(header_count[1]) != len(points):
-        raise ModelError(f"must be {int(header_count[1])}", field="points", value=len(points))
-    return points
-
-
 def _ply(path: Path) -> Array:
-    content = bytes_read(path, ModelError)
-    return _counted(loaded_mesh(path, finite=False).vertices, content, rb"^element[ \t]+vertex")
+    return loaded_mesh(path, finite=False).vertices
 
 
 def _pcd(path: Path) -> Array:
     pypcd4 = needed_package("pypcd4", "pcd", "a .pcd cloud")
-    pydantic = needed_package("pydantic", "pcd", "a .pcd cloud")  # which pypcd4 has errors of
     content = bytes_read(path, ModelError)
-    fields = re.search(rb"^FIELDS(.*)$", content[:LARGEST_HEADER], re.MULTILINE)
-    if fields is not None and b"\nCOUNT" not in content[:LARGEST_HEADER]:  # each is one number then
-        ones = b"\nCOUNT" + b" 1" * len(fields[1].split()) + b"\nDATA"
-        content = content.replace(b"\nDATA", ones, 1)
-    try:
-        cloud = pypcd4.PointCloud.from_fileobj(io.BytesIO(content))
-    except pydantic.ValidationError as error:
-        names = ", ".join(str(one["loc"][0]).upper() for one in error.errors())
-        raise ModelError("lacks or misstates these lines", field="header", value=names) from None
-    return _counted(cloud.numpy(("x", "y", "z")), content, rb"^POINTS")
+    if b"\nCOUNT" not in content[:LARGEST_HEADER]:  # each field is one number then
+        fields = re.search(rb"^FIELDS(.*)$", content[:LARGEST_HEADER], re.MULTILINE)
+        ones = b"\nCOUNT" + b" 1" * len(fields[1].split() if fields else ())
+        content = content.replace(b"\nDATA", ones + b"\nDATA", 1)
+    _check_pcd(content)
+    cloud = pypcd4.PointCloud.from_fileobj(io.BytesIO(content))
+    points: Array = cloud.numpy(("x", "y", "z"))
+    return points
+
+
+def _check_pcd(content: bytes) -> None:
+    """Check what the header states against what follows it."""
+    line = re.search(rb"^DATA[ \t]+(\w+)[ \t]*\r?\n", content[:LARGEST_HEADER], re.MULTILINE)
+    end = len(content) if line is None else line.end()
+    header = dict(re.findall(rb"^([A-Z]+)[ \t]+(.*?)\r?$", content[:end], re.MULTILINE))
+    if missing := [name for name in PCD_LINES if name.encode() not in header]:
+        raise ModelError("lacks these lines", field="header", value=missing)
+    sizes, counts, *shape, (stated,) = [
+        [int(word) for word in header[name.encode()].split()] for name in PCD_LINES[1:6]
+    ]
+    width, height = (int(one[0]) for one in shape)
+    check_points(stated)
+    if not (0 < stated == width * height):
+        raise ModelError("must be WIDTH times HEIGHT, and not 0", field="POINTS", value=stated)
+    row = sum(size * count for size, count in zip(sizes, counts, strict=True))
+    body = content[end:]
+    if header[b"DATA"] == b"ascii":
+        check_equal("numbers", len(body.split()), stated * sum(counts))
+        return
+    if header[b"DATA"] != b"binary":
+        packed, unpacked = np.frombuffer(body[:8].ljust(8, b"\0"), "<u4").tolist()
+        check_unpacked(unpacked)
+        check_equal("unpacked bytes", unpacked, stated * row)
+        row, stated, body = 1, packed, body[8:]
+    if len(body) < stated * row:
+        raise ModelError(f"must be {stated}", field="points", value=len(body) // row)
 
 
 def _las(path: Path) -> Array:
     laspy = needed_package("laspy", "las", "a .las cloud")
-    with laspy.open(path) as reader:
-        check_points(reader.header.point_count)
+    content = bytes_read(path, ModelError)
+    with laspy.open(io.BytesIO(content)) as reader:
+        header = reader.header
+        check_points(header.point_count)
+        room = len(content) - header.offset_to_point_data
+        if room < header.point_count * header.point_format.size:
+            value = max(0, room // header.point_format.size)
+            raise ModelError(f"must be {header.point_count}", field="points", value=value)
         return np.asarray(reader.read().xyz)
 
 

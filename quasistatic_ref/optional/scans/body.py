@@ -218,8 +218,9 @@ def _surface_and_solid(
         mesh = loaded_mesh(path)
         if not len(mesh.vertices):
             raise InputError("is empty: the file holds no vertices", field="vertices")
+        notes += [mesh.note] if mesh.note else []
         if len(mesh.triangles):
-            return _of_mesh(mesh.vertices * _metres(mesh.vertices, unit), mesh.triangles, notes)
+            return _of_mesh(mesh.vertices * _metres(mesh.corners, unit), mesh.triangles, notes)
     written, unseen = seen_points(path)
     written = np.unique(written, axis=0) if len(written) else written
     points = written * _metres(written, unit)

@@ -28,7 +28,7 @@ def closed_mesh(vertices: Array, triangles: Indices, notes: list[str]) -> trimes
     """
     mesh = trimesh.Trimesh(vertices, triangles, process=False)
     if not mesh.is_watertight:
-        digits = DIGITS - np.ceil(np.log10(np.ptp(vertices, axis=0).max()))
+        digits = DIGITS - np.ceil(np.log10(np.ptp(vertices[triangles.ravel()], axis=0).max()))
         mesh.merge_vertices(digits_vertex=int(digits))
         mesh.update_faces(np.diff(np.sort(mesh.faces)).all(axis=1))
     edges, sides = np.unique(mesh.edges_sorted, axis=0, return_counts=True)

@@ -11,8 +11,10 @@ from quasistatic_ref.numbers.arrays import Array
 
 FEWEST = 4
 """Fewest contacts that are suggested: corners of a face."""
-DECIMALS = 8
-"""Points of a face are equally low to so many decimals of a metre."""
+FLAT = 1e-7
+"""Points of a face are equally low to so much of the extent [-]."""
+DECIMALS = 7
+"""Decimals of normals to which faces are the same."""
 
 
 def points_to_lie_on(points: Array, centre: Array) -> tuple[int, int, Array]:
@@ -30,16 +32,20 @@ def points_to_lie_on(points: Array, centre: Array) -> tuple[int, int, Array]:
     centre : ndarray, shape (3,)
         Of mass [m].
     """
-    planes = np.unique(ConvexHull(points).equations.round(DECIMALS), axis=0)
-    d1, d2 = tangents(planes[:, :3])
+    extent = np.ptp(points, axis=0).max()
+    points, centre = points / extent, centre / extent
+    faces = ConvexHull(points).equations
+    rounded, first = np.unique(faces.round(DECIMALS), axis=0, return_index=True)
+    d1, d2 = tangents(faces[first, :3])
     needed = []
     stable = []
-    for normal, along, across in zip(planes[:, :3], d1, d2, strict=True):
-        below = (points @ normal).round(DECIMALS)
+    for face, normal, along, across in zip(first, rounded[:, :3], d1, d2, strict=True):
+        below = points @ faces[face, :3]
+        low = below > below.max() - FLAT
         flat = (points - centre) @ np.stack([along, across], axis=1)
-        if not _around(flat[below == below.max()]):
+        if not _around(flat[low]):
             continue
-        flat = flat[np.argsort(-below, kind="stable")]
+        flat = flat[np.argsort(-np.where(low, np.inf, below), kind="stable")]
         counts = range(3, len(points))
         count = 3 + bisect_left(counts, True, key=partial(_lowest_are_around, flat))
         needed.append(count)

@@ -122,12 +122,12 @@ BAD = {
     "pcd of other words": (
         ".pcd",
         b"solid thing\n",
-        "header: lacks or misstates .* .got 'FIELDS, SIZE",
+        "header: lacks these lines .*'FIELDS', 'SIZE'",
     ),
     "pcd without its body": (".pcd", pcd("binary", b""), "points: must be 2 .got 0"),
     "pcd of an odd type": (
         ".pcd",
-        pcd("binary", b"", PCD_HEADER.replace("SIZE 1", "SIZE 3")),
+        pcd("binary", binary_body("<Bxx3d"), PCD_HEADER.replace("SIZE 1", "SIZE 3")),
         "cannot be read as PCD",
     ),
     "npy of a pickle": (
@@ -154,21 +154,28 @@ BAD = {
     "overflow": (".xyz", b"0 1e999 0\n", "line 1:.*overflows.*'1e999'"),
     "not text": (".xyz", b"0 0 0\n\xff\xfe 0 0\n", "line 2: is not UTF-8 text"),
     "no column z": (".csv", b"x,y,u\n1,2,3\n", "line 1: must name the column z once"),
-    "obj without z": (".obj", b"v 1 2\n", "cannot be read as a mesh"),
-    "not ply": (".ply", b"hello\n", "cannot be read as a mesh: Not a ply file"),
+    "obj without z": (".obj", b"v 1 2\n", "line 1: must be a point, x y z .got '1 2'"),
+    "not ply": (".ply", b"hello\n", "must begin with ply"),
     "short ascii ply": (
         ".ply",
         PLY_ASCII.split("1.0 2e-3")[0].encode(),
-        r"points: must be 2 \(got 1\)",
+        r"vertex: must be 2, as the file states \(got 1\)",
     ),
     "a count beyond 64 bits": (
         ".ply",
         PLY_ASCII.replace("vertex 2", "vertex 9999999999999999999").encode(),
-        "points: must be 9999999999999999999",
+        "vertex: must be 9999999999999999999",
     ),
+    "another number than it begins with": (".pts", b"3\n0 0 0\n1 0 0\n", "points: must be 3"),
+    "a pcd of other numbers": (
+        ".pcd",
+        pcd("ascii", PCD_BODY + b"1 2 3\n"),
+        "numbers: must be 8, as the file states .got 11",
+    ),
+    "a pcd of no points": (".pcd", pcd("ascii", b"", PCD_HEADER.replace(" 2\n", " 0\n")), "not 0"),
     "faces first": (
         ".ply",
-        b"ply\nformat ascii 1.0\nelement face 1\nend_header\n",
+        b"ply\nformat ascii 1.0\nelement face 0\nend_header\n",
         "points: must contain at least one",
     ),
 }
@@ -275,9 +282,12 @@ def test_a_compressed_pcd_is_read_and_one_that_is_cut_off_or_of_another_number_r
     pypcd4.PointCloud.from_xyz_points(EIGHT).save(path, pypcd4.Encoding.BINARY_COMPRESSED)
     assert point_cloud(path).points == pytest.approx(EIGHT, abs=1e-8)
     whole = path.read_bytes()
-    for content in (whole[:-3], whole.replace(b"POINTS 8", b"POINTS 9")):
+    for content, words in (
+        (whole[:-3], "points: must be"),
+        (whole.replace(b"POINTS 8", b"POINTS 9"), "POINTS: must be WIDTH times HEIGHT"),
+    ):
         path.write_bytes(content)
-        with pytest.raises(ModelError, match="cannot be read as PCD"):
+        with pytest.raises(ModelError, match=words):
             point_cloud(path)
 
 
@@ -293,7 +303,8 @@ def test_las_is_read_in_metres_and_a_broken_one_is_refused(tmp_path):
     content = file.read_bytes()
     for spoilt in (b"", content[:100], content[:-5], b"LASF" + bytes(300)):
         file.write_bytes(spoilt)
-        with pytest.raises(ModelError, match="cannot be read as LAS"):
+        short = "points: must be 3 .got 2" if spoilt == content[:-5] else "cannot be read as LAS"
+        with pytest.raises(ModelError, match=short):
             point_cloud(file)
 
 

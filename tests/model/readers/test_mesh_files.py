@@ -1,8 +1,11 @@
 """Meshes become convex hulls, from files that are where they may be."""
 
+import base64
 import io
+import json
 import os
 import re
+import sys
 from zipfile import ZipFile
 
 import numpy as np
@@ -10,6 +13,8 @@ import pytest
 import trimesh
 
 from quasistatic_ref import Body, ModelError, System
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.model.readers import placed_meshes, text
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_hull, mesh_path
 from quasistatic_ref.model.urdf import urdf_shapes
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
@@ -113,6 +118,10 @@ MALFORMED = {
     "a letter for an index": ("0 3 2 1", "0 3 x 1"),
     "a fraction": ("0 3 2 1", "0 3 2.5 1"),
     "an index that is not there": ("0 3 2 1", "0 3 99 1"),
+    "another count": ('count="12"', 'count="15"'),
+    "another number of triangles": ('<triangles count="4">', '<triangles count="5">'),
+    "a part that is not there": ('url="#g"', 'url="#h"'),
+    "NaN, which pycollada takes for 0": ("0 0 0 1 0 0", "0 0 nan 1 0 0"),
     "no XML": ("</COLLADA>", ""),
 }
 
@@ -121,7 +130,7 @@ MALFORMED = {
 def test_a_malformed_collada_mesh_is_refused_by_name(tmp_path, right, wrong):
     assert COLLADA.count(right) == 1
     path = urdf_of_text(tmp_path, COLLADA.replace(right, wrong), "a.dae")
-    with pytest.raises(ModelError, match=r"a\.dae: cannot be read as a mesh"):
+    with pytest.raises(ModelError, match=r"a\.dae: "):
         mesh_hull(path, np.ones(3))
 
 
@@ -220,7 +229,7 @@ def _bytes(content):
 
 
 def test_a_mesh_that_is_named_five_times_is_read_once_and_has_one_hull(tmp_path, monkeypatch):
-    (tmp_path / "m.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\n")
+    (tmp_path / "m.obj").write_text(TETRAHEDRON)
     mesh = (
         '<collision><geometry><mesh filename="m.obj" scale="{0} {0} {0}"/></geometry></collision>'
     )
@@ -235,3 +244,153 @@ def test_a_mesh_that_is_named_five_times_is_read_once_and_has_one_hull(tmp_path,
     assert len(counts) == 1
     assert len({id(placed.shape) for placed in same}) == 1
     assert np.ptp(larger.shape.vertices, axis=0).tolist() == [2, 2, 2]
+
+
+def exported(kind):
+    """A box as trimesh writes it."""
+    mesh = trimesh.creation.box((1, 2, 4))
+    return _bytes(trimesh.Scene(mesh).export(file_type=kind) if kind == "glb" else
+                  mesh.export(file_type=kind))  # fmt: skip
+
+
+def plain_gltf(**changed):
+    """The tetrahedron as a glTF of one buffer, whose tables are changed."""
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "<f4").tobytes()
+    faces = np.array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3], "<u2").tobytes()
+    uri = "data:;base64," + base64.b64encode(corners + faces).decode()
+    accessors = [
+        {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+        {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"},
+    ]
+    views = [
+        {"buffer": 0, "byteLength": 48},
+        {"buffer": 0, "byteOffset": 48, "byteLength": 24},
+    ]
+    tree = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"uri": uri, "byteLength": 72}],
+        "bufferViews": views,
+        "accessors": accessors,
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "nodes": [{"mesh": 0}],
+        "scenes": [{"nodes": [0]}],
+    }
+    return json.dumps(tree | changed).encode()
+
+
+def of_3mf(change=lambda text: text):
+    """A 3MF of the box whose model is changed."""
+    with ZipFile(io.BytesIO(exported("3mf"))) as written:
+        texts = {name: written.read(name) for name in written.namelist()}
+    file = io.BytesIO()
+    with ZipFile(file, "w") as changed:
+        for name, text in texts.items():
+            changed.writestr(name, change(text) if name.endswith(".model") else text)
+    return file.getvalue()
+
+
+def of_ten(text):
+    """A COLLADA file, or a model of 3MF, that places its part ten times."""
+    text = re.sub(rb"<item [^>]*/>", lambda item: 10 * item[0], text)
+    return text.replace(b'<instance_geometry url="#g"/>', 10 * b'<instance_geometry url="#g"/>')
+
+
+STL = exported("stl_ascii")
+OFF = exported("off")
+PLY = exported("ply")
+LIES = {
+    "text for JSON": ("a.gltf", b"", "cannot be read as a mesh: it is malformed"),
+    "a pipe": ("a.gltf", plain_gltf(buffers=[{"uri": "pipe", "byteLength": 72}]), "a pipe, not"),
+    "a file elsewhere": ("a.gltf", plain_gltf(buffers=[{"uri": "../x", "byteLength": 72}]),
+                         "must be a file in the folder of this one"),
+    "a short buffer": ("a.gltf", plain_gltf(buffers=[{"uri": "data:,", "byteLength": 72}]),
+                       r"buffers\[0\]: must be 72, as the file states \(got 0\)"),
+    "a view beyond its buffer": ("a.gltf", plain_gltf(
+        bufferViews=[{"buffer": 0, "byteLength": 99}]), r"Views\[0\]: is not within its buffer"),
+    "an array beyond its view": ("a.gltf", plain_gltf().replace(b'"count": 4', b'"count": 5'),
+                                 r"accessors\[0\]: is not within bufferViews\[0\]"),
+    "zeros without bytes": ("a.gltf", plain_gltf().replace(b'"bufferView": 0, ', b""),
+                            "is compressed, sparse or normalized"),
+    "a node in itself": ("a.gltf", plain_gltf(nodes=[{"mesh": 0, "children": [0]}]), "one place"),
+    "a fan": ("a.gltf", plain_gltf().replace(b'"indices": 1', b'"indices": 1, "mode": 6'), "a fan"),
+    "a GLB cut off": ("a.glb", exported("glb")[:-4], "bytes: must be"),
+    "a solid cut off": ("a.stl", STL + STL[: STL.rindex(b"outer")], "is cut off or not in"),
+    "a solid without its end": ("a.stl", STL.replace(b"endsolid", b""), "is cut off or not in"),
+    "a binary STL cut off": ("a.stl", exported("stl")[:-1], "must begin with solid, or hold 50"),
+    "a word of its own": ("a.stl", STL.replace(b"endloop", b"color", 1), "line 7: must begin with"),
+    "fewer faces": ("a.off", OFF[:-10], "line 2: must be the number of points and of faces"),
+    "a face cut short": ("a.off", OFF.rstrip()[:-1] + b"\n", "line 22: must have 3 corners"),
+    "a face of two": ("a.obj", TETRAHEDRON + "f 1 2\n", "line 9: must be a face of three corners"),
+    "a corner too many": ("a.obj", TETRAHEDRON + "f 1 2 9\n", "triangles: must be numbers of ver"),
+    "a line that is none": ("a.obj", TETRAHEDRON + "x 1 2\n", "line 9: is a line of an OBJ that"),
+    "a binary PLY cut off": ("a.ply", PLY[:-1], r"face\[11\].vertex_indices: must be 3.*got 2"),
+    "a longer PLY": ("a.ply", PLY + b"x", "holds more than its header says"),
+    "ten parts": ("a.dae", of_ten(COLLADA.encode()), "places more than 150 vertices and triangles"),
+    "ten items": ("a.3mf", of_3mf(of_ten), "places more than 150 vertices and triangles"),
+    "a long model": ("a.3mf", of_3mf(lambda text: text + 8000 * b" "), "unpacks to more than"),
+    "a part that is not there": ("a.3mf", of_3mf(lambda text: re.sub(
+        rb'objectid="\d+"', b'objectid="99"', text)), "is placed, but not in the file"),
+    "far away": ("a.obj", TETRAHEDRON.replace("1 0 0", "1e200 0 0"), "must be at most 1e.15 m"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "content", "words"), LIES.values(), ids=LIES)
+def test_what_a_file_states_of_itself_is_compared_with_it(
+    tmp_path, monkeypatch, name, content, words
+):
+    """With bounds of a few kilobytes; next to it lie a pipe and a glTF of another shape."""
+    os.mkfifo(tmp_path / "pipe")
+    for other, part in trimesh.creation.box().export(file_type="gltf").items():
+        (tmp_path / other).write_bytes(part)
+    monkeypatch.setattr(placed_meshes, "MOST_PLACED", 150)
+    monkeypatch.setattr(placed_meshes, "PART", 0)
+    monkeypatch.setattr(text, "LARGEST_UNPACKED", 8000)
+    (tmp_path / name).write_bytes(_bytes(content))
+    with pytest.raises(ModelError, match=f"^{re.escape(str(tmp_path))}/.*{words}"):
+        loaded_mesh(tmp_path / name)
+
+
+SAME = {
+    "a Latin-1 letter in OBJ": ("a.obj", b"# K\xf6rper\n" + TETRAHEDRON.encode()),
+    "three dots of Windows": ("a.obj", b"o a\x85b\n" + TETRAHEDRON.encode()),
+    "a Latin-1 name in STL": ("a.stl", b"solid K\xf6rper\n" + STL.partition(b"\n")[2]),
+    "a Latin-1 comment in OFF": ("a.off", b"OFF # K\xf6rper\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1"),
+    "counts in the line of OFF": ("a.off", b"OFF4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"),
+    "a Latin-1 name in COLLADA": ("a.dae", COLLADA.replace('id="sc"', 'id="sc" name="\xf6"')
+                                  .encode("latin-1")),
+    "a header that begins with solid": ("a.stl", b"solid".ljust(80) + exported("stl")[80:]),
+    "glTF": ("a.gltf", plain_gltf()),
+    "GLB of several bodies": ("a.glb", exported("glb")),
+    "3MF": ("a.3mf", of_3mf()),
+    "back from the last point": ("a.obj", TETRAHEDRON.replace("f 2 3 4", "f -3 -2 -1")),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "content"), SAME.values(), ids=SAME)
+def test_what_is_whole_is_read(tmp_path, name, content):
+    (tmp_path / name).write_bytes(_bytes(content))
+    vertices = loaded_mesh(tmp_path / name).vertices
+    extent = np.ptp(vertices, axis=0)
+    assert extent.tolist() in ([1, 1, 1], [1, 2, 4], [0.001, 0.002, 0.004])
+
+
+def test_a_vertex_that_no_triangle_uses_is_in_no_hull(tmp_path):
+    """Nor one of a line, nor in glTF; and the y axis of glTF is said to be up."""
+    for stray in ("v 0 0 9\n", "v 0 0 9\nl 1 5\n"):
+        path = urdf_of_text(tmp_path, TETRAHEDRON + stray, "a.obj")
+        urdf_of_text(tmp_path, robot(link("a", collision('<mesh filename="a.obj"/>'))), "r.urdf")
+        assert_within(mesh_hull(path, np.ones(3)).volume, 1 / 6, CLOSED_FORM)
+        (note,) = loaded_urdf(tmp_path / "r.urdf").notes
+        assert note.endswith("4 corners; vertices that no triangle uses are left out: 1")
+    (tmp_path / "a.gltf").write_bytes(plain_gltf())
+    urdf_of_text(tmp_path, robot(link("a", collision('<mesh filename="a.gltf"/>'))), "r.urdf")
+    (note,) = loaded_urdf(tmp_path / "r.urdf").notes
+    assert "its y axis is up; it is not turned, rpy = [1.5708, 0, 0]" in note
+
+
+@pytest.mark.parametrize(("name", "package"), [("a.3mf", "lxml"), ("a.dae", "collada")])
+def test_a_format_names_the_extra_that_it_needs(tmp_path, monkeypatch, name, package):
+    (tmp_path / name).write_bytes(b"")
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(InputError, match=rf"needs {package}: pip install 'quasistatic-ref\["):
+        loaded_mesh(tmp_path / name)

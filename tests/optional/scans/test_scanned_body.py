@@ -123,6 +123,13 @@ def test_as_many_points_as_a_cube_lies_on(each, expected):
     assert k == expected
 
 
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3, 1e9])
+def test_ways_to_lie_do_not_hang_on_scale(scale):
+    """A ball of 320 faces lies on each of them, off its middle, too."""
+    points = scale * (trimesh.creation.icosphere(subdivisions=2, radius=0.05).vertices + 0.3)
+    assert points_to_lie_on(points, np.full(3, 0.3 * scale))[:2] == (4, 320)
+
+
 def test_the_command_writes_a_scene_that_runs(tmp_path, cli):
     """A can that stands where it was scanned stays there, and bears its weight."""
     points, _ = SOLIDS["can"](np.random.default_rng(7), 3000)

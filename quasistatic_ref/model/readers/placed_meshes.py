@@ -1,0 +1,380 @@
+"""Meshes in glTF, COLLADA and 3MF, which place parts many times: read by trimesh.
+
+Before it reads a file, the sizes that the file states are compared with the file, and what it
+places is counted; afterwards it must have read as many triangles.
+"""
+
+import base64
+import json
+import warnings
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from io import BytesIO
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+from urllib.parse import unquote
+from xml.etree.ElementTree import Element
+from zipfile import ZipFile
+
+import numpy as np
+
+from quasistatic_ref.errors import ModelError, about_field
+from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.model.readers.mesh import Mesh, fans, joined
+from quasistatic_ref.model.readers.mesh_texts import text_of_mesh
+from quasistatic_ref.model.readers.text import (
+    LARGEST_UNPACKED,
+    check_equal,
+    check_unpacked,
+    decimal,
+)
+from quasistatic_ref.model.readers.xml_text import DEEPEST, xml_root
+from quasistatic_ref.parts import needed_package
+
+MOST_PLACED = 2_000_000
+"""Most vertices and triangles of a file, each counted as often as it is placed."""
+PART = 100
+"""A part takes the memory of so many vertices."""
+UP = "its y axis is up; it is not turned, rpy = [1.5708, 0, 0] stands it up"
+GLB = 12
+"""Bytes of a GLB before its chunks."""
+COMPONENTS = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
+"""Bytes of the kinds of numbers of a glTF."""
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+STRIP, FAN = 5, 6
+"""Modes of a glTF's triangles that follow one another."""
+UNITS = ("micron", "millimeter", "centimeter", "inch", "foot", "meter")
+"""Units of 3MF."""
+
+
+class _Part(NamedTuple):
+    """Something that a file places.
+
+    Parameters
+    ----------
+    size : int
+        Vertices and triangles of its own.
+    triangles : int
+    parts : sequence
+        Names of those that it contains.
+    """
+
+    size: int
+    triangles: int
+    parts: Sequence[Hashable]
+
+
+class _Stated(NamedTuple):
+    """A file as trimesh is given it.
+
+    Parameters
+    ----------
+    kind : str
+        Extension, without a dot.
+    content : bytes
+        All of it: it names no other file.
+    triangles : int
+        How many it places.
+    note : str
+    """
+
+    kind: str
+    content: bytes
+    triangles: int
+    note: str = ""
+
+
+def _placed_triangles(parts: Mapping[Hashable, _Part], top: Sequence[Hashable]) -> int:
+    """How many triangles the parts `top` have, with all that they contain.
+
+    Raises
+    ------
+    ModelError
+        If a part is missing or contains itself, or there are more than MOST_PLACED.
+    """
+    totals: dict[Hashable, tuple[int, int]] = {}
+
+    def total(name: Hashable, depth: int) -> tuple[int, int]:
+        if name not in parts:
+            raise ModelError("is placed, but not in the file", value=name)
+        if depth > DEEPEST:
+            raise ModelError(f"is nested deeper than {DEEPEST} parts, or contains itself")
+        if name not in totals:
+            size, triangles, below = parts[name]
+            pairs = [(PART + size, triangles), *(total(one, depth + 1) for one in below)]
+            totals[name] = sum(size for size, _ in pairs), sum(count for _, count in pairs)
+        return totals[name]
+
+    sizes = [total(name, 0) for name in top]
+    size = sum(size for size, _ in sizes)
+    if size > MOST_PLACED:
+        raise ModelError(f"places more than {MOST_PLACED} vertices and triangles", value=size)
+    return sum(count for _, count in sizes)
+
+
+def _gltf(path: Path, content: bytes) -> _Stated:
+    """A glTF or GLB, with its buffers."""
+    chunk = b""
+    if content[:4] == b"glTF":
+        content, chunk = _glb(content)
+    tree = json.loads(text_of(content, path, ModelError))
+    buffers: list[bytes] = []
+    for number, buffer in enumerate(tree.get("buffers", ())):
+        with about_field(f"buffers[{number}]"):
+            data = _buffer(path, buffer.get("uri"), chunk)[: buffer["byteLength"]]
+            check_equal("bytes", len(data), buffer["byteLength"])
+            buffers.append(data)
+            check_unpacked(sum(map(len, buffers)))
+            uri = f"data:;base64,{base64.b64encode(data).decode()}"
+            tree["buffers"][number] = {"uri": uri, "byteLength": len(data)}
+    views = tree.get("bufferViews", ())
+    accessors = tree.get("accessors", ())
+    _check_gltf_sizes(buffers, views, accessors)
+    parts: dict[Hashable, _Part] = {}
+    for number, mesh in enumerate(tree.get("meshes", ())):
+        with about_field(f"meshes[{number}]"):
+            counts = [_primitive(one, accessors) for one in mesh["primitives"]]
+            triangles = sum(count for _, count in counts)
+            size = triangles + sum(PART + count for count, _ in counts)
+            parts["mesh", number] = _Part(size, triangles, ())
+    nodes = tree.get("nodes", ())
+    for number, node in enumerate(nodes):
+        below: list[Hashable] = [("node", one) for one in node.get("children", ())]
+        below += [("mesh", node["mesh"])] if "mesh" in node else []
+        parts["node", number] = _Part(0, 0, below)
+    scenes = tree.get("scenes", ())
+    top = scenes[tree.get("scene", 0)].get("nodes", ()) if scenes else ()
+    once = [*top, *(one for node in nodes for one in node.get("children", ()))]
+    if len(set(once)) < len(once):
+        raise ModelError("must stand in one place each", field="nodes")
+    with about_field("nodes"):
+        count = _placed_triangles(parts, [("node", one) for one in top])
+    return _Stated("gltf", json.dumps(tree).encode(), count, UP)
+
+
+def _glb(content: bytes) -> tuple[bytes, bytes]:
+    """Its JSON, and its binary chunk."""
+    version, length = np.frombuffer(content[4:GLB].ljust(8, b"\0"), "<u4").tolist()
+    check_equal("version", version, 2)
+    check_equal("bytes", len(content), length)
+    chunks: dict[bytes, bytes] = {}
+    at = GLB
+    while at < length:
+        (size,) = np.frombuffer(content[at : at + 4].ljust(4, b"\0"), "<u4").tolist()
+        chunk = content[at + 8 : at + 8 + size]
+        check_equal("bytes of a chunk", len(chunk), size)
+        chunks.setdefault(content[at + 4 : at + 8], chunk)
+        at += 8 + size
+    return chunks[b"JSON"], chunks.get(b"BIN\0", b"")
+
+
+def _buffer(path: Path, uri: str | None, chunk: bytes) -> bytes:
+    if uri is None:
+        return chunk
+    if uri.startswith("data:"):
+        return base64.b64decode(uri.partition(",")[2], validate=True)
+    file = (path.parent / unquote(uri)).resolve()
+    if not file.is_relative_to(path.parent.resolve()):
+        raise ModelError("must be a file in the folder of this one", field="uri", value=uri)
+    return bytes_read(file, ModelError, LARGEST_UNPACKED)
+
+
+def _check_gltf_sizes(
+    buffers: Sequence[bytes], views: Sequence[Any], accessors: Sequence[Any]
+) -> None:
+    """Check that arrays lie within their files; all of them are read."""
+    total = 0
+    for number, view in enumerate(views):
+        start, size = view.get("byteOffset", 0), view["byteLength"]
+        if not 0 <= start <= start + size <= len(buffers[view["buffer"]]):
+            raise ModelError("is not within its buffer", field=f"bufferViews[{number}]")
+        total += size
+    for number, accessor in enumerate(accessors):
+        width = COMPONENTS[accessor["componentType"]] * WIDTHS[accessor["type"]]
+        count, start = accessor["count"], accessor.get("byteOffset", 0)
+        total += count * width
+        if "bufferView" in accessor:
+            view = views[accessor["bufferView"]]
+            end = start + (count - 1) * view.get("byteStride", width) + width
+            if not (start >= 0 and count > 0 and end <= view["byteLength"]):
+                problem = f"is not within bufferViews[{accessor['bufferView']}]"
+                raise ModelError(problem, field=f"accessors[{number}]")
+    check_unpacked(total // 2)
+
+
+def _primitive(primitive: Mapping[str, Any], accessors: Sequence[Any]) -> tuple[int, int]:
+    """How many vertices and triangles it has."""
+    positions = accessors[primitive["attributes"]["POSITION"]]
+    indices = accessors[primitive["indices"]] if "indices" in primitive else positions
+    mode = primitive.get("mode", 4)
+    for array in (positions, indices):
+        if "bufferView" not in array or "sparse" in array or array.get("normalized"):
+            problem = "is compressed, sparse or normalized; export it as plain numbers"
+            raise ModelError(problem)
+    if mode == FAN:
+        raise ModelError("is a fan of triangles; export it as triangles")
+    count = indices["count"]
+    triangles = {4: count // 3, STRIP: max(0, count - 2)}.get(mode, 0)
+    return positions["count"], triangles
+
+
+def _collada(_: Path, content: bytes) -> _Stated:
+    """A COLLADA file."""
+    pycollada = needed_package("collada", "dae", "a .dae mesh")
+    text = text_of_mesh(content)
+    root = xml_root(text)
+    for element in root.iter():
+        element.tag = element.tag.rpartition("}")[2]
+    unit = root.find("asset/unit")
+    if unit is not None and not decimal(unit.get("meter", "1")) > 0:
+        raise ModelError("must be greater than 0", field="unit", value=unit.get("meter"))
+    named = {element.get("id"): element for element in root.iter() if element.get("id")}
+    parts: dict[Hashable, _Part] = {}
+    for geometry in root.iter("geometry"):
+        with about_field(f"geometry[{geometry.get('id')}]"):
+            triangles = sum(map(_collada_triangles, geometry.findall("mesh/*")))
+            size = sum(_float_count(array) for array in geometry.iter("source"))
+            parts[geometry] = _Part(size + 3 * triangles, triangles, ())
+    for node in root.iter("node"):
+        placed = [_target(one) for one in node if one.tag in ("instance_geometry", "instance_node")]
+        below = [named.get(target, target) for target in placed]
+        parts[node] = _Part(0, 0, [*node.findall("node"), *below])
+    scene = root.find("scene/instance_visual_scene")
+    shown = named[_target(scene)].findall("node") if scene is not None else []
+    with about_field("scene"):
+        count = _placed_triangles(parts, shown)
+    content = text.partition("?>")[2].encode() if text.lstrip().startswith("<?xml") else content
+    ignored = [pycollada.common.DaeUnsupportedError, pycollada.common.DaeBrokenRefError]
+    pycollada.Collada(BytesIO(content), ignore=ignored)  # what trimesh leaves out is an error here
+    up = root.findtext("asset/up_axis") == "Y_UP"
+    return _Stated("dae", content, count, UP if up else "")
+
+
+def _target(element: Element) -> str:
+    return element.get("url", "").removeprefix("#")
+
+
+def _float_count(source: Element) -> int:
+    """How many numbers a source has, which are all that it states."""
+    array = source.find("float_array")
+    if array is None:
+        return 0
+    words = (array.text or "").split()
+    with about_field(f"float_array[{array.get('id')}]"):
+        for word in words:
+            decimal(word)
+        check_equal("count", len(words), int(array.get("count", len(words))))
+    return len(words)
+
+
+def _collada_triangles(primitive: Element) -> int:
+    """How many triangles a set of polygons has; of another element, none."""
+    inputs = [int(one.get("offset", 0)) for one in primitive.findall("input")]
+    width = 1 + max(inputs, default=0)
+    lists = [len((p.text or "").split()) for p in primitive.findall("p")]
+    corners = [count // width for count in lists]
+    stated = int(primitive.get("count", 0))
+    match primitive.tag:
+        case "triangles":
+            check_equal("corners", sum(lists), 3 * width * stated)
+            return stated
+        case "polylist":
+            corners = [int(word) for word in primitive.findtext("vcount", "").split()]
+            check_equal("corners", sum(lists), width * sum(corners))
+        case "polygons" | "tristrips" | "trifans":
+            pass
+        case _:
+            return 0
+    check_equal("faces", len(corners), stated)
+    return sum(max(0, count - 2) for count in corners)
+
+
+def _threemf(path: Path, content: bytes) -> _Stated:
+    """A 3MF, of which the models are kept."""
+    needed_package("lxml", "3mf", "a .3mf mesh")
+    models: dict[str, bytes] = {}
+    with ZipFile(BytesIO(content)) as archive:
+        members = [one for one in archive.infolist() if one.filename.lower().endswith(".model")]
+        check_unpacked(sum(member.file_size for member in members))
+        for member in members:
+            models[member.filename] = archive.read(member)
+    check_equal("models of different names", len(models), len(members))
+    parts: dict[Hashable, _Part] = {}
+    top: list[Hashable] = []
+    for name, model in models.items():
+        root = xml_root(text_of(model, path, ModelError))
+        for element in root.iter():
+            element.tag = element.tag.rpartition("}")[2]
+        for one in root.iter("object"):
+            vertices, triangles = _checked_3mf(one)
+            below = [_named_3mf(part, name) for part in one.iter("component")]
+            parts[name, one.get("id")] = _Part(vertices + triangles, triangles, below)
+        if name.lower().endswith("3d/3dmodel.model"):
+            if root.get("unit", "millimeter") not in UNITS:
+                raise ModelError(f"must be one of {', '.join(UNITS)}", field="unit")
+            top = [_named_3mf(item, name) for item in root.findall("build/item")]
+    with about_field("build"):
+        count = _placed_triangles(parts, top)
+    kept = BytesIO()
+    with ZipFile(kept, "w") as archive:
+        for name, model in models.items():
+            archive.writestr(name, model)
+    return _Stated("3mf", kept.getvalue(), count)
+
+
+def _named_3mf(part: Element, model: str) -> tuple[str, str | None]:
+    """The model and the number of the object that an item or a component names."""
+    path = next((v for name, v in part.items() if name.endswith("path")), model)
+    return path.lstrip("/"), part.get("objectid")
+
+
+def _checked_3mf(one: Element) -> tuple[int, int]:
+    """How many vertices and triangles an object has, all of which are numbers."""
+    points, faces = list(one.iter("vertex")), list(one.iter("triangle"))
+    for point in points:
+        for axis in "xyz":
+            decimal(point.get(axis, ""))
+    for face in faces:
+        for corner in ("v1", "v2", "v3"):
+            if not 0 <= int(face.get(corner, -1)) < len(points):
+                raise ModelError("must be the number of a vertex", field=corner)
+    return len(points), len(faces)
+
+
+PLACED: Final[dict[str, Callable[[Path, bytes], _Stated]]] = {
+    ".gltf": _gltf,
+    ".glb": _gltf,
+    ".dae": _collada,
+    ".3mf": _threemf,
+}
+"""Extension -> such a file, of which the sizes were compared."""
+
+
+def placed_mesh(path: Path, content: bytes) -> Mesh:
+    """All that a file shows, where it places it, in metres."""
+    import trimesh  # takes as long as a short run
+
+    stated = PLACED[path.suffix.lower()](path, content)
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore")  # what is not read is counted
+        scene = trimesh.load_scene(
+            BytesIO(stated.content),
+            file_type=stated.kind,
+            process=False,
+            maintain_order=True,
+            skip_materials=True,
+        )
+        placed = scene.dump()
+    # Lines have no vertices that count.
+    shown = [one for one in placed if type(one).__name__ in ("Trimesh", "PointCloud")]
+    meshes = [
+        Mesh(
+            np.asarray(one.vertices, dtype=np.float64).reshape(-1, 3),
+            np.asarray(getattr(one, "faces", fans(())), dtype=np.int64).reshape(-1, 3),
+        )
+        for one in shown
+    ]
+    mesh = joined(meshes)
+    check_equal("triangles", len(mesh.triangles), stated.triangles)
+    units = "meters" if stated.kind == "gltf" or scene.units is None else scene.units
+    metres = trimesh.units.unit_conversion(units, "meters")
+    return Mesh(metres * mesh.vertices, mesh.triangles, stated.note)
