@@ -1,15 +1,38 @@
-"""Access to the optional parts, of which the core imports none but in the functions that need it.
+"""What optional parts answer: a function for each word that users write and that needs one.
 
-There the import stands below ``with needing(...)``, for a word that means nothing without its part,
-or below ``with if_there():``, for what the core does without it, too.
+The core names ``optional`` here alone, in functions, so that a part is imported when its word is
+used. Where its folder is missing, a word that means nothing without it is refused in a sentence.
 """
 
-from collections.abc import Iterator
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib import import_module
+from pathlib import Path
 from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 from quasistatic_ref.errors import InputError
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+    from quasistatic_ref.certify.contact_forces import ContactForces
+    from quasistatic_ref.certify.curved_cone import CurvedCone
+    from quasistatic_ref.certify.solution import StepSolution
+    from quasistatic_ref.contact.pairs import ContactPair
+    from quasistatic_ref.model.system import System
+    from quasistatic_ref.numbers.arrays import Array
+    from quasistatic_ref.scenario.bodies import BodyEntry
+    from quasistatic_ref.simulate.account import Account
+    from quasistatic_ref.simulate.finding import Finding
+    from quasistatic_ref.simulate.observer import Observer
+    from quasistatic_ref.simulate.simulator import Simulator
+    from quasistatic_ref.simulate.trajectory import Trajectory
+    from quasistatic_ref.solve.solver import Solver
+    from quasistatic_ref.step.data import StepData
+    from quasistatic_ref.step.extension import Extension, OfBodies
 
 OPTIONAL = "quasistatic_ref.optional"
 
@@ -31,13 +54,20 @@ def needing(word: str) -> Iterator[None]:
         raise InputError(problem) from None
 
 
-@contextmanager
-def if_there() -> Iterator[None]:
-    """Around imports of an optional part, and what is done with it where its folder is there."""
+def check_there(part: str, word: str) -> None:
+    """Refuse a word whose part is missing, before the work in which it is used: InputError."""
+    with needing(word):
+        import_module(f"{OPTIONAL}.{part}")
+
+
+def is_there(part: str) -> bool:
+    """Whether the folder of a part is there, for what is done without it, too."""
     try:
-        yield
+        import_module(f"{OPTIONAL}.{part}")
     except ModuleNotFoundError as error:
         _missing_part(error)
+        return False
+    return True
 
 
 def needed_package(package: str, extra: str, what: str) -> ModuleType:
@@ -59,6 +89,189 @@ def needed_package(package: str, extra: str, what: str) -> ModuleType:
     except ImportError:
         problem = f"{what} needs {package}: pip install 'quasistatic-ref[{extra}]'"
         raise InputError(problem) from None
+
+
+def coulomb_solution(step: StepData, solver: Solver, accuracy: float) -> StepSolution:
+    """``law = "coulomb"``: the step of a simulator under Coulomb's law."""
+    with needing('law = "coulomb"'):
+        from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution
+    return simulated_solution(step, solver, accuracy)
+
+
+def account(trajectory: Trajectory, forces: bool) -> Account:
+    """``account``: what happened in a run; `forces` are formed of a full record."""
+    with needing("account"):
+        from quasistatic_ref.optional.doctor.account import account_of
+    return account_of(trajectory, forces)
+
+
+def doctors(printed: bool = False) -> list[Observer]:
+    """The observer that notes a run's scene and finds at its end, perhaps printing its findings."""
+    if not is_there("doctor"):
+        return []
+    from quasistatic_ref.optional.doctor.observer import Doctor
+
+    return [Doctor(printed)]
+
+
+def findings_of_scene(simulator: Simulator, q: Array) -> list[Finding]:
+    """``findings``: what is wrong with the scene of a simulator that is to start at q, (n_q,)."""
+    with needing("findings"):
+        from quasistatic_ref.optional.doctor.checks import scene_findings
+    return scene_findings(simulator, q)
+
+
+def findings_of_time(trajectory: Trajectory) -> list[Finding]:
+    """What is found of the seconds that a run took."""
+    if not is_there("doctor"):
+        return []
+    from quasistatic_ref.optional.doctor import checks
+
+    return checks.findings(checks.OF_TIME, trajectory)
+
+
+def ellipsoid_cone() -> CurvedCone:
+    """``cone = "ellipsoid"``."""
+    with needing('cone = "ellipsoid"'):
+        from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
+    return ELLIPSOID_CONE
+
+
+def extended_solution(simulator: Simulator, step: StepData, extension: Extension) -> StepSolution:
+    """``extension``: a step of a simulator, solved with it."""
+    with needing("extension"):
+        from quasistatic_ref.optional.extensions.extended import simulated_solution
+    return simulated_solution(simulator, step, extension)
+
+
+def extended_step(
+    step: StepData,
+    extension: Extension,
+    solver: str | Callable[..., Any] | Solver | None,
+    fast: bool,
+    accuracy: float,
+    certify: str,
+) -> StepSolution:
+    """``extension``: a step solved with it, from the arguments of ``solve_step``."""
+    with needing("extension"):
+        from quasistatic_ref.optional.extensions.extended import extended_step as extended
+    return extended(step, extension, solver, fast, accuracy, certify)
+
+
+def extended_bodies(
+    system: System,
+    pairs: tuple[ContactPair, ...],
+    entries: Mapping[str, BodyEntry],
+    h: float,
+    K_q: Array,
+    gravity: Array,
+) -> tuple[tuple[ContactPair, ...], OfBodies]:
+    """``joint_friction``, ``support`` and ``joint_limits``: what a scenario's bodies extend.
+
+    These are the pairs with those of supports, and what else is added to each step.
+    """
+    with needing("joint_friction, support and joint_limits"):
+        from quasistatic_ref.optional.extensions.of_scenario import of_scenario
+    return of_scenario(system, pairs, entries, h, K_q, gravity)
+
+
+def fast_simulator(simulator: Simulator) -> Simulator:
+    """``fast``: a simulator that takes the steps of another one sooner."""
+    with needing("fast"):
+        from quasistatic_ref.optional.fast.simulator import FastSimulator
+    return FastSimulator(simulator)
+
+
+def fast_backend(system: System, pairs: Sequence[ContactPair], cone: str, ordinary: bool) -> str:
+    """``fast``: its backend where none is named.
+
+    Parameters
+    ----------
+    system : System
+    pairs : sequence of ContactPair
+    cone : str
+    ordinary : bool
+        Whether the steps are the model's own: neither extended nor under Coulomb's law.
+    """
+    with needing("fast"):
+        from quasistatic_ref.optional.fast.simulator import default_backend
+    return default_backend(system, pairs, cone, ordinary)
+
+
+def fast_solver(step: StepData, name: str | None) -> Solver:
+    """``fast``: its solver of steps like this one, by the name of a backend."""
+    with needing("fast"):
+        from quasistatic_ref.optional.fast.solver import fast_solver as fast
+    return fast(step, name)
+
+
+def contact_forces(step: StepData, near: tuple[Array, Array] | None) -> ContactForces:
+    """``forces``: those of a step's contacts, sought from where a solution shows them to be.
+
+    Parameters
+    ----------
+    step : StepData
+    near : (ndarray, ndarray), optional
+        delta_q, shape (n_v,) [m, rad], and wrenches, shape (n_c, 4) [N, N m], of the solution.
+    """
+    with needing("forces"):
+        from quasistatic_ref.optional.forces.forces import contact_forces as forces
+    return forces(step, near=near)
+
+
+def qpsolvers_names() -> list[str]:
+    """Names of the solvers that qpsolvers finds here."""
+    if not is_there("qpsolvers"):
+        return []
+    from quasistatic_ref.optional.qpsolvers.through_qpsolvers import available_solvers
+
+    return available_solvers()
+
+
+def qpsolvers_solver(step: StepData, name: str) -> Solver:
+    """``qpsolvers:NAME``: the solver of steps like this one."""
+    with needing(name):
+        from quasistatic_ref.optional.qpsolvers.through_qpsolvers import QpsolversSolver
+    return QpsolversSolver(step, name)
+
+
+def file_points(path: Path, kind: str) -> Array:
+    """``cloud``: the points of a file of this kind, as ``.ply``, shape (N, 3) [m]."""
+    with needing(f"a {kind} cloud"):
+        from quasistatic_ref.optional.readers.points import file_points as points
+    return points(path)
+
+
+def page_text(shown: object) -> str | None:
+    """The page of an object in words."""
+    if not is_there("show"):
+        return None
+    from quasistatic_ref.optional.show.pages import text
+
+    return text(shown)
+
+
+def page_html(shown: object) -> str | None:
+    """The page of an object as an HTML element."""
+    if not is_there("show"):
+        return None
+    from quasistatic_ref.optional.show.pages import html
+
+    return html(shown)
+
+
+def step_table(trajectory: Trajectory) -> DataFrame:
+    """``to_pandas``: one row a step, one column a number."""
+    with needing("to_pandas"):
+        from quasistatic_ref.optional.show.table import data_frame
+    return data_frame(trajectory)
+
+
+def contact_table(trajectory: Trajectory) -> DataFrame:
+    """``contacts_to_pandas``: one row a step and contact."""
+    with needing("to_pandas"):
+        from quasistatic_ref.optional.show.table import contact_frame
+    return contact_frame(trajectory)
 
 
 def _missing_part(error: ModuleNotFoundError) -> str:

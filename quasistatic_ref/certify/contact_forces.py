@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 
 from quasistatic_ref.numbers.arrays import Array, read_only
-from quasistatic_ref.parts import needing
-from quasistatic_ref.step.data import StepData
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,22 +36,3 @@ class ContactForces:
     def __post_init__(self) -> None:
         for array in (self.wrench, self.delta_q, self.compliance):
             read_only(array)
-
-
-def forces_near(step: StepData, near: tuple[Array, Array] | None) -> ContactForces:
-    """The forces of a step's contacts, sought from where a solution shows them to be.
-
-    Parameters
-    ----------
-    step : StepData
-    near : (ndarray, ndarray), optional
-        delta_q, shape (n_v,) [m, rad], and wrenches, shape (n_c, 4) [N, N m], of the solution.
-
-    Raises
-    ------
-    InputError
-        If there is no ``optional/forces``.
-    """
-    with needing("forces"):
-        from quasistatic_ref.optional.forces.forces import contact_forces
-    return contact_forces(step, near=near)

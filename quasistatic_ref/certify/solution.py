@@ -7,11 +7,12 @@ from functools import cached_property
 from typing import NamedTuple
 
 from quasistatic_ref.certify.certificate import Certificate
-from quasistatic_ref.certify.contact_forces import ContactForces, forces_near
+from quasistatic_ref.certify.contact_forces import ContactForces
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
+from quasistatic_ref.parts import contact_forces
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches
 
@@ -134,7 +135,7 @@ class StepSolution(Plain, Shown):
         """The forces, and delta_q of the step with compliance; InputError as of `forces`."""
         if not self.alone:
             raise InputError(UNKNOWN, field="forces")
-        return forces_near(self.step, (self.delta_q, self.wrench))
+        return contact_forces(self.step, (self.delta_q, self.wrench))
 
     @cached_property
     def wrench(self) -> Array:

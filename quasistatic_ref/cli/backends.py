@@ -3,8 +3,7 @@
 import argparse
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import is_there
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
@@ -40,9 +39,8 @@ def run(options: argparse.Namespace) -> int:
 
 def fast_default() -> str | None:
     """The backend of `fast` where none is named; None if that folder is not there."""
-    try:
-        with needing("fast"):
-            from quasistatic_ref.optional.fast.solver import DAQP
-    except InputError:
+    if not is_there("fast"):
         return None
+    from quasistatic_ref.optional.fast.solver import DAQP
+
     return DAQP

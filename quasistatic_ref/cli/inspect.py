@@ -18,7 +18,7 @@ from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.separations import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.parts import if_there, needing
+from quasistatic_ref.parts import is_there, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.scenario.scenario_table import URDF
 from quasistatic_ref.simulate.finding import finding_table
@@ -106,7 +106,7 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     record["tied"] = tied_at_start(scenario)
     record |= {"findings": [], "not_looked_at": ""}
-    with if_there():
+    if is_there("doctor"):
         from quasistatic_ref.optional.doctor import checks
         from quasistatic_ref.optional.doctor.start import Start
 

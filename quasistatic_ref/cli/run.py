@@ -14,7 +14,7 @@ from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.npz import header_of, npz_arrays
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.parts import if_there, needing
+from quasistatic_ref.parts import check_there, is_there, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.finding import finding_table
@@ -118,7 +118,7 @@ def run(options: argparse.Namespace) -> int:
         summary["view"] = str(view)
         written.append(view)
     account = None
-    with if_there():
+    if is_there("doctor"):
         from quasistatic_ref.optional.doctor import telling
 
         account = trajectory.account(forces=False)
@@ -148,8 +148,7 @@ def _check_parts(options: argparse.Namespace, tables: Mapping[str, Path]) -> Non
             from quasistatic_ref.optional.show.table import check_table_path
         check_table_path(file, option)
     if options.strict:
-        with needing("--strict"):
-            from quasistatic_ref.optional.doctor import checks  # noqa: F401 only whether it is there
+        check_there("doctor", "--strict")
 
 
 def summary_record(scenario: Scenario, trajectory: Trajectory, path: Path) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.formats.quoting import shown_value
-from quasistatic_ref.parts import if_there
+from quasistatic_ref.parts import page_html, page_text
 
 
 class Shown:
@@ -24,18 +24,11 @@ class HasPage(Shown):
     """What ``optional/show`` has a page for; where that part is missing, its fields are shown."""
 
     def __repr__(self) -> str:
-        with if_there():
-            from quasistatic_ref.optional.show.pages import text
-
-            return text(self)
-        return super().__repr__()
+        page = page_text(self)
+        return super().__repr__() if page is None else page
 
     def _repr_html_(self) -> str | None:
-        with if_there():
-            from quasistatic_ref.optional.show.pages import html
-
-            return html(self)
-        return None
+        return page_html(self)
 
 
 def _short(value: object) -> str:

@@ -19,7 +19,7 @@ from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, freeze_copies
 from quasistatic_ref.numbers.ordered import total
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import extended_bodies, fast_backend, fast_simulator
 from quasistatic_ref.scenario.bodies import (
     BodyEntry,
     body_entry,
@@ -103,11 +103,7 @@ class Scenario(Settings, Plain, Shown):
         if self.of_bodies is not None:
             extension = self.of_bodies.beside(extension)
         simulator = Simulator(**self.settings(), extension=extension)
-        if not self.fast:
-            return simulator
-        with needing("fast"):
-            from quasistatic_ref.optional.fast.simulator import FastSimulator
-        return FastSimulator(simulator)
+        return fast_simulator(simulator) if self.fast else simulator
 
     @property
     def target(self) -> Target:
@@ -255,9 +251,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     K_q = total(stiffness(system, entry) for entry in entries.values())
     of_bodies = None
     if any(entry.extends for entry in entries.values()):
-        with needing("joint_friction, support and joint_limits"):
-            from quasistatic_ref.optional.extensions.of_scenario import of_scenario
-        pairs, of_bodies = of_scenario(system, pairs, entries, h, K_q, gravity)
+        pairs, of_bodies = extended_bodies(system, pairs, entries, h, K_q, gravity)
     ordinary = law == CONVEX and of_bodies is None
     of_users = isinstance(solver.peek("backend"), OwnWord)
     backend = value(solver, SOLVER, "backend")
@@ -265,9 +259,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
         problem = "would run code, which no file may; give it as --backend FILE.py:NAME"
         raise solver.error_about("backend", problem, backend)
     if fast and backend is None:
-        with needing("fast"):
-            from quasistatic_ref.optional.fast.simulator import default_backend
-        backend = default_backend(system, pairs, named, ordinary)
+        backend = fast_backend(system, pairs, named, ordinary)
     try:  # here rather than in the first step
         backend = usable_backend(backend, named, certify)
     except BackendError as error:

@@ -2,7 +2,7 @@
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import check_there
 
 CONVEX = "convex"
 COULOMB = "coulomb"
@@ -10,8 +10,6 @@ LAWS = (CONVEX, COULOMB)
 ITERATED = ("s", "s_residual", "s_iterations")
 """What Coulomb's law adds to each step of a record: by how much phi was raised, shape (n_c,) [m];
 by how much that is not its own [m]; and how many convex steps were solved."""
-
-COULOMB_LAW = f'law = "{COULOMB}"'
 
 
 def check_law(law: str, certify: str) -> None:
@@ -25,8 +23,7 @@ def check_law(law: str, certify: str) -> None:
     if law not in LAWS:
         raise InputError(f"is not a choice{suggestion(law, LAWS)}", field="law", value=law)
     if law == COULOMB:
-        with needing(COULOMB_LAW):
-            from quasistatic_ref.optional.coulomb import fixed_point  # noqa: F401 only whether it is there
+        check_there(COULOMB, f'law = "{COULOMB}"')
         if certify != "full":
             problem = (
                 f'needs certify = "full", not "{certify}": the iteration ends where exact steps '

@@ -5,8 +5,6 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from numpy.typing import ArrayLike, NDArray
 
-from quasistatic_ref.parts import if_there
-
 if TYPE_CHECKING:
     from quasistatic_ref.model.system import System
     from quasistatic_ref.numbers.arrays import Array
@@ -85,15 +83,3 @@ class Observer:
     def end(self, recorder: Recording, trajectory: "Trajectory", interrupted: bool) -> "Trajectory":
         """At the end, also of a run that failed: its trajectory, perhaps with another header."""
         return trajectory
-
-
-def doctors(printed: bool = False) -> list[Observer]:
-    """The observer that notes a run's scene and finds at its end, perhaps printing its findings.
-
-    It is of ``optional/doctor``, where that is there.
-    """
-    with if_there():
-        from quasistatic_ref.optional.doctor.observer import Doctor
-
-        return [Doctor(printed)]
-    return []

@@ -15,9 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import check_there, doctors
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
-from quasistatic_ref.simulate.observer import Observer, doctors
+from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import (
     CONSTANT,
     COST,
@@ -100,8 +100,7 @@ class Recorder:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         if record == "forces":
-            with needing('record = "forces"'):
-                from quasistatic_ref.optional.forces import forces  # noqa: F401 only whether it is there
+            check_there("forces", 'record = "forces"')
         self.simulator = simulator
         self.scene = simulator.scene
         self.system = simulator.system

@@ -11,9 +11,10 @@ import numpy as np
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError, QuasistaticError
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.parts import doctors
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.interrupt import Interrupt
-from quasistatic_ref.simulate.observer import Observer, doctors
+from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory

@@ -22,11 +22,10 @@ from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.numbers.arrays import Array, checked_array, without_warnings
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import coulomb_solution, extended_solution, findings_of_scene
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import (
     COULOMB,
-    COULOMB_LAW,
     check_law,
 )
 from quasistatic_ref.simulate.limits import Limits
@@ -343,17 +342,13 @@ class Simulator(Settings, Shown):
         InputError
             If there is no ``optional/doctor``.
         """
-        with needing("findings"):
-            from quasistatic_ref.optional.doctor.checks import scene_findings
         q = self.system.q_start if q is None else self.system.checked(q)
-        return tuple(scene_findings(self, q))
+        return tuple(findings_of_scene(self, q))
 
     def extended(self, step: StepData, q: Array) -> StepSolution:
         """A step solved with the user's own constraints and costs at q, shape (n_q,)."""
         assert self.extension is not None
-        with needing("extension"):
-            from quasistatic_ref.optional.extensions.extended import simulated_solution
-        return simulated_solution(self, step, self.extension(q))
+        return extended_solution(self, step, self.extension(q))
 
     def fitting_solver(self, step: StepData) -> Solver:
         """The solver of the last step if it fits this step, else a new one."""
@@ -365,9 +360,7 @@ class Simulator(Settings, Shown):
         """A step solved under the simulator's law, by the solver that is kept."""
         solver = self.fitting_solver(step)
         if self.law == COULOMB:
-            with needing(COULOMB_LAW):
-                from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution
-            return simulated_solution(step, solver, self.accuracy)
+            return coulomb_solution(step, solver, self.accuracy)
         try:
             return self.solved(StepInBothUnits(step), solver)
         except StepNotSolved as failure:

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.contact_forces import ContactForces, forces_near
+from quasistatic_ref import parts
+from quasistatic_ref.certify.contact_forces import ContactForces
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError, MissingKey, about_file
 from quasistatic_ref.formats.files import written_whole
@@ -21,7 +22,6 @@ from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.parts import if_there, needing
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.account import Account
 from quasistatic_ref.simulate.finding import Finding, finding_read
@@ -154,10 +154,8 @@ class Trajectory(Plain, HasPage):
         """
         listed = enumerate(self.header.get("findings", ()))
         findings = [finding_read(table, f"findings[{i}]") for i, table in listed]
-        with if_there():
-            from quasistatic_ref.optional.doctor import checks
-
-            findings += checks.findings(checks.OF_TIME, self) if self.seconds else []
+        if self.seconds:
+            findings += parts.findings_of_time(self)
         return tuple(findings)
 
     def step_data(self, k: int) -> StepData:
@@ -254,7 +252,7 @@ class Trajectory(Plain, HasPage):
         step = self.step_data(k)
         delta_q = self["delta_q"][k]
         near = (delta_q, self["wrench"][k]) if step.n_v == len(delta_q) else None
-        return forces_near(step, near)
+        return parts.contact_forces(step, near)
 
     def wrench_on(self, name: str, scene: HasScene | None = None) -> Array:
         """Sum of the contact wrenches on a body or a link, in each step, as lam has them.
@@ -337,9 +335,7 @@ class Trajectory(Plain, HasPage):
         InputError
             If there is no ``optional/doctor``, or the file has no names or no scene.
         """
-        with needing("account"):
-            from quasistatic_ref.optional.doctor.account import account_of
-        return account_of(self, forces)
+        return parts.account(self, forces)
 
     def _scene(self, scene: HasScene | None) -> HasScene:
         if scene is None:
@@ -359,9 +355,7 @@ class Trajectory(Plain, HasPage):
         InputError
             If pandas is not installed, or that part is missing.
         """
-        with needing("to_pandas"):
-            from quasistatic_ref.optional.show.table import data_frame
-        return data_frame(self)
+        return parts.step_table(self)
 
     def contacts_to_pandas(self) -> DataFrame:
         """One row a step and contact: its pair, point, gap, forces, points and frame.
@@ -371,9 +365,7 @@ class Trajectory(Plain, HasPage):
         InputError
             As for :meth:`to_pandas`.
         """
-        with needing("to_pandas"):
-            from quasistatic_ref.optional.show.table import contact_frame
-        return contact_frame(self)
+        return parts.contact_table(self)
 
     def save(self, path: str | Path) -> Path:
         """Write the file, whole or not at all."""

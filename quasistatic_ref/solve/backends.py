@@ -14,7 +14,7 @@ from typing import Any
 
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import if_there, needing
+from quasistatic_ref.parts import check_there, qpsolvers_names
 from quasistatic_ref.step.cones import cone
 
 Options = dict[str, Any]
@@ -203,11 +203,7 @@ def reached(interface: str) -> tuple[str, ...]:
         import cvxpy
 
         return tuple(name.lower() for name in cvxpy.installed_solvers())
-    with if_there():
-        from quasistatic_ref.optional.qpsolvers.through_qpsolvers import available_solvers
-
-        return tuple(available_solvers())
-    return ()
+    return tuple(qpsolvers_names())
 
 
 def installed(interface: str) -> tuple[str, ...]:
@@ -249,8 +245,7 @@ def backend(name: str) -> Backend:
         If the name is unknown, or its solver is not installed.
     """
     if name.startswith(QPSOLVERS):
-        with needing(name):
-            from quasistatic_ref.optional.qpsolvers import through_qpsolvers as part  # noqa: F401 only whether it is there
+        check_there("qpsolvers", name)
     elif is_function(name):
         return Backend(name, "a function", lambda _: ({},), cvxpy=False)
     elif name in REQUIRED and find_spec(name):

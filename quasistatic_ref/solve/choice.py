@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from quasistatic_ref.errors import BackendError
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import fast_solver, qpsolvers_solver
 from quasistatic_ref.solve.backends import DEFAULT, NONE, QPSOLVERS, check_backend, is_function
 from quasistatic_ref.solve.by_function import FunctionSolver
 from quasistatic_ref.solve.solver import NoSolver, Solver
@@ -41,17 +41,13 @@ def solver_for(
             raise BackendError(problem, field="backend", value=str(name))
         return FunctionSolver(step, name)
     if fast:
-        with needing("fast"):
-            from quasistatic_ref.optional.fast.solver import fast_solver
         return fast_solver(step, name)
     name = DEFAULT if name is None else name
     check_backend(name, step.cone)
     if name == NONE:
         return NoSolver(step, name)
     if name.startswith(QPSOLVERS):
-        with needing(name):
-            from quasistatic_ref.optional.qpsolvers.through_qpsolvers import QpsolversSolver
-        return QpsolversSolver(step, name)
+        return qpsolvers_solver(step, name)
     # CVXPY takes longer to import than a short run.
     from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 

@@ -19,7 +19,7 @@ from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, ste
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import finite, without_warnings
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import extended_step
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.reply import Reply
@@ -110,8 +110,6 @@ def solve_step(
     name = solver.name if isinstance(solver, Solver) else solver
     check_certify(name if isinstance(name, str) else None, certify)
     if extension is not None:
-        with needing("extension"):
-            from quasistatic_ref.optional.extensions.extended import extended_step
         return extended_step(step, extension, solver, fast, accuracy, certify)
     if isinstance(solver, Solver):
         solver.check(step)

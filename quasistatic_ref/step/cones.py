@@ -32,7 +32,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import ellipsoid_cone
 
 if TYPE_CHECKING:
     import cvxpy as cp
@@ -269,9 +269,7 @@ def cone(name: str) -> FrictionCone:
     if name == "frictionless":
         return PolyhedralCone(name, ("n",), 1, frictionless)
     if name == ELLIPSOID:
-        with needing(f'cone = "{name}"'):
-            from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
-        return ELLIPSOID_CONE
+        return ellipsoid_cone()
     prefix, _, sides = str(name).partition("-")
     if prefix == "facets" and sides.isascii() and sides.isdecimal() and str(int(sides)) == sides:
         K = int(sides)

@@ -16,7 +16,7 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
 from quasistatic_ref.model.readers.text import check_equal, check_points, number_or_nan, point_lines
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import file_points
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.tolerances import LARGE
 
@@ -162,6 +162,4 @@ def _points(path: Path, kind: str) -> Array:
         return _of_text(path)
     if kind in VERTICES:
         return _of_mesh(path)
-    with needing(f"a {kind} cloud"):
-        from quasistatic_ref.optional.readers.points import file_points
-    return file_points(path)
+    return file_points(path, kind)

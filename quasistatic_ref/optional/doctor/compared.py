@@ -19,7 +19,7 @@ from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.artifacts import pressing
 from quasistatic_ref.optional.doctor.equilibrium import statics
 from quasistatic_ref.optional.doctor.start import SHORT, least, slices
-from quasistatic_ref.parts import if_there
+from quasistatic_ref.parts import contact_forces, is_there
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import slip_norms
@@ -122,13 +122,11 @@ class RunStep:
 
         None if the run is not `searched`, or there is no optional/forces.
         """
-        if self.run.searched and cone(self.run.simulator.cone).polyhedral:
-            with if_there():
-                from quasistatic_ref.optional.forces.forces import contact_forces
-
-                near = self.run["delta_q"][self.k], self.run["wrench"][self.k]
-                return contact_forces(self.step, near=near)
-        return None
+        polyhedral = cone(self.run.simulator.cone).polyhedral
+        if not (self.run.searched and polyhedral and is_there("forces")):
+            return None
+        near = self.run["delta_q"][self.k], self.run["wrench"][self.k]
+        return contact_forces(self.step, near)
 
     @property
     def forces(self) -> Array:

@@ -18,7 +18,7 @@ from quasistatic_ref.optional.doctor.start import (
     more_points,
     slices,
 )
-from quasistatic_ref.parts import if_there
+from quasistatic_ref.parts import is_there
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import REPEATED, SUNK
@@ -119,8 +119,8 @@ def strays(start: Start) -> Iterator[Finding]:
 
 def _stray(points: Array) -> Mask:
     """Which points, shape (N, 3) [m], no gap of a few spacings joins to the others."""
-    with if_there():
-        from quasistatic_ref.optional.scans.cloud import stray  # it loads SciPy: a second
+    if not is_there("scans"):
+        return np.zeros(len(points), dtype=bool)
+    from quasistatic_ref.optional.scans.cloud import stray  # it loads SciPy: a second
 
-        return stray(points)
-    return np.zeros(len(points), dtype=bool)
+    return stray(points)
