@@ -140,11 +140,14 @@ def _inwards(problem: Blocks, pair: Pair, states: list[int]) -> Pair | None:
         return None
     moved = arb_mat(n, 1, way.tolist()) * INWARDS
     share = INWARDS * largest(pair.y.entries())
+    slacks = problem.split(problem.slacks(pair.x, pair.y))
     y = pair.y
     blocks = zip(problem.rows, problem.give, problem.split(problem.A * moved), strict=True)
-    for rows, c, along in blocks:
+    for (rows, c, along), s_j, state in zip(blocks, slacks, states, strict=True):
         lift = share
-        if c > 0:  # more than what x takes it outwards
+        if state == OPEN:  # the gap grows by this times its slack, however far away it is
+            lift /= max(s_j[0], arb(1))
+        elif c > 0:  # more than what x takes it outwards
             lift += 2 * length(along) / c
         y[rows[0], 0] += lift
     return Pair((pair.x + moved).mid(), y.mid())

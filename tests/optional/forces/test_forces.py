@@ -21,7 +21,7 @@ from quasistatic_ref.optional.forces.of_group import COMPLIANCE, HARDLY_MOVES, g
 from quasistatic_ref.step.friction import contact_wrenches, scaled_by
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.closeness import assert_relative, assert_within
-from tests.helpers import changed
+from tests.helpers import changed, point_on_floor
 from tests.oracles import force_checks as checks
 from tests.oracles.random_steps import mixed_step
 from tests.step.test_groups import two_bodies
@@ -382,3 +382,14 @@ def test_forces_of_a_tiny_load_are_that_load(load):
     step = StepData(1.0, np.zeros((0, 0)), [[0.5]], [], [-load], [], contacts=touch)
     solution = solve_step(step)
     assert solution.forces[0].tolist() == [0.0, 0.0, pytest.approx(load, rel=1e-6, abs=0.0), 0.0]
+
+
+@pytest.mark.parametrize("far", [1e3, 1e4, 1e6, 1e12])
+@pytest.mark.parametrize("cone", ["pyramid", "ellipsoid"])
+def test_a_contact_that_bears_nothing_changes_no_force(cone, far):
+    """However far away it is; the millionth is what the compliance leaves."""
+    near = point_on_floor(m=1.0, force=(1.0, 0.0, -9.81))
+    both = repeated(near.contacts, [0, 0], phi=[0.0, far])
+    step = near.replace(contacts=both, cone=cone)
+    forces = solve_step(step).forces
+    assert forces == pytest.approx(np.array([[-1.0, 0.0, 9.81, 0.0], [0.0] * 4]), rel=1e-6)
