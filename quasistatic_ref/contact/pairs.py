@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import count
@@ -70,6 +70,14 @@ class ContactPair(Plain):
     hull: bool = False
 
     def __post_init__(self) -> None:
+        for key in ("alpha", "beta"):
+            if not isinstance(side := getattr(self, key), PlacedShape):
+                problem = (
+                    "must be a PlacedShape: for each shape of a body a pair with one of "
+                    "System.shapes, for the world's PlacedShape.in_world(name, shape)"
+                )
+                field = f"{self.name}.{key}"
+                raise ContactError(problem, field=field, value=type(side).__name__)
         for key in ("mu_v", "mu_omega"):
             friction = checked_array(getattr(self, key), f"{self.name}.{key}", (), ContactError)
             if friction < 0:
@@ -175,6 +183,16 @@ class ContactLayout(Plain):
         """A name for the place of each contact: its pair, and its number within that from 0."""
         numbers: dict[str, Iterator[int]] = defaultdict(count)
         return tuple(f"{name}/{next(numbers[name])}" for name in self.names)
+
+
+def checked_pairs(pairs: object) -> tuple[ContactPair, ...]:
+    """Pairs as a tuple; ContactError of anything else."""
+    every = tuple(pairs) if isinstance(pairs, Iterable) else (pairs,)
+    for pair in every:
+        if not isinstance(pair, ContactPair):
+            problem = "must be a sequence of ContactPair"
+            raise ContactError(problem, field="pairs", value=type(pair).__name__)
+    return every
 
 
 def contact_layout(pairs: Sequence[ContactPair]) -> ContactLayout:

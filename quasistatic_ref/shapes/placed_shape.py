@@ -45,7 +45,7 @@ class PlacedShape(Plain):
     Raises
     ------
     ModelError
-        If R is not a rotation or a number is not finite.
+        If `shape` is no Shape, R is not a rotation or a number is not finite.
 
     Examples
     --------
@@ -61,6 +61,9 @@ class PlacedShape(Plain):
     shape: Shape
 
     def __post_init__(self) -> None:
+        if not isinstance(self.shape, Shape):
+            kind = type(self.shape).__name__
+            raise ModelError("must be a Shape", field=f"{self.name}.shape", value=kind)
         freeze_array(self, "R", (3, 3))
         freeze_array(self, "t", (3,))
         defect = np.abs(self.R.T @ self.R - np.eye(3)).max()

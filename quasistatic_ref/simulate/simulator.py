@@ -17,7 +17,7 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.all_pairs import AllPairs
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
-from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.contact.pairs import ContactPair, checked_pairs, contact_layout
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
@@ -181,7 +181,7 @@ class Simulator(Settings, Shown):
         extension: Callable[[Array], Extension] | None = None,
         limits: Limits | None = None,
     ) -> None:
-        pairs = tuple(pairs)
+        pairs = checked_pairs(pairs)
         check_accuracy(accuracy)
         check_certify(backend, certify)
         check_law(law, certify)

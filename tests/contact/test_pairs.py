@@ -1,17 +1,21 @@
 """What may touch what: refusals, and how many contacts a pair makes."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from quasistatic_ref import (
+    Body,
     Box,
     ContactError,
     ContactPair,
     HalfSpace,
     PointCloud,
+    Simulator,
     Sphere,
+    System,
     convex_hull,
 )
 from quasistatic_ref.contact.pairs import ContactLayout
@@ -42,6 +46,26 @@ def test_a_pair_is_refused(shapes, more, says):
     with pytest.raises(ContactError) as caught:
         pair(*shapes, **more)
     assert str(caught.value).startswith(says)
+
+
+BODY = Body.of_shape("ball", BALL, mass=0.3)
+
+
+@pytest.mark.parametrize("no_shape", [BODY, BALL, "ball", 1, None])
+def test_what_is_no_placed_shape_is_refused_with_what_to_write(no_shape):
+    kind = type(no_shape).__name__
+    says = f"System.shapes, for the world's PlacedShape.in_world(name, shape) (got '{kind}')"
+    for key in ("alpha", "beta"):
+        sides = {"alpha": placed_shape(FLOOR), "beta": placed_shape(BALL, 1)} | {key: no_shape}
+        with pytest.raises(ContactError, match=re.escape(says)) as caught:
+            ContactPair("grip", **sides, mu_v=0.5, mu_omega=0.0, rows=4, k=1)
+        assert caught.value.field == f"grip.{key}"
+
+
+@pytest.mark.parametrize("no_pairs", [BODY, [BODY], None])
+def test_what_are_no_pairs_is_refused(no_pairs):
+    with pytest.raises(ContactError, match=r"pairs: must be a sequence of ContactPair \(got '"):
+        Simulator(System([BODY]), no_pairs, h=0.01, K_q=[])
 
 
 def test_two_solids_make_k_contacts_or_as_many_as_they_have_candidates():

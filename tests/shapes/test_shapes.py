@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import (
+    Body,
     Box,
     Capsule,
     Cone,
@@ -36,6 +37,11 @@ REFUSED = [
     ("no normal", lambda: HalfSpace(np.zeros(3), 0.0), "normal: must not be zero"),
     ("nan offset", lambda: HalfSpace(np.eye(3)[0], np.nan), "offset: must be a finite number"),
     ("no points", lambda: PointCloud(np.zeros((0, 3))), "points: must contain at least one point"),
+    (
+        "a body",
+        lambda: PlacedShape.in_world("a#0", Body.of_shape("ball", Sphere(1.0), mass=1.0)),
+        r"a#0.shape: must be a Shape \(got 'Body'\)",
+    ),
     (
         "reflection",
         lambda: PlacedShape.in_world("a#0", Sphere(1.0), R=np.diag([1.0, 1.0, -1.0])),
