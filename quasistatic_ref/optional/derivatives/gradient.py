@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Final
 
 import numpy as np
 
@@ -15,6 +16,9 @@ from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.optional.derivatives.step.reason import Obstacle, Reason
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.result import StepResult
+
+BY: Final = {"dq_dq", "dq_dq_bar_a", "dq_dtau"}
+"""The derivatives by what changes from step to step."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -39,7 +43,8 @@ class Derivatives(Shown, Plain):
     dq_dmasses : ndarray, shape (n_v, L)
         By the mass of each link, its inertia about its centre of mass staying [per kg].
     differentiable : bool
-        Whether all of them exist, and none is that near to a kink.
+        Whether all by q, q_bar_a and tau exist, and none is that near to a kink. One by another
+        parameter may still be NaN, such as that by a friction coefficient of zero.
     reasons : tuple of Reason
         Why those that are NaN do not; empty if all exist.
     result : StepResult
@@ -117,7 +122,7 @@ def gradient(
     fields["dq_dh"] = fields["dq_dh"][:, 0]
     return Derivatives(
         **fields,
-        differentiable=not obstacles,
+        differentiable=not any(BY & {*obstacle.reason.fields} for obstacle in obstacles),
         reasons=tuple(obstacle.reason for obstacle in obstacles),
         result=rates.result,
         _rates=rates,

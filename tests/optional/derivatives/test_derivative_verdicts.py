@@ -242,3 +242,14 @@ def test_a_target_half_a_turn_away_is_named(turning):
     ]
     assert np.isnan(found.dq_dq_bar_a).all()
     assert derivatives(simulator, q, other).differentiable
+
+
+@pytest.mark.parametrize("mu", [(0.0, 0.01), (0.5, 0.0)])
+def test_friction_of_zero_has_no_derivative_and_all_else_has(mu):
+    simulator, q = free(Sphere(0.05), (0, 0, 0.05), FLOOR, mu=mu)
+    found, kinds = verdict(simulator, q, DOWN)
+    assert kinds == {reason.ZERO_FRICTION}
+    assert found.differentiable
+    assert np.isfinite(found.dq_dq).all()
+    by_friction = np.isnan([found.dq_dmu_v, found.dq_dmu_omega]).all(axis=(1, 2))
+    assert by_friction.tolist() == [coefficient == 0 for coefficient in mu]
