@@ -12,12 +12,12 @@ from quasistatic_ref.contact.batches.spheres import Spheres
 from quasistatic_ref.contact.distance import ClosestPoints, check_finite, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.numbers.arrays import Indices
 from quasistatic_ref.numbers.ordered import norm
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, HalfSpace, Shape, Sphere
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import AXES
-from quasistatic_ref.step.data import Indices
 from quasistatic_ref.tolerances import REPEATED
 
 Kind = tuple[type[Batch], Hashable]

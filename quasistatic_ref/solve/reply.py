@@ -43,7 +43,7 @@ class Reply:
 
     @property
     def answer(self) -> tuple[Array, Array]:
-        """X and lam, where it has both."""
+        """Its x, shape (n,), and lam, shape (m,), where it has both [-]."""
         assert self.x is not None
         assert self.lam is not None
         return self.x, self.lam

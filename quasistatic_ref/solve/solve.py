@@ -139,9 +139,14 @@ def solved(
     ----------
     both : StepInBothUnits
     solver, accuracy, certify
-        As of :func:`solve_step`, and its errors.
+        As of :func:`solve_step`.
     start : sequence of int
         Rows from which the exact method starts where no backend answers.
+
+    Raises
+    ------
+    StepNotSolved, StepInfeasible, StepIllPosed, StepDataError
+        As of :func:`solve_step`.
     """
     if certify == "full":
         solution = proved(both, solver, accuracy, start)

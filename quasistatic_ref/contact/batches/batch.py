@@ -7,8 +7,8 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.ordered import product
-from quasistatic_ref.step.data import Array, Mask
 
 Pose = tuple[Array, Array]
 """R (P, 3, 3) [-] and t (P, 3) [m] of one shape of each pair."""

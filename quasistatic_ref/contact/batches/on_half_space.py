@@ -12,10 +12,10 @@ from quasistatic_ref.contact.batches.batch import Batch, farthest_places, transp
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import UNIQUE_NORMAL
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.ordered import dot, product, rotated
 from quasistatic_ref.shapes.placed_shape import HalfSpace
 from quasistatic_ref.shapes.shape import AXES
-from quasistatic_ref.step.data import Array, Mask
 
 FAR: Final = 1e3
 """Places relative to the solid's size [-] up to which rounding, 1e-16 of them, is far below the

@@ -8,10 +8,10 @@ from quasistatic_ref.contact.batches.batch import Batch, farthest_places
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import TIED_FACES, UNIQUE_NORMAL
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.ordered import dot, rotated
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.shapes.rounded import Rounded, distance_to_rounded_box
-from quasistatic_ref.step.data import Array, Mask
 
 
 class Spheres(Batch):
