@@ -182,20 +182,18 @@ def fast_simulator(simulator: Simulator) -> Simulator:
     return FastSimulator(simulator)
 
 
-def fast_backend(system: System, pairs: Sequence[ContactPair], cone: str, ordinary: bool) -> str:
+def fast_backend(system: System, pairs: Sequence[ContactPair], cone: str, law: str) -> str:
     """``fast``: its backend where none is named.
 
     Parameters
     ----------
     system : System
     pairs : sequence of ContactPair
-    cone : str
-    ordinary : bool
-        Whether the steps are the model's own: neither extended nor under Coulomb's law.
+    cone, law : str
     """
     with needing("fast"):
         from quasistatic_ref.optional.fast.simulator import default_backend
-    return default_backend(system, pairs, cone, ordinary)
+    return default_backend(system, pairs, cone, law)
 
 
 def fast_solver(step: StepData, name: str | None) -> Solver:

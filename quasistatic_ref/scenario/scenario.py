@@ -40,7 +40,7 @@ from quasistatic_ref.scenario.scenario_table import (
 )
 from quasistatic_ref.scenario.scene_words import HERE, scene_tables
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.law import CONVEX, check_law
+from quasistatic_ref.simulate.law import check_law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.rollout import rollout
@@ -252,14 +252,13 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     of_bodies = None
     if any(entry.extends for entry in entries.values()):
         pairs, of_bodies = extended_bodies(system, pairs, entries, h, K_q, gravity)
-    ordinary = law == CONVEX and of_bodies is None
     of_users = isinstance(solver.peek("backend"), OwnWord)
     backend = value(solver, SOLVER, "backend")
     if backend is not None and is_function(backend) and not of_users:
         problem = "would run code, which no file may; give it as --backend FILE.py:NAME"
         raise solver.error_about("backend", problem, backend)
     if fast and backend is None:
-        backend = fast_backend(system, pairs, named, ordinary)
+        backend = fast_backend(system, pairs, named, law)
     try:  # here rather than in the first step
         backend = usable_backend(backend, named, certify)
     except BackendError as error:

@@ -390,8 +390,10 @@ class Simulator(Settings, Shown):
         replaced = self.certify == "residual" or self.backend in self.replaceable
         if type(failure) is not StepNotSolved or not replaced:
             raise failure
-        exact = [NONE] if cone(self.cone).polyhedral else []
-        for name in [*(other for other in REQUIRED if other != self.backend), *exact]:
+        others = [other for other in REQUIRED if other != self.backend]
+        if cone(self.cone).polyhedral:  # where there may be no solution, a proof of it is first
+            others.insert(0 if "infeasible" in failure.status else len(others), NONE)
+        for name in others:
             certify = "full" if name == NONE else self.certify
             try:
                 spare = self.spares.get(name)

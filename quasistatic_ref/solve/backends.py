@@ -104,7 +104,7 @@ def _clarabel(accuracy: float) -> OptionSets:
         feasibility
         | gap
         | {"static_regularization_constant": epsilon, "static_regularization_proportional": 0.0}
-        | {"max_iter": 500}
+        | {"max_iter": 500, "input_sparse_dropzeros": True}  # M_u of many bodies is mostly zeros
         for epsilon in (1e-10, 1e-12, 1e-8)
     )
 

@@ -1,7 +1,7 @@
 """What a user adds to a step: constraints and costs in SI units with CVXPY, and private rises.
 
 CVXPY itself is not needed to say what an extension is;
-:mod:`~quasistatic_ref.optional.extensions.extended` builds its symbols and solves with it.
+:mod:`~quasistatic_ref.optional.extensions.by_cvxpy` builds its symbols and solves with it.
 """
 
 from __future__ import annotations

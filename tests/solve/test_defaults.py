@@ -10,6 +10,7 @@ from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.optional.fast import simulator as of_fast
 from quasistatic_ref.optional.fast.program import Workspaces
 from quasistatic_ref.optional.fast.simulator import default_backend
+from quasistatic_ref.simulate.law import CONVEX, COULOMB
 from quasistatic_ref.solve.reply import Reply
 from tests.helpers import error
 from tests.tolerances import OPTIMUM
@@ -37,11 +38,11 @@ def test_bodies_that_cannot_touch_count_one_by_one(monkeypatch):
     simulator = boxes(3).simulator("off", True)
     scene = simulator.system, simulator.pairs, "pyramid"
     monkeypatch.setattr(of_fast, "DENSE_BELOW", 4 * 4 * 6 + 1)
-    assert default_backend(*scene, True) == "daqp"
-    assert default_backend(*scene, False) == "clarabel"
+    assert default_backend(*scene, CONVEX) == "daqp"
+    assert default_backend(*scene, COULOMB) == "clarabel"
     monkeypatch.setattr(of_fast, "DENSE_BELOW", 4 * 4 * 6)
-    assert default_backend(*scene, True) == "clarabel"
-    assert default_backend(simulator.system, (), "pyramid", True) == "daqp"
+    assert default_backend(*scene, CONVEX) == "clarabel"
+    assert default_backend(simulator.system, (), "pyramid", CONVEX) == "daqp"
 
 
 @pytest.mark.extra("fast")
@@ -80,6 +81,8 @@ def test_a_simulator_that_names_no_backend_takes_curved_extensions():
     plain = Simulator(scenario.system, scenario.pairs, h=scenario.h, K_q=scenario.K_q)
     simulator = FastSimulator(plain)
     assert simulator.backend == "daqp"  # which takes rows only
-    simulator.extension = lambda q: Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
-    answer = simulator.step(scenario.system.q_start, np.zeros(0)).solution
-    assert (answer.backend, answer.certificate.kind) == ("clarabel", "residual")
+    of_file = load_scenario("sphere_spin", fast=True).simulator()
+    for one in (simulator, of_file):
+        one.extension = lambda q: Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
+        answer = one.step(scenario.system.q_start, np.zeros(0)).solution
+        assert (answer.backend, answer.certificate.kind) == ("clarabel", "residual")

@@ -4,102 +4,31 @@ An extension that is nothing but linear equations and inequalities and a quadrat
 once, as rows and a cost of the step: they are then certified like the step's own, and travel in its
 file. Anything else (other costs, curved constraints, further variables that no equation binds) is
 solved as a conic program whose residuals are reported. Private rises are coordinates and rows of
-the step, too.
+the step, too. CVXPY is imported for terms alone: rows and rises are numbers already.
 """
 
-import warnings
 from collections.abc import Callable
-from dataclasses import asdict
-from functools import partial
 from typing import Any
 
-import cvxpy as cp
-import numpy as np
-
-from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.certify.certificate import Certificate
-from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import BackendError, InputError, StepDataError
-from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.extensions.conic import conic_program, conic_residuals
-from quasistatic_ref.optional.extensions.quadratic import quadratic_program
-from quasistatic_ref.optional.extensions.rises import with_rises
-from quasistatic_ref.optional.extensions.terms import checked_terms
+from quasistatic_ref.optional.extensions.own_rows import joined, with_numbers
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.backends import DEFAULT, backend, check_takes_cones
-from quasistatic_ref.solve.compiled import problem_data
-from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
+from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.solver import RELAXED, Solver
-from quasistatic_ref.solve.units import Units, driven, in_si, natural_step, natural_units
-from quasistatic_ref.step.cones import cone, frictionless
-from quasistatic_ref.step.data import Extra, StepData, no_rows
-from quasistatic_ref.step.extension import Extension, Symbols, none
-from quasistatic_ref.tolerances import RESIDUAL_LIMIT
-
-
-def extension_data(step: StepData, extension: Extension) -> Extra | None:
-    """The rows A delta_q >= b and the quadratic cost of an extension; None if it holds more.
-
-    An equation becomes two rows. The numbers are the float64 numbers that CVXPY makes of it. Costs,
-    and what binds further variables, are read by
-    :func:`~quasistatic_ref.optional.extensions.quadratic.quadratic_program`.
-
-    Parameters
-    ----------
-    step : StepData
-        SI units; with the extension's private rises.
-    extension : Extension
-
-    Returns
-    -------
-    Extra or None
-        The extension's rows and cost alone.
-    """
-    if extension.without_stiffness:
-        return None
-    if extension.terms is none:
-        return no_rows(step.n_v)
-    problem = CvxpyProblem(step)
-    terms = _terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0), problem)
-    costs = [term for term in terms if isinstance(term, cp.Expression)]
-    constraints = [term for term in terms if isinstance(term, cp.Constraint)]
-    unknowns = (problem.delta_q_a, problem.delta_q_u)
-    problem.fill(step)
-    for x in unknowns:
-        x.value = np.zeros(x.shape)
-    names: list[str] = []
-    A = [np.zeros((0, step.n_v))]
-    b = [np.zeros(0)]
-    others: list[cp.Constraint] = []
-    for k, constraint in enumerate(constraints):
-        equation = isinstance(constraint, cp.constraints.Equality | cp.constraints.Zero)
-        plain = equation or isinstance(constraint, cp.constraints.Inequality)
-        of_delta_q = not {v.id for v in constraint.variables()} - {x.id for x in unknowns}
-        if not (plain and of_delta_q and constraint.expr.is_affine()):
-            others.append(constraint)
-            continue
-        value = np.atleast_1d(np.asarray(constraint.expr.value, dtype=np.float64)).ravel("F")
-        row = -_coefficients(constraint.expr, unknowns)  # expr <= 0
-        labels = [f"extension {k}[{i}]" for i in range(len(value))]
-        for sign, end in ((1.0, ""), (-1.0, " reversed"))[: 1 + equation]:
-            names += [label + end for label in labels]
-            A.append(sign * row)
-            b.append(sign * value)
-    rows = Extra(tuple(names), np.vstack(A), np.concatenate(b))
-    if not (others or costs):
-        return rows
-    program = quadratic_program(costs, others, unknowns)
-    return None if program is None else joined(rows, program)
+from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.extension import Extension, none
 
 
 def posed(step: StepData, extension: Extension) -> tuple[StepData, bool]:
     """A step with what of an extension is data, and whether that is all of it."""
-    if extension.rows is not None:
-        step = step.replace(extra=joined(step.extra, extension.rows))
-    step = with_rises(step, extension.rises)
+    step = with_numbers(step, extension)
+    if extension.terms is none:
+        return step, not extension.without_stiffness
+    from quasistatic_ref.optional.extensions.by_cvxpy import extension_data
+
     terms = extension_data(step, extension)
     if terms is None:
         return step, False
@@ -109,19 +38,6 @@ def posed(step: StepData, extension: Extension) -> tuple[StepData, bool]:
         if terms.cost is None:
             raise
         return step, False  # rounding leaves too little of H beside so large a cost
-
-
-def joined(first: Extra, second: Extra) -> Extra:
-    """The rows of the one, then those of the other, and the sum of their costs."""
-    names = first.names + second.names
-    A = np.vstack([first.A, second.A])
-    b = np.concatenate([first.b, second.b])
-    costs = [one.cost for one in (first, second) if one.cost is not None]
-    if not costs:
-        return Extra(names, A, b)
-    H = np.sum([H for H, _ in costs], axis=0)
-    g = np.sum([g for _, g in costs], axis=0)
-    return Extra(names, A, b, H, g)
 
 
 def extended_step(
@@ -152,6 +68,8 @@ def extended_step(
         problem = "takes linear constraints and quadratic costs only; for other costs or a "
         problem += "nonlinear constraint pass the name of a backend"
         raise BackendError(problem, field="solver", value=words)
+    from quasistatic_ref.optional.extensions.by_cvxpy import extended_solution
+
     name = DEFAULT if solver is None else solver
     return extended_solution(step, extension, name, accuracy, certify)
 
@@ -174,133 +92,8 @@ def simulated_solution(simulator: Simulator, step: StepData, extension: Extensio
             "costs"
         )
         raise InputError(problem, field="extension")
-    name = simulator.named_backend or DEFAULT
+    from quasistatic_ref.optional.extensions.by_cvxpy import extended_solution
+
+    named = simulator.named_backend
+    name = DEFAULT if named is None or named in simulator.replaceable else named
     return extended_solution(step, extension, name, simulator.accuracy, simulator.certify)
-
-
-def extended_solution(
-    step: StepData, extension: Extension, name: str, accuracy: float, certify: str
-) -> StepSolution:
-    """The optimum of a step with an extension that is more than rows and a quadratic cost.
-
-    Parameters
-    ----------
-    step : StepData
-        SI units; with the extension's private rises.
-    extension : Extension
-    name : str
-        A backend that takes cones.
-    accuracy : float
-        In natural units [-].
-    certify : str
-        ``"off"``, or anything else for a certificate of kind ``"residual"``.
-
-    Returns
-    -------
-    StepSolution
-        lam and wrench are those of the step's own rows; what an extension pushes with is not in
-        them, nor what its costs do in place of a contact.
-
-    Raises
-    ------
-    BackendError
-        If the backend takes no cones.
-    StepNotSolved
-        If it does not solve the problem, or its residuals are not small.
-    """
-    check_takes_cones(name, "an extension with nonlinear constraints or costs")
-    units = natural_units(step)
-    if not driven(step):  # nothing but the extension drives it
-        units = units._replace(size=1.0)
-    natural = natural_step(step, units)
-    problem = CvxpyProblem(natural, partial(_terms, extension, step, units))
-    problem.fill(natural)
-    if extension.without_stiffness:  # nothing is left of Eq. (1)
-        for parameter in (problem.parameters["K_q"], problem.parameters["tau_k"]):
-            parameter.value = np.zeros(parameter.shape)
-    failure: StepNotSolved | None = None
-    for relaxed in (k * accuracy for k in RELAXED):
-        for options in backend(name).option_sets(relaxed):
-            try:
-                certificate, statistics = _solved(step, problem, name, relaxed, dict(options))
-            except StepNotSolved as failed:
-                failure = failed
-                continue
-            delta_q, lam = in_si(problem.primal(), problem.dual(), units)
-            claimed = Certificate("none") if certify == "off" else certificate
-            return step_solution(step, delta_q, lam, claimed, statistics, alone=False)
-    assert failure is not None  # a backend has at least one set of options
-    raise failure
-
-
-def _terms(
-    extension: Extension, step: StepData, units: Units, problem: CvxpyProblem
-) -> list[cp.Constraint | cp.Expression]:
-    """Constraints and costs of an extension, in the variables of a problem in `units`."""
-    symbols = _symbols(problem, step, units, len(extension.rises))
-    return [
-        term if isinstance(term, cp.Constraint) else term / units.size**2
-        for term in checked_terms(extension, symbols)
-    ]
-
-
-def _symbols(problem: CvxpyProblem, step: StepData, units: Units, private: int) -> Symbols:
-    """The symbols of a problem in SI units, of whose coordinates the last ones are private."""
-    public = step.n_v - private
-    unactuated = step.n_u - private
-    coordinate = units.size * units.coordinate[:public]
-    length = units.size * units.length
-    kind = cone(step.cone)
-    rows = kind.function if kind.polyhedral else frictionless  # the gap alone
-    return Symbols(
-        delta_q=cp.multiply(coordinate, problem.delta_q[:public]),
-        delta_q_a=cp.multiply(coordinate[: step.n_a], problem.delta_q_a),
-        delta_q_u=cp.multiply(coordinate[step.n_a :], problem.delta_q_u[:unactuated]),
-        delta_q_bar_a=cp.Constant(step.delta_q_bar_a),
-        slack=tuple(
-            length * row[j]
-            for row, j in zip(rows(*problem.contact_motion), step.mask.T, strict=False)
-        ),
-    )
-
-
-def _solved(
-    step: StepData, problem: CvxpyProblem, name: str, accuracy: float, options: dict[str, object]
-) -> tuple[Certificate, SolverStatistics]:
-    """Solve the conic program and judge the raw answer; its values are left in the problem."""
-    try:
-        data = problem_data(problem.problem, name, options)
-        raw = data.chain.solve_via_data(problem.problem, data.numbers, False, False, options)
-        with warnings.catch_warnings():
-            # "Solution may be inaccurate" is dealt with below, by the status.
-            warnings.filterwarnings("ignore", "Solution may be inaccurate", UserWarning)
-            problem.problem.unpack_results(raw, data.chain, data.inverse)
-    except cp.error.DCPError as error:
-        raise InputError(f"is not convex by CVXPY's rules: {error}", field="extension") from error
-    except Exception as error:  # whatever another package raises
-        raise StepNotSolved(name, f"the solver failed: {error}", step, accuracy) from error
-    status = str(problem.problem.status)
-    if status != cp.OPTIMAL:
-        raise StepNotSolved(name, status, step, accuracy)
-    x, z = (raw["x"], raw["y"]) if isinstance(raw, dict) else (raw.x, raw.z)
-    program = conic_program(data.numbers)
-    check_arithmetic()
-    residuals = conic_residuals(program, np.array(x), np.array(z))
-    if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
-        problem_words = f"it said {status}, but its worst residual is {residuals.worst:.1e}"
-        raise StepNotSolved(name, problem_words, step, accuracy, residuals)
-    stats = problem.problem.solver_stats
-    statistics = SolverStatistics(name, status, stats.num_iters, stats.solve_time, accuracy)
-    return Certificate("residual", asdict(residuals), step=step), statistics
-
-
-def _coefficients(expr: cp.Expression, unknowns: tuple[cp.Variable, ...]) -> Array:
-    """Return the matrix of an affine expression, shape (size, n_v)."""
-    gradient = expr.grad
-    size = int(expr.size)
-    blocks = []
-    for x in unknowns:
-        block = gradient.get(x, np.zeros((x.size, size)))
-        dense = block.toarray() if hasattr(block, "toarray") else np.asarray(block)
-        blocks.append(dense.reshape(x.size, size).T)
-    return np.asarray(np.hstack(blocks), dtype=np.float64)

@@ -14,7 +14,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.model.system import System
+from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.optional.fast.library import ffi, library, missing
 from quasistatic_ref.optional.fast.poses import Poses
@@ -40,6 +40,8 @@ matrices are dense, where no backend is named."""
 
 SURELY = 1 - 2.0**-40
 """Factor that covers the rounding of a sum of squares, each of which is rounded by 2^-53."""
+STEPPED = ("step", "solution")
+"""Methods of a simulator that are not those of its class where steps are taken sooner."""
 INSTEAD = "the plain path takes the steps, with the same certified bits, later"
 
 
@@ -50,20 +52,16 @@ def say(sentence: str) -> None:
         print(f"quasistatic-ref: {sentence}", file=sys.stderr, flush=True)
 
 
-def default_backend(
-    system: System, pairs: Sequence[ContactPair], cone_name: str, ordinary: bool
-) -> str:
+def default_backend(system: System, pairs: Sequence[ContactPair], cone_name: str, law: str) -> str:
     """The backend of `fast` where none is named: DAQP, where its dense matrices are small enough.
 
     Parameters
     ----------
     system : System
     pairs : sequence of ContactPair
-    cone_name : str
-    ordinary : bool
-        Whether the steps are the model's own: neither extended nor under Coulomb's law.
+    cone_name, law : str
     """
-    if missing() or not (ordinary and cone(cone_name).polyhedral):
+    if missing() or not (law == CONVEX and cone(cone_name).polyhedral):
         return DEFAULT
     moves = system.column_map.moves[:, 0] > 0
     moved = [moves[pair.alpha.link] | moves[pair.beta.link] for pair in pairs]
@@ -80,10 +78,11 @@ def default_backend(
 class FastSimulator(Simulator):
     """The steps of a simulator, in less time.
 
-    Compiled code forms the closest points of clouds, J and the data of each step. DAQP, the default
-    backend, is called by its own interface and starts from its last answer; any other backend is
-    called as without. Answers are certified as without: wherever they are certified exactly, q,
-    delta_q, A'lam and slacks have the same bits.
+    Compiled code forms the closest points of clouds, J and the data of each step; those of a MuJoCo
+    scene are formed as without. DAQP, the default backend, is called by its own interface and
+    starts from its last answer, also with linear rows and quadratic costs of a user's own; any
+    other backend is called as without. Answers are certified as without: wherever they are
+    certified exactly, q, delta_q, A'lam and slacks have the same bits.
 
     The data of the first step, and where it leads, are compared with the simulator's, bit for bit.
     If they differ, or there is no compiled code, one sentence on standard error says so, and that
@@ -103,7 +102,7 @@ class FastSimulator(Simulator):
     Raises
     ------
     InputError
-        If that is no Simulator, or one of a class of its own.
+        If that is no Simulator, or its class takes steps of its own.
 
     Examples
     --------
@@ -118,17 +117,22 @@ class FastSimulator(Simulator):
     replaceable = (DEFAULT, DAQP)
 
     def __init__(self, simulator: Simulator) -> None:
-        if type(simulator) is not Simulator:
-            problem = "has steps of its own, which compiled code does not know"
-            raise InputError(problem, field="simulator", value=type(simulator).__name__)
+        kind = type(simulator)
+        if any(getattr(kind, name, None) is not getattr(Simulator, name) for name in STEPPED):
+            problem = "has steps of its own, which nothing takes sooner; pass a plain simulator"
+            raise InputError(problem, field="simulator", value=kind.__name__)
         self.simulator = simulator
         backend = simulator.backend
         if simulator.named_backend is None:
-            ordinary = simulator.extension is None and simulator.law == CONVEX
-            backend = default_backend(simulator.system, simulator.pairs, simulator.cone, ordinary)
+            settings = simulator.system, simulator.pairs, simulator.cone, simulator.law
+            backend = default_backend(*settings)
         chosen = {"backend": backend, "extension": simulator.extension}
         super().__init__(**{**simulator.settings(), **chosen})
         self.named_backend = simulator.named_backend
+        self.by_c = False
+        self._own_data = kind is not Simulator
+        if self._own_data:
+            return
         reason = missing()
         self.by_c = reason is None
         if reason is not None:
@@ -157,9 +161,9 @@ class FastSimulator(Simulator):
 
     @property
     def _natively(self) -> bool:
-        """Whether DAQP is called by its own interface: for the model's own steps."""
-        ordinary = self.extension is None and self.law == CONVEX
-        return ordinary and self.backend == DAQP and cone(self.cone).polyhedral
+        """Whether DAQP is called by its own interface."""
+        convex = self.law == CONVEX and cone(self.cone).polyhedral
+        return convex and self.backend == DAQP
 
     def __reduce__(self) -> tuple[object, ...]:
         return FastSimulator, (self.simulator,)
@@ -176,6 +180,8 @@ class FastSimulator(Simulator):
                 return result
             self.by_c = False
             say(f"compiled code forms another step than the core (please report it); {INSTEAD}")
+        if self._own_data:
+            return super().step(q, q_bar_a, force)
         return self.simulator.step(q, q_bar_a, force)
 
     def _step(self, q: Array, q_bar_a: Array, force: Array | float | None) -> StepResult | None:
@@ -188,7 +194,8 @@ class FastSimulator(Simulator):
         self._steps.closest()
         lap("distances")
         step, form, points = self._steps.form(change, load)
-        both = self._in_both_units(step, form) if self._natively else None
+        written = self._natively and self.extension is None
+        both = self._in_both_units(step, form) if written else None
         if not (self._compared or self._is_plain(q, q_bar_a, load, step, form, points, both)):
             return None
         lap("rows")
@@ -273,9 +280,24 @@ class FastSimulator(Simulator):
         except StepNotSolved as failure:
             return self.otherwise_solved(step, failure)
 
+    def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
+        """Those of the simulator."""
+        return self.simulator.closest_points(kinematics)
+
+    def step_data(
+        self,
+        q: Array,
+        q_bar_a: Array,
+        force: Array | float | None,
+        points: ClosestPoints,
+        kinematics: Kinematics,
+    ) -> StepData:
+        """Those of the simulator."""
+        return self.simulator.step_data(q, q_bar_a, force, points, kinematics)
+
     def fitting_solver(self, step: StepData) -> Solver:
         """The solver of the last step if it fits this step, else a new one."""
-        if not (self.by_c and self._natively):
+        if not self._natively:
             return super().fitting_solver(step)
         if self.solver is None or not self.solver.fits(step):
             self.solver = FastSolver(step)

@@ -20,10 +20,12 @@ from quasistatic_ref.optional.guests.mujoco import default_cone, first_equality
 from quasistatic_ref.optional.guests.places import overlapped_children
 from quasistatic_ref.optional.guests.settled import settled
 from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
+from quasistatic_ref.parts import fast_backend, fast_simulator
 from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.scenario.scenario_table import LIMITS, SOLVER, TOP, value
 from quasistatic_ref.simulate.failures import RunFailed
+from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.settings import usable_backend
@@ -39,7 +41,8 @@ if TYPE_CHECKING:
 MARGIN = 0.05
 """Gap up to which MuJoCo looks for contacts, by default [m]."""
 START: dict[str, Any] = {"h": 0.01, "steps": 100}
-FIELDS = ("h", "steps", "cone", "record", "solver", "limits", "margin", "stiffness", "roots")
+RUN = ("h", "steps", "cone", "fast", "record", "solver", "limits")
+FIELDS = (*RUN, "margin", "stiffness", "roots")
 
 
 class MujocoSimulator(Simulator):
@@ -70,7 +73,8 @@ class MujocoScenario(Scenario):
             raise InputError("is not taken by a MuJoCo scene", field="extension")
         system = self.drive.system
         rows = system.extension if system.rows.names or len(system.rises) else None
-        return MujocoSimulator(**self.settings(), extension=rows)
+        simulator = MujocoSimulator(**self.settings(), extension=rows)
+        return fast_simulator(simulator) if self.fast else simulator
 
     @property
     def target(self) -> Drive:
@@ -121,9 +125,9 @@ def mujoco_scenario(
         numbers by such names. Between rows or keyframes controls are linear, and what is not named
         stays.
     settings : sequence of str, or mapping of str to object
-        As of ``load_scenario``, of h, steps, cone, record, solver, limits, ``margin`` (the gap up
-        to which MuJoCo looks for contacts [m]) and ``stiffness.JOINT`` (of a spring towards the
-        target of a joint that has no servo).
+        As of ``load_scenario``, of h, steps, cone, fast, record, solver, limits, ``margin`` (the
+        gap up to which MuJoCo looks for contacts [m]) and ``stiffness.JOINT`` (of a spring towards
+        the target of a joint that has no servo).
     path : str or Path
         What the scene is called.
     fields : object
@@ -180,6 +184,11 @@ def mujoco_scenario(
     overlaps = overlapped_children(system.state(system.q_start), system.places)
     system.notes = (*system.notes, *overlaps)
     certify = value(solver, SOLVER, "certify")
+    fast = value(top, TOP, "fast")
+    pairs = system.places.pairs
+    backend = value(solver, SOLVER, "backend")
+    if fast and backend is None:
+        backend = fast_backend(cast("System", system), pairs, cone, CONVEX)
     gravity = (
         np.zeros(3)
         if system.state(system.q_start).disables("GRAVITY")
@@ -191,14 +200,15 @@ def mujoco_scenario(
         steps=steps,
         gravity=gravity,
         system=cast("System", system),  # a step, a recorder and findings ask for no other names
-        pairs=system.places.pairs,
+        pairs=pairs,
         K_q=system.K_q,
         gravity_acts=np.ones(system.n_a, dtype=bool),
         targets=Targets(system.q_start[: system.n_q_a], ()),
-        backend=usable_backend(value(solver, SOLVER, "backend"), cone, certify),
+        backend=usable_backend(backend, cone, certify),
         accuracy=value(solver, SOLVER, "accuracy"),
         certify=certify,
         record=value(top, TOP, "record"),
+        fast=fast,
         cone=cone,
         limits=Limits(value(limits, LIMITS, "penetration"), value(limits, LIMITS, "reach")),
         drive=drive_of(system, data, steps * h, targets),

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extension, InputError, StepNotSolved, standard_form
-from quasistatic_ref.optional.extensions import extended
-from quasistatic_ref.optional.extensions.extended import (
+from quasistatic_ref.optional.extensions import by_cvxpy
+from quasistatic_ref.optional.extensions.by_cvxpy import (
     _symbols,
     extended_solution,
     extension_data,
-    simulated_solution,
 )
+from quasistatic_ref.optional.extensions.extended import simulated_solution
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.units import natural_step, natural_units
@@ -64,7 +64,9 @@ LOOSE = Extension(lambda s: [cp.norm(s.delta_q) <= 1e3])
 
 def test_a_curved_extension_is_refused_under_coulombs_law_alone(rng):
     step = random_step(rng)
-    own = SimpleNamespace(law=CONVEX, named_backend=None, accuracy=1e-10, certify="residual")
+    own = SimpleNamespace(
+        law=CONVEX, named_backend=None, replaceable=(), accuracy=1e-10, certify="residual"
+    )
     assert simulated_solution(own, step, LOOSE).certificate.kind == "residual"
     own.law = "coulomb"
     with pytest.raises(
@@ -75,6 +77,6 @@ def test_a_curved_extension_is_refused_under_coulombs_law_alone(rng):
 
 def test_an_answer_with_a_residual_beyond_the_limit_is_not_believed(monkeypatch):
     cost = Extension(lambda s: [cp.sum_squares(s.delta_q - 1e-3)])
-    monkeypatch.setattr(extended, "RESIDUAL_LIMIT", 0.0)
+    monkeypatch.setattr(by_cvxpy, "RESIDUAL_LIMIT", 0.0)
     with pytest.raises(StepNotSolved):
         extended_solution(point_on_floor(), cost, "clarabel", 1e-10, "residual")

@@ -273,7 +273,8 @@ def test_a_target_that_is_no_number_is_refused_in_the_words_of_the_plain_path():
 
 def test_what_is_no_plain_simulator_is_refused():
     class Own(Simulator):
-        pass
+        def solution(self, step):
+            return None
 
     plain = load_scenario("sphere_spin").simulator()
     with pytest.raises(InputError, match=r"^simulator: has steps of its own.*got 'Own'"):

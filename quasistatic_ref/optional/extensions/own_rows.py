@@ -1,0 +1,27 @@
+"""What of an extension is numbers already: its rows and private rises, as data of a step."""
+
+import numpy as np
+
+from quasistatic_ref.optional.extensions.rises import with_rises
+from quasistatic_ref.step.data import Extra, StepData
+from quasistatic_ref.step.extension import Extension
+
+
+def with_numbers(step: StepData, extension: Extension) -> StepData:
+    """A step with the rows and the private rises of an extension."""
+    if extension.rows is not None:
+        step = step.replace(extra=joined(step.extra, extension.rows))
+    return with_rises(step, extension.rises)
+
+
+def joined(first: Extra, second: Extra) -> Extra:
+    """The rows of the one, then those of the other, and the sum of their costs."""
+    names = first.names + second.names
+    A = np.vstack([first.A, second.A])
+    b = np.concatenate([first.b, second.b])
+    costs = [one.cost for one in (first, second) if one.cost is not None]
+    if not costs:
+        return Extra(names, A, b)
+    H = np.sum([H for H, _ in costs], axis=0)
+    g = np.sum([g for _, g in costs], axis=0)
+    return Extra(names, A, b, H, g)
