@@ -8,7 +8,7 @@ from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.style import scaled
 
 H, MASS, GRAVITY, MU_V = 0.01, 1.0, 9.81, 0.5  # s, kg, m/s^2, -
-PUSHES = (3.0, 8.0)  # N: one that is held, one that is not
+PUSHES = (3.0, 6.0)  # N: one that is held, one that is not
 
 
 def point(push, mu_v=MU_V, h=H):
@@ -36,7 +36,7 @@ def point(push, mu_v=MU_V, h=H):
 
 
 def main():
-    """delta_q for each push, shape (2, 2) [m]: zero, then (R8) with F = 8 N."""
+    """delta_q for each push, shape (2, 2) [m]: zero, then (R8) with F = 6 N."""
     return np.array([solve_step(point(push)).delta_q for push in PUSHES])
 
 

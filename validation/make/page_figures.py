@@ -1,7 +1,8 @@
 """The still figures of pages: ``python -m validation.make.page_figures``.
 
 Those of docs/reality.md come from its results. The others are drawn by their modules in
-docs/drawings/, and committed, so that pages show them on a code host, too.
+docs/drawings/, and committed, so that pages show them on a code host, too. ``--style slides``
+draws them with larger text: those of docs/slides/figures.
 """
 
 import json
@@ -111,9 +112,9 @@ def result(name: str) -> Any:
 
 def main() -> None:
     """Draw all."""
-    options = script_options(__doc__, out=Path("page_figures"))
+    options = script_options(__doc__, out=Path("page_figures"), style="paper")
     identified = result("reality_identified")
-    with figure_style():
+    with figure_style(options.style):
         figures = {
             "reality_pushes": which_cone_is_real.figure(),
             "reality_identified": identified_ratios(identified),
@@ -121,8 +122,8 @@ def main() -> None:
         }
         for module in DRAWN:
             figures[module.__name__.rpartition(".")[2]] = module.figure()
-    for name, figure in figures.items():
-        figure_written(figure, options.out, name)
+        for name, figure in figures.items():
+            figure_written(figure, options.out, name)
 
 
 if __name__ == "__main__":
