@@ -154,10 +154,22 @@ def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()
     loads : iterable of ndarray, shape (n_v,)
         The step's :func:`single_loads` [N s, N m s], where they are known.
     """
-    norm = energy_norm(H)
-    lengths = [*(norm.of_impulse(p) for p in (g, *loads)), norm.of_displacement(optimum)]
-    length = max(*lengths, UNMOVED * math.sqrt(H.diagonal().min()))
+    length = max(energy_norm(H).of_displacement(optimum), loads_length(H, (g, *loads)))
     return length if length < math.inf else math.nan
+
+
+def loads_length(H: Array, loads: Iterable[Array]) -> float:
+    """The part of :func:`error_length` that no answer enters [(N m s)^0.5].
+
+    Parameters
+    ----------
+    H : ndarray, shape (n_v, n_v)
+        [N m s/m^2].
+    loads : iterable of ndarray, shape (n_v,)
+        [N s, N m s].
+    """
+    norm = energy_norm(H)
+    return max(UNMOVED * math.sqrt(H.diagonal().min()), *map(norm.of_impulse, loads))
 
 
 def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> float:

@@ -4,6 +4,8 @@ They do not depend on the solver that gave the answer. They prove nothing: a cer
 them, and its proof is in exact.py. Only ``certify="residual"`` refuses answers by them.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +40,15 @@ class Residuals:
     def worst(self) -> float:
         """The largest of the four, NaN if any of them is: for a step in natural units [-]."""
         return largest(np.array([*vars(self).values()]))
+
+    def in_size(self, size: float) -> Residuals:
+        """The same if delta_q, b, g and lam are measured in another `size` [of theirs]."""
+        return Residuals(
+            stationarity=self.stationarity / size,
+            primal=self.primal / size,
+            dual=self.dual / size,
+            complementarity=self.complementarity / size**2,
+        )
 
 
 def largest(x: Array) -> float:

@@ -19,7 +19,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.certify.norm import energy_norm, loads_length, single_loads
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import field_values
@@ -389,9 +389,18 @@ class StepInBothUnits:
         return math.sqrt(squares[-1] / squares[first]) if first < len(squares) else 1.0
 
     def natural_residuals(self, delta_q: Array, lam: Array) -> Residuals:
-        """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
-        judge = cone(self.si_step.cone).judge(self.si_step.contacts.mu)
-        return optimality_residuals(self.natural_form, delta_q, lam, judge)
+        """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-].
+
+        The unit of size is the length that errors are divided by where that is larger: at rest
+        loads cancel but for rounding, and the size of the step is that of noise. The answer, which
+        may be wrong, does not enter it.
+        """
+        step = self.si_step
+        judge = cone(step.cone).judge(step.contacts.mu)
+        residuals = optimality_residuals(self.natural_form, delta_q, lam, judge)
+        length = loads_length(step.H, single_loads(step))
+        size = self.units.size
+        return residuals.in_size(length / size if size < length < math.inf else 1.0)
 
 
 def out_of_range() -> StepDataError:

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, standard_form
+from quasistatic_ref import Extra, StepData, solve_step, standard_form
 from quasistatic_ref.certify.residuals import optimality_residuals
+from quasistatic_ref.lab.scenes.contacts import no_contacts
 from tests.closeness import assert_within
 from tests.helpers import planted_step, residuals_of, sphere_on_floor
 from tests.tolerances import ROUNDING
@@ -77,3 +78,18 @@ def test_the_work_of_a_contact_in_an_ellipsoid_is_one_sum():
     near(found.complementarity, 0.0)
     pressed = residuals_of(step, delta_q, np.array([2.0, 0.0, 0.0, 0.0]))
     near(pressed.complementarity, 2e-3)
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.3])
+@pytest.mark.parametrize("cone", ["pyramid", "ellipsoid"])
+def test_residuals_of_what_is_at_rest_are_measured_by_its_loads(cone, turned):
+    """Springs hold a weight up to rounding: g is noise, of which the exact answer has another."""
+    turn = np.array([[np.cos(turned), -np.sin(turned)], [np.sin(turned), np.cos(turned)]])
+    K_q = turn @ np.diag([200.0, 90.0]) @ turn.T
+    stretched = np.array([0.1, 0.3])
+    step = StepData(
+        0.01, K_q, np.zeros((0, 0)), -(K_q @ stretched), [], stretched, no_contacts(2), cone
+    )
+    for certify in ("full", "residual"):
+        residuals = solve_step(step, certify=certify).certificate.residuals
+        assert max(residuals.values()) < ROUNDING
