@@ -29,7 +29,9 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.crossings import crossings
+from quasistatic_ref.contact.near_points import near_points
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.ranks import closest, rounded_gaps
 from quasistatic_ref.contact.separations import BISECTOR, UNIQUE_NORMAL, pair_normal, rounding
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
 from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, corner_surface
@@ -138,9 +140,9 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     """The contacts of one pair, as they rank; R (L, 3, 3), t (L, 3) are the links'."""
     a, b = in_world(pair, R, t)
     if isinstance(b.shape, PointCloud):
-        return _cloud_on_solid(pair, a, b, b.shape.points)
+        return _cloud_on_solid(pair, a, b)
     if isinstance(a.shape, PointCloud):
-        return _cloud_on_solid(pair, b, a, a.shape.points).swapped()
+        return _cloud_on_solid(pair, b, a).swapped()
     nearest = nearest_of_solids(pair, a, b)
     if pair.n_c == 1:
         return nearest
@@ -174,46 +176,6 @@ def search(
     every = every_candidate(pair, a, b, nearest)
     rank = np.where(repeated(every), np.inf, every.phi)
     return Search(rank, every.point, nearest, every)
-
-
-def rounded_gaps(phi: Array, resolution: float) -> Array:
-    """Signed distances as numbers of the nearest multiple of a length, for ranking.
-
-    Zero is the middle of its multiple: what touches stays there, however rounding moves it.
-
-    Parameters
-    ----------
-    phi : ndarray, shape (N,)
-        [m].
-    resolution : float
-        [m]; 0 rounds nothing.
-
-    Returns
-    -------
-    ndarray, shape (N,)
-        [-], or `phi` where nothing is rounded.
-    """
-    return np.rint(phi / resolution) if resolution else phi
-
-
-def closest(phi: Array, k: int) -> Indices:
-    """Indices of the k smallest signed distances in ascending order, ties broken by index.
-
-    Parameters
-    ----------
-    phi : ndarray, shape (N,)
-    k : int
-        All of them if k >= N.
-
-    Returns
-    -------
-    ndarray of int, shape (min(k, N),)
-    """
-    if k < len(phi):
-        kth = np.partition(phi, k - 1)[k - 1]
-        near = np.flatnonzero(~(phi > kth))  # and all that tie with it
-        return near[phi[near].argsort(kind="stable")][:k]
-    return phi.argsort(kind="stable")
 
 
 def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
@@ -373,16 +335,17 @@ def repeated(candidates: ClosestPoints) -> Mask:
     return repeats
 
 
-def _cloud_on_solid(
-    pair: ContactPair, solid: ShapeInWorld, cloud: ShapeInWorld, points: Array
-) -> ClosestPoints:
+def _cloud_on_solid(pair: ContactPair, solid: ShapeInWorld, cloud: ShapeInWorld) -> ClosestPoints:
     """The k points of a cloud that rank first on a solid. In C: clouds.c."""
+    assert isinstance(cloud.shape, PointCloud)
     relative = relative_pose(solid, cloud)
-    x = moved(relative, points)
+    near, x = near_points(solid.shape, cloud.shape, relative, pair.k, pair.resolution)
     phi, normal = solid.shape.signed_distance(x)
-    point = closest(rounded_gaps(phi, pair.resolution), pair.k)
-    surface = cloud_surface(pair.name, solid, cloud, relative, x[point], phi[point], normal[point])
-    return _contacts(solid, cloud, points[point], 0.0, surface)._replace(point=point)
+    kept = closest(rounded_gaps(phi, pair.resolution), pair.k)
+    surface = cloud_surface(pair.name, solid, cloud, relative, x[kept], phi[kept], normal[kept])
+    point = near[kept]
+    contacts = _contacts(solid, cloud, cloud.shape.points[point], 0.0, surface)
+    return contacts._replace(point=point)
 
 
 def _corners_on_solid(

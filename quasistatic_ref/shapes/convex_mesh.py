@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.ordered import dot, norm, product
+from quasistatic_ref.shapes.facets import Facets
 from quasistatic_ref.shapes.frozen import freeze_array
 from quasistatic_ref.shapes.shape import CHUNK, Shape, coal_polytope, lengths
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
@@ -110,39 +111,40 @@ class ConvexMesh(Shape):
             normal[at] = away[edge] / distance[edge, None]
         return phi, normal
 
+    @cached_property
+    def facets(self) -> Facets:
+        """Its triangles, prepared for distances."""
+        return Facets(self.vertices[self.triangles], self.normals, self.offsets)
+
     def _nearest_offsets(self, points: Array) -> Array:
         """From the nearest point of the surface's triangles to each point outside, shape (N, 3)."""
-        corners = self.vertices[self.triangles]
-        best = np.full(len(points), np.inf)
-        offset = np.zeros((len(points), 3))
-        rows = np.arange(len(points))
-        n = self.normals
-        within = np.ones((len(points), len(n)), dtype=bool)
-        for k in range(3):
-            # The nearest point of an edge, clamped to its ends.
-            tail = corners[:, k]
-            along = corners[:, (k + 1) % 3] - corners[:, k]
-            arm = points[:, None] - tail
-            s = np.clip(dot(arm, along) / dot(along, along), 0.0, 1.0)
-            away = arm - s[..., None] * along
-            square = dot(away, away)
-            i = square.argmin(axis=1)
-            nearer = square[rows, i] < best
-            best = np.where(nearer, square[rows, i], best)
-            offset = np.where(nearer[:, None], away[rows, i], offset)
-            # Whether the projection on a face's plane is on its side of the edge.
-            within &= dot(arm, np.cross(n, along)) >= 0
-        level = dot(points[:, None] - corners[:, 0], n)
+        facets = self.facets
+        near = facets.near(points)
+        every = np.arange(len(points))
+        n = self.normals[near]
+        along = facets.along[near]
+        # The nearest point of each edge, clamped to its ends; of equal ones the first edges' first.
+        arm = points[:, None, None] - facets.corners[near]
+        s = np.clip(dot(arm, along) / facets.square[near], 0.0, 1.0)
+        away = arm - s[..., None] * along
+        square = dot(away, away).swapaxes(1, 2)
+        k, i = np.divmod(square.reshape(len(points), -1).argmin(axis=1), square.shape[2])
+        best = square[every, k, i]
+        offset = away[every, i, k]
+        # Whether the projection on a face's plane is on its side of each edge.
+        within = (dot(arm, facets.inward[near]) >= 0).all(axis=2)
+        level = dot(arm[:, :, 0], n)
         above = within & (level > 0)
         # A point above the inside of a face is nearest to that face. If an edge seems nearer, that
         # is rounding, and the edge's direction is the less accurate one. For a point on a face,
         # rounding decides the sign of its level.
         some = np.asarray(above.any(axis=1))
         best = np.where(some, np.inf, best)
-        square = np.where(np.where(some[:, None], above, within), level * level, np.inf)
-        i = square.argmin(axis=1)
-        nearer = square[rows, i] < best
-        return np.where(nearer[:, None], level[rows, i, None] * n[i], offset)
+        heights = np.where(np.where(some[:, None], above, within), level * level, np.inf)
+        i = heights.argmin(axis=1)
+        nearer = heights[every, i] < best
+        facing = self.normals[np.broadcast_to(near, level.shape)[every, i]]
+        return np.where(nearer[:, None], level[every, i, None] * facing, offset)
 
     def faces(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m], above the planes of all triangles."""

@@ -4,13 +4,36 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.numbers.arrays import Array, read_only
+from quasistatic_ref.numbers.arrays import Array, Indices, read_only
+from quasistatic_ref.numbers.ordered import norm
 from quasistatic_ref.shapes.frozen import freeze_array
 from quasistatic_ref.shapes.shape import Shape, lengths
+
+GROUP: Final = 64
+"""Most points of a group of neighbours."""
+
+
+class Groups(NamedTuple):
+    """Groups of neighbours of a cloud, and a ball about each.
+
+    Parameters
+    ----------
+    points : list of ndarray of int
+        Numbers of the points of each group.
+    middle : ndarray, shape (G, 3)
+        [m].
+    reach : ndarray, shape (G,)
+        Radius of the ball [m].
+    """
+
+    points: list[Indices]
+    middle: Array
+    reach: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +65,23 @@ class PointCloud(Shape):
     def extent(self) -> float:
         """Longest edge of the box about it along its own axes [m]."""
         return float(np.ptp(self.points, axis=0).max())
+
+    @cached_property
+    def groups(self) -> Groups:
+        """Its points, cut in two across the longest side until groups are small."""
+        groups = [np.arange(len(self.points))]
+        while len(groups[0]) > GROUP:
+            longest = [np.ptp(self.points[some], axis=0).argmax() for some in groups]
+            groups = [
+                half
+                for some, axis in zip(groups, longest, strict=True)
+                for half in np.array_split(some[self.points[some, axis].argsort(kind="stable")], 2)
+            ]
+        middle = np.array([self.points[some].mean(axis=0) for some in groups])
+        reach = [
+            norm(self.points[some] - at).max() for some, at in zip(groups, middle, strict=True)
+        ]
+        return Groups(groups, middle, np.array(reach))
 
     def words(self) -> str:
         """How many points it has, and the edges of the box about them [m]."""

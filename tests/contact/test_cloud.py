@@ -14,7 +14,7 @@ from quasistatic_ref import (
     HalfSpace,
     Sphere,
 )
-from quasistatic_ref.contact.distance import closest
+from quasistatic_ref.contact.ranks import closest
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import (
     CLOSED_FORM,

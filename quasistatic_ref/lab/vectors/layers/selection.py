@@ -35,7 +35,7 @@ def expected(case_input: Json) -> Expected:
 
 def own(case_input: Json) -> Json:
     """The package's answer, from :func:`quasistatic_ref.contact.distance.closest`."""
-    from quasistatic_ref.contact.distance import closest
+    from quasistatic_ref.contact.ranks import closest
     from quasistatic_ref.contact.tied_faces import TURNED
 
     k = case_input["k"]

@@ -97,7 +97,7 @@ static double surely_after(double rank, double resolution)
     return fabs(rank) < 0x1p50 ? (rank + 1) * resolution : INFINITY;
 }
 
-/* contact/distance, `closest`, of `rounded_gaps`: the `count` points that rank first, ties by index, and
+/* contact/ranks, `closest`, of `rounded_gaps`: the `count` points that rank first, ties by index, and
    their distances. 0 if a distance is no number. */
 static int closest(const Cloud *s)
 {

@@ -1,0 +1,68 @@
+"""Points and triangles that are left out do not count: the bits are those of a full search."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref import Box, PointCloud, convex_hull
+from quasistatic_ref.contact.distance import closest_points, in_world, search
+from quasistatic_ref.contact.near_points import MANY, near_points
+from quasistatic_ref.contact.ranks import closest, rounded_gaps
+from quasistatic_ref.shapes import facets
+from tests.contact.still import pair, placed_shape, standing_links
+
+TURNED = Rotation.from_rotvec((0.3, -0.2, 0.5)).as_matrix()
+AROUND = 2 * np.pi * np.arange(60) / 60
+RIM = 0.02 * np.column_stack([np.cos(AROUND), np.sin(AROUND), 0.3 * np.ones(60)])
+
+
+def sphere(N):
+    points = np.random.default_rng(N).normal(size=(N, 3))
+    return points / np.linalg.norm(points, axis=1)[:, None]
+
+
+def grid(N):
+    """Of which many points are as near as each other."""
+    side = int(np.ceil(N ** (1 / 3)))
+    return (np.stack(np.unravel_index(np.arange(N), (side,) * 3), axis=1) - side / 2) / side
+
+
+MESHES = {
+    "box": convex_hull(Box((0.01, 0.02, 0.03)).corners(np.eye(3)[0])[0]),
+    "finger": convex_hull(sphere(100) * [0.01, 0.02, 0.03]),
+    "plate of needles": convex_hull(np.concatenate([RIM, RIM * [1, 1, -0.01]])),
+}
+CLOUDS = {
+    "sphere": PointCloud(0.03 * sphere(992)),
+    "grid": PointCloud(0.06 * grid(300)),
+    "large": PointCloud(0.06 * grid(MANY + 1)),
+}
+
+
+@pytest.mark.parametrize("k", [1, 5, 70])
+@pytest.mark.parametrize("on", CLOUDS)
+@pytest.mark.parametrize("name", MESHES)
+def test_contacts_of_a_cloud_are_those_of_all_points_over_all_triangles(name, on, k, monkeypatch):
+    mesh = MESHES[name]
+    cloud = CLOUDS[on]
+    one = pair(placed_shape(mesh, 1), placed_shape(cloud, 2), k)
+    for R in (np.eye(3), TURNED):
+        for t in ((0.0, 0.0, 0.0), (0.04, 0.001, 0.0), (0.03, -0.04, 0.05), (1e3, 0.0, 0.1)):
+            links = standing_links((TURNED, np.zeros(3)), (R, np.array(t)))
+            found = closest_points([one], links)
+            a, b = in_world(one, links.R, links.t)
+            with monkeypatch.context() as all_triangles:
+                all_triangles.setattr(facets, "FEW", len(mesh.triangles))
+                rank = search(one, a, b).rank
+            expected = closest(rounded_gaps(rank, one.resolution), k)
+            assert found.point.tolist() == expected.tolist()
+            assert found.phi.tobytes() == (rank[expected] + 0.0).tobytes()
+
+
+def test_most_points_and_triangles_are_left_out():
+    mesh = MESHES["finger"]
+    pose = np.column_stack([np.eye(3), [0.04, 0.001, 0.0]])
+    for name, cloud in CLOUDS.items():
+        number, x = near_points(mesh, cloud, pose, 5, 1e-11)
+        assert len(number) < 0.1 * len(cloud.points), name
+        assert mesh.facets.near(x).size < 0.5 * len(x) * len(mesh.triangles)
