@@ -38,7 +38,7 @@ _HOMES = {
     "step.files": "step_read step_written",
     "step.problem": "StepProblem",
     "step.standard_form": "standard_form",
-    "step.extension": "Extension",
+    "optional.extensions.extension": "Extension",
     "certify.solution": "StepSolution",
     "solve.solve": "solve_step",
     "optional.guests.mujoco": "mujoco_step",

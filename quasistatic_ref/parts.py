@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.contact.pairs import ContactPair
     from quasistatic_ref.model.system import System
     from quasistatic_ref.numbers.arrays import Array
+    from quasistatic_ref.optional.extensions.extension import Extension, OfBodies
     from quasistatic_ref.scenario.bodies import BodyEntry
     from quasistatic_ref.simulate.account import Account
     from quasistatic_ref.simulate.finding import Finding
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.trajectory import Trajectory
     from quasistatic_ref.solve.solver import Solver
     from quasistatic_ref.step.data import StepData
-    from quasistatic_ref.step.extension import Extension, OfBodies
 
 OPTIONAL = "quasistatic_ref.optional"
 

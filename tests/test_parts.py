@@ -14,13 +14,13 @@ import quasistatic_ref as qr
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.parts import is_there, needing
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Cylinder
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.extension import Extension
 from tests.helpers import random_step
 from tests.tolerances import ROUNDING
 

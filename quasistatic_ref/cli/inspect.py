@@ -12,7 +12,6 @@ import numpy as np
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.ignored import ignored_lines
 from quasistatic_ref.cli.named_fields import field_lines, named_fields
-from quasistatic_ref.cli.time_step import time_step_record, time_step_words
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.separations import SAYS, UNIQUE_NORMAL
@@ -101,15 +100,16 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
             coordinate["K_q"] = scenario.K_q[i, i]
     record |= {"h": scenario.h, "steps": scenario.steps, "backend": scenario.backend}
     record |= {"fast": scenario.fast, "cone": scenario.cone, "steps_by": steps_by(scenario)}
-    record["time_step"] = time_step_record(scenario)
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     record["tied"] = tied_at_start(scenario)
-    record |= {"findings": [], "not_looked_at": ""}
+    record |= {"time_step": {}, "findings": [], "not_looked_at": ""}
     if is_there("doctor"):
         from quasistatic_ref.optional.doctor import checks
         from quasistatic_ref.optional.doctor.start import Start
+        from quasistatic_ref.optional.doctor.time_step import time_step_record
 
+        record["time_step"] = time_step_record(scenario)
         start = Start(scenario.simulator(), scenario.system.q_start)
         findings = checks.findings(checks.OF_SCENE, start)
         record["findings"] = [finding_table(finding) for finding in findings]
@@ -195,7 +195,10 @@ def _print(record: dict[str, Any]) -> None:
         shared.print_rows(rows, notes)
         variables, constraints = record["size"]
         print(f"\neach step: {variables} variables, {constraints} rows; h = {record['h']:g} s")
-        shared.print_wrapped(time_step_words(record["time_step"]))
+        if record["time_step"]:
+            from quasistatic_ref.optional.doctor.time_step import time_step_words
+
+            shared.print_wrapped(time_step_words(record["time_step"]))
         print(f"solved by {record['backend']}")
         shared.print_wrapped(f"steps are taken by {record['steps_by']}", "")
     _print_list("normals that are one of several at the start", record.get("tied", []))

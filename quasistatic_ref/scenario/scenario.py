@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -51,7 +51,9 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import Target
 from quasistatic_ref.solve.backends import is_function
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.extension import ExtensionOfQ, OfBodies
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.extensions.extension import ExtensionOfQ, OfBodies
 
 MOST_BODIES = 1000
 

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import FrozenInstanceError, replace
 from functools import cached_property, wraps
-from typing import Any, ClassVar, Concatenate, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -42,7 +42,9 @@ from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, hessian, seconds
-from quasistatic_ref.step.extension import Extension
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.extensions.extension import Extension
 
 GRAVITY = (0.0, 0.0, -9.81)
 P = ParamSpec("P")
@@ -270,8 +272,8 @@ class Simulator(Settings, Shown):
         lap("rows")
         solution = self.solution(step) if self.extension is None else self.extended(step, q)
         self.limits.check_penetration(step)  # after the solve: a proof of infeasibility says more
-        # An extension adds rows and coordinates (step/extension.py): from here on the step is the
-        # one that was solved. Without an extension it is the same.
+        # An extension adds rows and coordinates: from here on the step is the one that was solved.
+        # Without an extension it is the same.
         step = solution.step
         lap("solve")
         lap.separate("proof", solution.statistics.proof_time, "solve")

@@ -10,7 +10,6 @@ import numpy as np
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.extension import none
 from quasistatic_ref.step.problem import StepProblem
 
 Additions = Callable[["CvxpyProblem"], Sequence[cp.Constraint | cp.Expression]]
@@ -34,7 +33,7 @@ class CvxpyProblem(StepProblem):
         The rows of the step's own ``extra``: one constraint, or none.
     """
 
-    def __init__(self, template: StepData, additions: Additions = none) -> None:
+    def __init__(self, template: StepData, additions: Additions | None = None) -> None:
         super().__init__(template)
         if template.cone != PYRAMID:
             self.contact_rows = cone(template.cone).constraints(self.contact_motion, template.mask)
@@ -50,7 +49,7 @@ class CvxpyProblem(StepProblem):
             quadratic = cp.quad_form(self.delta_q, H_extra) / 2
             objective += cp.Minimize(quadratic - g_extra @ self.delta_q)
         constraints = [*self.contact_rows, *self.extra]
-        for term in additions(self):
+        for term in [] if additions is None else additions(self):
             if isinstance(term, cp.Constraint):
                 constraints.append(term)
             else:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -26,9 +26,11 @@ from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import FREE, Solver
 from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.groups import groups
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.extensions.extension import Extension
 
 FACTOR_LIMIT = 2.0**200
 """Three such factors are far from 2^1024, where the range of float64 ends."""

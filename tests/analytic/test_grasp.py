@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario, trajectory_read
-from quasistatic_ref.cli.time_step import SLOW
 from quasistatic_ref.formats.resources import models_folder
+from quasistatic_ref.optional.doctor.time_step import SLOW
 from quasistatic_ref.simulate.motions import rotation_angle
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import (

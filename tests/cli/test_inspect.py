@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref import load_scenario
 from quasistatic_ref.cli.options import WIDTH
-from quasistatic_ref.cli.time_step import time_step_record, time_step_words
+from quasistatic_ref.optional.doctor.time_step import time_step_record, time_step_words
 from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, urdf_of_text
 from tests.optional.doctor.words import block, slides

@@ -1,9 +1,12 @@
 """A scene where a run starts: what findings before the run look at."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,7 +21,10 @@ from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.data import Extra
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.extensions.extension import Extension
 
 FARTHEST = 1.0
 """Size that stands for that of a half-space [m]."""
@@ -70,20 +76,26 @@ class Start:
         return self.simulator.geometry.contacts(self.points, self.kinematics)
 
     @cached_property
-    def extension(self) -> Extension:
-        """What is added to the step at the start, which may be nothing."""
+    def extension(self) -> Extension | None:
+        """What is added to the step at the start, if anything is."""
         extension = self.simulator.extension
-        return Extension() if extension is None else extension(self.q_start)
+        return None if extension is None else extension(self.q_start)
+
+    @property
+    def rows(self) -> Extra | None:
+        """Rows of the extension that are numbers, such as stops of joints."""
+        return None if self.extension is None else self.extension.rows
 
     @property
     def raised(self) -> Indices:
         """Numbers of the contacts whose gap a private rise opens, shape (n,)."""
-        return self.extension.rises.contacts
+        none = np.zeros(0, dtype=np.int64)
+        return none if self.extension is None else self.extension.rises.contacts
 
     @cached_property
     def bounded(self) -> Indices:
         """Entries of delta_q that rows of an extension bound, such as stops of joints."""
-        rows = self.extension.rows
+        rows = self.rows
         return np.zeros(0, dtype=np.int64) if rows is None else np.flatnonzero(rows.A.any(axis=0))
 
     @cached_property

@@ -70,7 +70,8 @@ def joints_beyond(run: Run) -> Iterator[Finding]:
 
 def beyond_effort(run: Run) -> Iterator[Finding]:
     """Joints whose springs push with more than their motors can."""
-    K = stiffness(np.zeros((0, 0)) if run.extension.without_stiffness else run.simulator.K_q)
+    replaced = run.extension is not None and run.extension.without_stiffness
+    K = stiffness(np.zeros((0, 0)) if replaced else run.simulator.K_q)
     for joint in run.system.joints:
         if not (joint.actuated and joint.effort < np.inf) or joint.v.start in run.bounded:
             continue

@@ -190,7 +190,7 @@ def held(start: Start, loose: Collection[str]) -> set[str]:
     loose : collection of str
         Free bodies that no contact bears.
     """
-    rows = start.extension.rows
+    rows = start.rows
     if rows is None or not len(rows.A) or not start.g or not loose:
         return set()
     system = start.system

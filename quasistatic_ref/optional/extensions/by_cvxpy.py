@@ -14,6 +14,7 @@ from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, ste
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.extensions.conic import conic_program, conic_residuals
+from quasistatic_ref.optional.extensions.extension import Extension, Symbols
 from quasistatic_ref.optional.extensions.own_rows import joined
 from quasistatic_ref.optional.extensions.quadratic import quadratic_program
 from quasistatic_ref.optional.extensions.terms import checked_terms
@@ -24,7 +25,6 @@ from quasistatic_ref.solve.solver import RELAXED
 from quasistatic_ref.solve.units import Units, driven, in_si, natural_step, natural_units
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.step.extension import Extension, Symbols
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import BackendError, InputError, StepDataError
+from quasistatic_ref.optional.extensions.extension import Extension, none
 from quasistatic_ref.optional.extensions.own_rows import joined, with_numbers
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.simulator import Simulator
@@ -19,7 +20,6 @@ from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.extension import Extension, none
 
 
 def posed(step: StepData, extension: Extension) -> tuple[StepData, bool]:

@@ -11,12 +11,12 @@ from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.extensions.extension import Extension, ExtensionOfQ, Rises
 from quasistatic_ref.optional.extensions.rises import private_rises, urdf_friction
 from quasistatic_ref.optional.extensions.stops import JointLimits, urdf_limits
 from quasistatic_ref.scenario.bodies import BodyEntry
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.scenario_table import SUPPORT, URDF, value
-from quasistatic_ref.step.extension import Extension, ExtensionOfQ, Rises
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.step.extension import Extension
 
 
 def with_numbers(step: StepData, extension: Extension) -> StepData:

@@ -11,10 +11,10 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import product
+from quasistatic_ref.optional.extensions.extension import Rises
 from quasistatic_ref.optional.extensions.urdf_joints import urdf_joints
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.step.extension import Rises
 from quasistatic_ref.tolerances import LIGHT
 
 WAYS = (1.0, -1.0)

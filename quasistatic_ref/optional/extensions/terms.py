@@ -8,7 +8,7 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.step.extension import Extension, Symbols
+from quasistatic_ref.optional.extensions.extension import Extension, Symbols
 
 CHAINED = "truth value of a constraint"
 """Words of CVXPY's error about ``-1 <= x <= 1``, which Python reads as two truths."""

@@ -1,10 +1,12 @@
 """The simulator of `fast`: the same steps, with their data from compiled code."""
 
+from __future__ import annotations
+
 import multiprocessing
 import sys
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -30,9 +32,11 @@ from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.groups import labels
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.extensions.extension import Extension
 
 DENSE_BELOW: Final = 600_000
 """Entries of J, 4 n_c n_v, of the largest group of bodies below which `fast` asks DAQP, whose

@@ -14,6 +14,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
+from quasistatic_ref.optional.extensions.extension import Rises
 from quasistatic_ref.optional.guests import constraints, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
 from quasistatic_ref.optional.guests.loads import Spring, diagonal_of_H, loads
@@ -22,7 +23,6 @@ from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.step.extension import Rises
 from quasistatic_ref.tolerances import DEEP, FULL_RANK, LIGHT
 
 if TYPE_CHECKING:

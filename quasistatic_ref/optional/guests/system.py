@@ -25,6 +25,7 @@ from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.ordered import rotated
+from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.optional.guests import constraints
 from quasistatic_ref.optional.guests.fates import check, check_run, kind_of, named
 from quasistatic_ref.optional.guests.loads import (
@@ -41,7 +42,6 @@ from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural, m
 from quasistatic_ref.optional.guests.places import Places
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.tolerances import FILLED, FULL_RANK
 
 if TYPE_CHECKING:

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import solve_step, trajectory_read
-from quasistatic_ref.cli.time_step import SLOW
 from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.optional.doctor.artifacts import (
     drag_share,
     quasi_dynamic_number,
 )
+from quasistatic_ref.optional.doctor.time_step import SLOW
 from tests.closeness import assert_relative
 from tests.helpers import changed, point_on_floor, sphere_on_floor
 from tests.scenes import chain_scene

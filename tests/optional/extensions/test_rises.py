@@ -18,8 +18,8 @@ from quasistatic_ref import (
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.thresholds import exact
+from quasistatic_ref.optional.extensions.extension import Rises
 from quasistatic_ref.optional.extensions.rises import with_rises
-from quasistatic_ref.step.extension import Rises
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import random_step

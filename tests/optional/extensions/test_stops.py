@@ -5,8 +5,8 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.optional.extensions.stops import urdf_limits
-from quasistatic_ref.step.extension import Extension
 from tests.closeness import assert_relative, assert_within
 from tests.model.urdf.urdf_texts import joint, link, mimic, robot
 from tests.tolerances import ROUNDING
