@@ -26,7 +26,7 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json({"default": DEFAULT, "default_of_fast": quick, "installed": known})
         return 0
     rows: list[tuple[str, ...]] = [("backend", "through cvxpy", "through qpsolvers", "method")]
-    for entry in (entry for entry in BACKENDS.values() if entry.steps):
+    for entry in (entry for entry in BACKENDS.values() if not entry.no_steps):
         name = entry.name
         name += " (default)" if name == DEFAULT else ""
         name += " (default with --fast)" if entry.name == quick else ""

@@ -51,11 +51,11 @@ class Backend:
         Whether the package installs it.
     cones : bool
         Whether it takes second-order cones, which the ellipsoid needs, through CVXPY.
-    steps : bool
-        Whether steps are solved with it; otherwise it is in studies only.
+    no_steps : str
+        Why no step is solved with it: it is in studies only, which end it after a time.
     returns : bool
-        Whether it returned from every step that it was given. One that loops for ever, or ends the
-        process, gets only steps whose rows are alike (``ALIKE`` in tolerances.py).
+        Whether it returned from every step that it was given. One that may end the process gets
+        only steps whose rows are alike (``ALIKE`` in solver.py).
     """
 
     name: str
@@ -68,7 +68,7 @@ class Backend:
     package: str = ""
     required: bool = False
     cones: bool = False
-    steps: bool = True
+    no_steps: str = ""
     returns: bool = True
 
     def first(self, accuracy: float) -> Options:
@@ -181,9 +181,11 @@ BACKENDS: dict[str, Backend] = {
         Backend("highs", "active set", _highs, floor=1e-10,
                 time_limit="time_limit", package="highspy", returns=False),
         # The method has no tolerance.
-        Backend("quadprog", "dual active set", lambda _: ({},), cvxpy=False, returns=False),
+        Backend("quadprog", "dual active set", lambda _: ({},), cvxpy=False,
+                no_steps="it may never return where rows depend on each other, as those of a "
+                         "contact do"),
         Backend("qpalm", "augmented Lagrangian", _qpalm, warm=("cvxpy",),
-                steps=False),
+                no_steps="it says of some that have a solution that they have none"),
     )
 }  # fmt: skip
 REQUIRED = tuple(sorted(b.name for b in BACKENDS.values() if b.required))
@@ -225,7 +227,7 @@ def is_function(name: str) -> bool:
 def installed_backends() -> tuple[str, ...]:
     """Names of the solvers here: those through CVXPY first, then those through qpsolvers."""
     names = (*installed("cvxpy"), *(QPSOLVERS + name for name in installed("qpsolvers")))
-    return tuple(name for name in names if BACKENDS[name.removeprefix(QPSOLVERS)].steps)
+    return tuple(name for name in names if not BACKENDS[name.removeprefix(QPSOLVERS)].no_steps)
 
 
 def backend_names() -> tuple[str, ...]:
@@ -254,7 +256,10 @@ def backend(name: str) -> Backend:
     entry = BACKENDS.get(name.removeprefix(QPSOLVERS))
     if entry is None and name in others_installed():
         return Backend(name, "not in this table", lambda _: ({},))
-    if entry is None or not entry.steps:
+    if entry is not None and entry.no_steps:
+        problem = f"is not a backend of steps: {entry.no_steps}; studies call it"
+        raise BackendError(problem, field="backend", value=name)
+    if entry is None:
         hint = suggestion(name, known)
         raise BackendError(f"is not a backend{hint}", field="backend", value=name)
     if name not in known:

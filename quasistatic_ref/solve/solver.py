@@ -28,8 +28,8 @@ from quasistatic_ref.step.data import StepData, differences
 
 ALIKE: Final = 1e3
 """Largest ratio of the lengths of a step's rows, in natural units [-], at which a solver is called
-that may not return. On rows of very different lengths quadprog 0.1.14 may loop without end, and
-HiGHS 1.16 may end the process; the steps of the scenarios in models/ stay below 3."""
+that may not return. On rows of very different lengths HiGHS 1.16 may end the process; the steps of
+the scenarios in models/ stay below 3."""
 
 RELAXED = (1.0, 1e2, 1e4)
 """Accuracies tried where a backend is given second-order cones, relative to the one of the call.

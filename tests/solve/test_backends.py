@@ -135,8 +135,8 @@ def test_a_backend_is_not_asked_for_more_than_it_can_and_says_so():
 @pytest.mark.parametrize(
     ("name", "known", "remedy"),
     [
-        ("quadprog", ("osqp", "qpsolvers:quadprog"), "is available as 'qpsolvers:quadprog'"),
-        ("quadprog", ("osqp",), "is not installed; pip install quadprog, or "),
+        ("proxqp", ("osqp", "qpsolvers:proxqp"), "is available as 'qpsolvers:proxqp'"),
+        ("proxqp", ("osqp",), "is not installed; pip install proxsuite, or "),
         ("clarabel", ("osqp",), "is not installed; pip install clarabel; installed here: osqp"),
     ],
 )
