@@ -42,6 +42,11 @@ BEYOND = """
 }
 """
 """JavaScript: what reaches out of the window and stands in no box that scrolls."""
+CUT = """
+() => [...document.querySelectorAll('article pre')]
+  .filter(e => e.scrollWidth > e.clientWidth + 2).map(e => e.textContent.trim().slice(0, 60))
+"""
+"""JavaScript: code that is wider than its box."""
 RAW = """
 () => {
   const text = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
@@ -97,6 +102,9 @@ def layout_faults(page: Page, site: Path) -> Iterator[str]:
             page.set_viewport_size({"width": width, "height": HEIGHT})
             for element in page.evaluate(BEYOND):
                 yield f"{path.relative_to(site)} at {width} px: {element}"
+        if LISTING not in path.parts:
+            for code in page.evaluate(CUT):
+                yield f"{path.relative_to(site)}: wider than its box: {code}"
 
 
 def open_viewers(page: Page) -> None:
