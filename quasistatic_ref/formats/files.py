@@ -4,9 +4,12 @@ import io
 import json
 import os
 import stat
+import sys
 import tempfile
 import tomllib
 from collections.abc import Callable
+from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from typing import IO, Any
 
@@ -68,16 +71,48 @@ def is_stream(path: Path) -> bool:
 def _replaced(target: Path, write: Callable[[IO[bytes]], object]) -> None:
     """Write a regular file whole."""
     target.parent.mkdir(parents=True, exist_ok=True)
+    _swept(target.parent)
     descriptor, temporary = tempfile.mkstemp(PARTIAL, f".{target.name}.", target.parent)
     try:
         with os.fdopen(descriptor, "wb") as file:
+            is_locked = _locked(descriptor)
             write(file)
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(temporary, 0o666 & ~umask)
-        os.replace(temporary, target)
+            file.flush()
+            if is_locked:  # until it has its name
+                _named(temporary, target)
+        if not is_locked:
+            _named(temporary, target)
     finally:
         Path(temporary).unlink(missing_ok=True)
+
+
+def _named(temporary: str, target: Path) -> None:
+    umask = os.umask(0)
+    os.umask(umask)
+    os.chmod(temporary, 0o666 & ~umask)
+    os.replace(temporary, target)
+
+
+@cache
+def _swept(folder: Path) -> None:
+    """Remove, once in each process, what processes that were killed had half written there."""
+    for path in folder.glob(f".*{PARTIAL}"):
+        with suppress(OSError), path.open("rb") as file:
+            if _locked(file.fileno()):
+                path.unlink()
+
+
+def _locked(descriptor: int) -> bool:
+    """Lock a file until it is closed; tell whether that is possible, and no other process did."""
+    if sys.platform == "win32":
+        return False
+    import fcntl
+
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True
 
 
 def _resolved(path: Path) -> Path:

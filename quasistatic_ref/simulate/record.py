@@ -22,8 +22,9 @@ PER_STEP = (
 )  # fmt: skip
 PROGRAM = ("H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
 """What a full record adds, step by step."""
-NOT_KNOWN = ("worst_residual", "digits")
-"""Arrays that hold NaN where nothing was certified; all others are finite."""
+NOT_KNOWN = ("worst_residual", "digits", "forces", "imbalance")
+"""Arrays that hold NaN where nothing was certified, or no forces were found; all others are finite.
+"""
 FORCES = ("forces", "imbalance", "motion")
 """What a record of forces adds to a light one."""
 EXTRA = ("lam_extra", "extra_A", "extra_b")

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
@@ -217,8 +218,9 @@ class Recorder:
         if self.record == "full":
             arrays |= programs([result.step for result in results])
         if self.record == "forces":
-            arrays["forces"] = _of_all(results, "forces")
-            arrays["imbalance"] = _of_all(results, "imbalance")
+            found = [_forces_of(result) for result in results]
+            arrays["forces"] = np.array([forces for forces, _ in found])
+            arrays["imbalance"] = np.array([imbalance for _, imbalance in found])
             arrays["motion"] = every["motion"]
         more = ITERATED if self.simulator.law == COULOMB else ()
         if first.step.extra.names:
@@ -340,6 +342,15 @@ def arrays_of(results: Sequence[StepResult], n_v: int) -> StepArrays:
     for part in results[0].seconds:
         arrays[SECONDS + part] = np.array([result.seconds[part] for result in results])
     return arrays
+
+
+def _forces_of(result: StepResult) -> tuple[Array, float]:
+    """Forces of a step and their imbalance, all NaN where none are found: the run goes on."""
+    solution = result.solution
+    try:
+        return solution.forces, solution.imbalance
+    except (StepNotSolved, ArithmeticError):
+        return np.full((result.step.contacts.n_c, 4), np.nan), np.nan
 
 
 def motions(results: Sequence[StepResult], n_v: int) -> Array:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -13,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Mask
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
@@ -68,7 +70,8 @@ class FunctionSolver(BackendSolver):
         """What the function returns."""
         H, g, A, b = self.form
         begin = perf_counter()
-        returned = self.function(H.copy(), -g, -A, -b)
+        with apart():
+            returned = self.function(H.copy(), -g, -A, -b)
         return reply_of(returned, len(g), len(b), perf_counter() - begin)
 
 
@@ -87,13 +90,57 @@ def reply_of(returned: object, n: int, m: int, seconds: float) -> Reply:
         words = f"returned a {type(returned).__name__} in place of (x, z, status)"
         return Reply(None, None, False, words, call_seconds=seconds)
     x, z, status = returned
-    if x is None or z is None:
-        return Reply(None, None, False, str(status)[:WORDS], call_seconds=seconds)
-    x, z = (np.array(v, dtype=np.float64).reshape(-1) for v in (x, z))
-    if (len(x), len(z)) != (n, m):
-        words = f"returned {len(x)} and {len(z)} numbers in place of {n} and {m}"
+    if not isinstance(status, str):
+        words = f"returned a {type(status).__name__} in place of a status"
         return Reply(None, None, False, words, call_seconds=seconds)
-    return Reply(x, z, status == OPTIMAL, str(status)[:WORDS], call_seconds=seconds)
+    if x is None or z is None:
+        return Reply(None, None, False, status[:WORDS], call_seconds=seconds)
+    x, z = (real_numbers(v).reshape(-1) for v in (x, z))
+    if (len(x), len(z)) != (n, m):
+        words = f"returned {len(x)} and {len(z)} real numbers in place of {n} and {m}"
+        return Reply(None, None, False, words, call_seconds=seconds)
+    return Reply(x, z, status == OPTIMAL, status[:WORDS], call_seconds=seconds)
+
+
+def real_numbers(values: object) -> Array:
+    """What a function has returned as float64, or no numbers of shape (0, 0), if it is no such.
+
+    Parameters
+    ----------
+    values : object
+        Complex numbers, words and truth values are none.
+    """
+    try:
+        array = np.array(values)
+    except ValueError:  # lists of different lengths
+        array = np.array(None)
+    return array.astype(np.float64) if array.dtype.kind in "fiu" else np.zeros((0, 0))
+
+
+@contextmanager
+def apart() -> Iterator[None]:
+    """Around code of others: what it prints goes to standard error, and it ends no process.
+
+    Raises
+    ------
+    RuntimeError
+        In place of what is no :class:`Exception`, such as `SystemExit`; Ctrl-C stays itself.
+    """
+    sys.stdout.flush()
+    sys.stderr.flush()
+    kept = os.dup(1)
+    os.dup2(2, 1)
+    try:
+        with redirect_stdout(sys.stderr):
+            yield
+    except (Exception, KeyboardInterrupt):
+        raise
+    except BaseException as error:
+        raise RuntimeError(f"{type(error).__name__}: {error}") from None
+    finally:
+        sys.stderr.flush()
+        os.dup2(kept, 1)
+        os.close(kept)
 
 
 def called(function: Function) -> str:
@@ -124,10 +171,12 @@ def function_at(target: str) -> Function:
             assert spec.loader is not None
             module = importlib.util.module_from_spec(spec)
             _look_in(path.parent)  # for what it imports itself
-            spec.loader.exec_module(module)
+            with apart():
+                spec.loader.exec_module(module)
         else:
             _look_in(Path.cwd())
-            module = importlib.import_module(place)
+            with apart():
+                module = importlib.import_module(place)
         function: Function = getattr(module, name)
     except Exception as error:  # a module may raise anything when it is imported
         words = f"cannot be imported: {type(error).__name__}: {error}"

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.numbers.arrays import Array
 
 
@@ -18,7 +19,7 @@ class Reply:
     solved : bool
         Whether it claims a full solution.
     status : str
-        Its own word, or what it raised.
+        Its own word, or what it raised; of other letters than can be written, their numbers.
     iterations : int or None
     seconds : float or None
         Inside the solver [s], where it says so.
@@ -40,6 +41,9 @@ class Reply:
     solve_time: float | None = None
     setup: float | None = None
     accuracy: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.status = one_line(self.status)
 
     @property
     def answer(self) -> tuple[Array, Array]:

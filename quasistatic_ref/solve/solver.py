@@ -12,6 +12,7 @@ import numpy as np
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.numbers.arrays import Mask, finite
 from quasistatic_ref.solve.backends import (
     BACKENDS,
@@ -181,7 +182,7 @@ class BackendSolver(Solver):
             try:
                 reply = self.reply(options, both)
             except Exception as error:  # whatever another package raises
-                status = f"the solver failed: {error}"
+                status = one_line(f"the solver failed: {error}")
                 cause = error
                 continue
             cause = None

@@ -3,6 +3,8 @@
 import math
 import os
 import stat
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -46,6 +48,30 @@ def test_a_writer_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, erro
             whole(path, write)
     assert old.read_text() == "old"
     assert os.listdir(tmp_path) == ["t.txt"]
+
+
+def test_what_a_killed_process_had_half_written_is_removed(tmp_path):
+    """By another process, and not what a third one is writing."""
+    program = (
+        "import sys; from quasistatic_ref.formats.files import *; written_whole(sys.argv[1], {})"
+    )
+    waits = "lambda file: (print(1, flush=True), input())"
+    writers = [
+        subprocess.Popen([sys.executable, "-c", program.format(waits), tmp_path / name],
+                         stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        for name in ("a", "b")
+    ]  # fmt: skip
+    for writer in writers:
+        assert writer.stdout.readline()
+    writers[0].kill()
+    writers[0].communicate()
+    assert len(list(tmp_path.glob(".*.partial"))) == 2
+    done = [sys.executable, "-c", program.format("lambda file: file.write(b'c')"), tmp_path / "c"]
+    subprocess.run(done, check=True)
+    (left,) = tmp_path.glob(".*.partial")
+    assert left.name.startswith(".b.")
+    writers[1].communicate(b"\n")
+    assert sorted(os.listdir(tmp_path)) == ["b", "c"]
 
 
 def test_a_full_disk_is_a_plain_error_and_leaves_nothing(tmp_path):

@@ -99,5 +99,12 @@ def test_a_claim_that_fails_ends_with_status_one_and_a_sentence(tmp_path, cli, m
     ]
 
 
+def test_nothing_is_measured_for_a_folder_that_cannot_be_written(tmp_path, cli):
+    (tmp_path / "file").touch()
+    said = cli("validate", "--out", tmp_path / "file", status=2).err
+    assert "cannot be written" in said
+    assert "[1/" not in said
+
+
 def test_an_unknown_claim_is_bad_input(tmp_path, cli):
     assert "did you mean 'approach'" in cli("validate", "aproach", "--out", tmp_path, status=2).err

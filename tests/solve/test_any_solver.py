@@ -1,6 +1,9 @@
 """Solvers that the table does not have: CVXPY's, qpsolvers', and functions of the user's."""
 
+import json
+import os
 import pickle
+import re
 import sys
 
 import cvxpy as cp
@@ -9,6 +12,7 @@ import pytest
 import qpsolvers
 
 import quasistatic_ref as qr
+from quasistatic_ref.cli.main import main
 from quasistatic_ref.solve import backends
 from quasistatic_ref.solve.choice import solver_for
 from tests.helpers import one_sentence, pinch
@@ -24,12 +28,18 @@ def by_daqp(P, q, G, h):
 
 
 MINE = """
+import os
 import numpy as np
 import qpsolvers
 
 def solve(P, q, G, h):
     answer = qpsolvers.solve_problem(qpsolvers.Problem(P, q, G, h), "daqp")
     return answer.x, answer.z, "optimal"
+
+def prints(P, q, G, h):
+    os.write(1, b"noise\\n")
+    print("more noise")
+    return solve(P, q, G, h)
 
 def gives_up(P, q, G, h):
     return None, None, "tired"
@@ -73,7 +83,40 @@ def test_a_function_has_a_name_on_the_command_line(name, mine, cli):
     assert set(run.certificate) == {"exact"}
 
 
+def test_what_a_function_prints_comes_not_among_the_answers(mine, capfd):
+    qr.step_written(mine / "step.json", STEP)
+    (mine / "loud.py").write_text(f"print('noise of the module')\n{MINE}")
+    assert main(["solve", "step.json", "--backend", "loud.py:prints"]) == 0
+    said = capfd.readouterr()
+    assert json.loads(said.out)["status"] == "optimal"
+    assert "noise of the module" in said.err
+    assert "more noise" in said.err
+
+
+def test_a_module_that_ends_its_process_is_a_sentence(mine, cli):
+    qr.step_written(mine / "step.json", STEP)
+    (mine / "ends.py").write_text("raise SystemExit(0)")
+    said = cli("solve", "step.json", "--backend", "ends.py:solve", status=2).err
+    assert "cannot be imported: RuntimeError: SystemExit: 0" in said
+
+
+def exits(P, q, G, h):
+    sys.exit(0)
+
+
+def names_a_file(P, q, G, h):
+    raise ValueError("cannot open " + os.fsdecode(b"caf\xe9.dat"))
+
+
 WRONG = {
+    "complex": (lambda P, q, G, h: (q + 1e-9j, h, "optimal"), "0 and 12 real numbers in place of"),
+    "words": (lambda P, q, G, h: (["1"] * len(q), h, "optimal"), "real numbers in place of"),
+    "ragged": (lambda P, q, G, h: ([[1], [1, 2]], h, "optimal"), "real numbers in place of"),
+    "two statuses": (lambda P, q, G, h: (q, h, np.array(["optimal", "x"])), "a ndarray in place"),
+    "no word": (lambda P, q, G, h: (q, h, 1), "returned a int in place of a status"),
+    "an end": (exits, "SystemExit: 0"),
+    "no UTF-8": (names_a_file, r"cannot open caf\udce9.dat"),
+    "no UTF-8 in a status": (lambda P, q, G, h: (None, None, "caf\udce9"), r"caf\udce9"),
     "of another shape": (lambda P, q, G, h: (q[:1], h, "optimal"), "in place of"),
     "no three": (lambda P, q, G, h: q, "in place of"),
     "of another status": (lambda P, q, G, h: (q, h, "almost"), "almost"),
@@ -89,8 +132,9 @@ def test_what_a_function_returns_is_not_believed(wrong):
     solution = qr.solve_step(STEP, function)
     assert solution.delta_q.tobytes() == EXACT.delta_q.tobytes()
     assert says in solution.statistics.status
-    with pytest.raises(qr.StepNotSolved, match=says):
+    with pytest.raises(qr.StepNotSolved, match=re.escape(says)) as caught:
         qr.solve_step(STEP, function, certify="off")
+    assert str(caught.value).encode()
 
 
 @pytest.mark.parametrize(

@@ -42,8 +42,8 @@ def _report(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.page import page_written
     from quasistatic_ref.lab.study.store import rows_read
 
-    rows = [row for folder in options.studies for row in rows_read(folder)]
-    for path in page_written(rows, writable_folder(options.out)):
+    rows = {row: None for folder in options.studies for row in rows_read(folder)}
+    for path in page_written(list(rows), writable_folder(options.out)):
         print(f"wrote {path}")
     return 0
 

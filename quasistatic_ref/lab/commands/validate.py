@@ -6,7 +6,7 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.formats.files import text_written, writable_folder
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, NOT_RUN, ClaimResult, claim_result
 from quasistatic_ref.lab.claims.registry import BY_NAME, CLAIMS
@@ -43,6 +43,7 @@ def run(options: argparse.Namespace) -> int:
     for name in options.names:
         if name not in BY_NAME:
             raise InputError(f"is not a claim{suggestion(name, BY_NAME)}", field="NAME", value=name)
+    writable_folder(options.out)
     chosen = options.names or list(BY_NAME)
     findings: dict[str, ClaimResult] = {}
     for k, name in enumerate(chosen, start=1):

@@ -11,8 +11,8 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.claims import INFEASIBLE, OPTIMAL
 from quasistatic_ref.lab.study.solvers import CVXPY, QPSOLVERS, Solver
-from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.backends import Options
+from quasistatic_ref.solve.by_function import real_numbers
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
@@ -103,18 +103,11 @@ def _by_function(function: Callable[..., Any], starts: bool) -> Call:
             words = f"returned a {type(returned).__name__} in place of (x, z, status)"
             return Reply(np.zeros((0, 0)), None, False, words, call_seconds=seconds)
         x, z, status = returned
-        x = None if x is None else _numbers(x)
-        lam = None if z is None else _numbers(z)
-        solved = status == OPTIMAL
-        if status == INFEASIBLE:
-            x = None
-        return Reply(x, lam, solved, str(status)[:WORDS], call_seconds=seconds)
+        if not isinstance(status, str):
+            words = f"returned a {type(status).__name__} in place of a status"
+            return Reply(None, None, False, words, call_seconds=seconds)
+        x = None if x is None or status == INFEASIBLE else real_numbers(x)
+        lam = None if z is None else real_numbers(z)
+        return Reply(x, lam, status == OPTIMAL, status[:WORDS], call_seconds=seconds)
 
     return call
-
-
-def _numbers(values: Any) -> Array:
-    try:
-        return np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        return np.zeros((0, 0))  # no numbers: a wrong shape

@@ -123,12 +123,13 @@ def grades(
             if feasible:
                 fields |= _digits(ready, x, lam)
         allowed = limits(promise, terms, residuals, feasible)
-    wrong = claimed == OPTIMAL and (outcome == NAN or exceeded(residuals, allowed))
+    overflows = any(size is not None and not np.isfinite(size) for size in residuals.values())
+    wrong = claimed == OPTIMAL and (x is None or overflows or exceeded(residuals, allowed))
     if claimed == INFEASIBLE and feasible:
         wrong = not _is_certified(form, reply.lam, accuracy or UNSTATED["abs"])
     return (
         fields
-        | residuals
+        | {name: _finite(size) for name, size in residuals.items()}
         | {
             **{f"{name}_limit": most for name, most in allowed.items()},
             "claim": claimed,
@@ -203,13 +204,13 @@ def _residuals(form: StandardForm, x: Array, lam: Array | None) -> dict[str, flo
     """
     primal = largest(np.maximum(form.b - form.A @ x, 0.0))
     if lam is None:
-        return {"primal": _finite(primal), "dual": None, "gap": None}
+        return {"primal": primal, "dual": None, "gap": None}
     balance = form.H @ x - form.g - form.A.T @ lam
     gap = abs(float(x @ form.H @ x - form.g @ x - form.b @ lam))
     return {
-        "primal": _finite(primal),
-        "dual": _finite(max(largest(balance), largest(np.minimum(lam, 0.0)))),
-        "gap": _finite(gap),
+        "primal": primal,
+        "dual": float(np.max([largest(balance), largest(np.minimum(lam, 0.0))])),
+        "gap": gap,
     }
 
 

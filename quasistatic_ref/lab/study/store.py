@@ -7,7 +7,7 @@ from typing import Any, get_args, get_type_hints
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
-from quasistatic_ref.lab.study.row import Row
+from quasistatic_ref.lab.study.row import Row, key_of
 from quasistatic_ref.parts import needed_package
 
 ROWS = "rows.parquet"
@@ -33,7 +33,7 @@ def rows_written(path: Path, rows: Iterable[Row]) -> Path:
 
 
 def rows_read(folder: str | Path) -> list[Row]:
-    """The rows of a study's folder, in the order in which they were measured.
+    """The rows of a study's folder, in the order in which they were measured, each once.
 
     Raises
     ------
@@ -49,7 +49,8 @@ def rows_read(folder: str | Path) -> list[Row]:
         raise InputError(f"holds no rows of a study: {words}", file=path) from None
     if table.column_names != list(COLUMNS):
         raise InputError("has other columns than a study's rows", file=path)
-    return [Row(**one) for one in table.to_pylist()]
+    rows = [Row(**one) for one in table.to_pylist()]
+    return list({key_of(row): row for row in rows}.values())
 
 
 def _parquet() -> list[Any]:

@@ -311,9 +311,14 @@ def _motion_of_contacts(run: Trajectory) -> Array | None:
 def _forces(run: Trajectory, wanted: bool, missing: list[str]) -> Array | None:
     if "forces" in run.arrays or (wanted and run.header["record"] == "full"):
         try:
-            return run.forces
+            forces = run.forces
         except InputError:
             missing.append(UNKNOWN)
+            return None
+        without = np.flatnonzero(np.isnan(forces).any(axis=(1, 2)))
+        if not without.size:
+            return forces
+        missing.append(f"the forces are not known in {without.size} steps, first in {without[0]}")
     elif run.header["record"] == "full":
         missing.append("the forces are not formed here: 'quasistatic-ref account' does that")
     else:

@@ -21,7 +21,7 @@ from quasistatic_ref.lab.study.limits import Limits
 from quasistatic_ref.lab.study.problems.selection import problems_taken
 from quasistatic_ref.lab.study.row import Row, key_of
 from quasistatic_ref.lab.study.run import measured, study
-from quasistatic_ref.lab.study.store import ROWS, rows_read
+from quasistatic_ref.lab.study.store import ROWS, rows_read, rows_written
 from tests.lab.study import broken
 from tests.processes import has_ended, waited_for
 
@@ -50,6 +50,15 @@ def test_every_measurement_is_a_row_once_and_libraries_read_them(whole):
     question = f"SELECT problem FROM '{store / ROWS}' WHERE digits >= 6"
     answer = [row.problem for row in rows if (row.digits or 0) >= 6]
     assert [name for (name,) in duckdb.sql(question).fetchall()] == answer
+
+
+def test_rows_that_stand_twice_count_once(whole, tmp_path, cli):
+    rows, store = whole
+    assert rows_read(rows_written(tmp_path / ROWS, [*rows, rows[0], rows[0]]).parent) == rows
+    said = [cli("study", "report", *folders, "--out", tmp_path / "report") and
+            (tmp_path / "report" / "summary.md").read_text()
+            for folders in ([store], [store, tmp_path])]  # fmt: skip
+    assert said[0] == said[1]
 
 
 def test_a_study_that_was_stopped_goes_on_and_measures_nothing_twice(

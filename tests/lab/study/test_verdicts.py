@@ -82,6 +82,18 @@ def test_right_x_and_zero_multipliers_is_a_false_claim_and_so_is_a_negative_mult
     assert row_of(problem, there.answer.x, lam)["false_claim"]
 
 
+@pytest.mark.parametrize("name", ["gaps/1e-14/279", "infeasible/1.14868e-11/243"])
+@pytest.mark.parametrize("size", [None, 1e308, 1e160])
+def test_success_without_numbers_or_with_such_as_overflow_is_a_false_claim(name, size):
+    (one,) = set_read(problem_set_folder(CONTACT_QP), ids=[name])
+    n, m = one.natural.form.A.shape[::-1]
+    x = None if size is None else np.full(n, size)
+    for lam in (None, np.zeros(m)):
+        row = row_of(one, x, lam)
+        assert (row["claim"], row["false_claim"]) == ("optimal", True)
+        assert all(row[name] is None or np.isfinite(row[name]) for name in RESIDUALS)
+
+
 def test_success_without_a_solution_is_false_beyond_the_tolerances_alone():
     (none,) = set_read(problem_set_folder(CONTACT_QP), ids=["infeasible/1.14868e-11/243"])
     form = none.natural.form
