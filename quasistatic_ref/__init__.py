@@ -10,6 +10,7 @@ is the name of a sub-package, which Python would put in its place once that is i
 """
 
 from importlib import import_module
+from typing import TYPE_CHECKING
 
 __version__ = "0.1.0"
 
@@ -23,6 +24,7 @@ _HOMES = {
     "contact.pairs": "ContactPair",
     # Steps in sequence.
     "simulate.result": "StepResult",
+    "simulate.limits": "Limits",
     "simulate.simulator": "Simulator",
     "optional.fast.simulator": "FastSimulator",
     "optional.derivatives.derivatives": "derivatives",
@@ -30,6 +32,8 @@ _HOMES = {
     "optional.derivatives.step_jax": "step_jax smoothed_jax",
     "simulate.rollout": "rollout",
     "simulate.recorder": "Recorder",
+    "simulate.observer": "Observer",
+    "simulate.finding": "Finding",
     "simulate.trajectory": "Trajectory trajectory_read",
     "scenario.scenario": "Scenario load_scenario",
     "optional.scans.body": "scanned_body",
@@ -38,15 +42,18 @@ _HOMES = {
     "step.files": "step_read step_written",
     "step.problem": "StepProblem",
     "step.standard_form": "standard_form",
-    "optional.extensions.extension": "Extension",
-    "certify.solution": "StepSolution",
+    "optional.extensions.extension": "Extension Symbols",
+    "certify.solution": "StepSolution SolverStatistics",
     "solve.solve": "solve_step",
     "optional.guests.mujoco": "mujoco_step",
     "optional.guests.mujoco_opinion": "second_opinion",
     "optional.guests.scene": "mujoco_scenario",
-    "optional.coulomb.fixed_point": "coulomb_step",
+    "optional.coulomb.fixed_point": "coulomb_step CoulombSolution",
     "certify.certificate": "Certificate",
+    "certify.residuals": "Residuals optimality_residuals",
     "certify.verification": "verify",
+    "certify.verdict": "Verdict",
+    "certify.contact_forces": "ContactForces",
     "optional.forces.forces": "contact_forces",
     # A run in pictures and numbers.
     "optional.show.figures.animation": "animate",
@@ -67,14 +74,117 @@ _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 __all__ = ["__version__", *sorted(_HOME)]
 
 
-def __getattr__(name: str) -> object:
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    home = _HOME[name]
-    if home.startswith("optional."):
-        with import_module(f"{__name__}.parts").needing(name):
-            return getattr(import_module(f"{__name__}.{home}"), name)
-    return getattr(import_module(f"{__name__}.{home}"), name)
+if TYPE_CHECKING:  # what editors and type checkers see: the same names, with their types
+    from quasistatic_ref.certify.certificate import Certificate as Certificate
+    from quasistatic_ref.certify.contact_forces import ContactForces as ContactForces
+    from quasistatic_ref.certify.failures import (
+        StepIllPosed as StepIllPosed,
+        StepInfeasible as StepInfeasible,
+        StepNotSolved as StepNotSolved,
+    )
+    from quasistatic_ref.certify.residuals import (
+        Residuals as Residuals,
+        optimality_residuals as optimality_residuals,
+    )
+    from quasistatic_ref.certify.solution import (
+        SolverStatistics as SolverStatistics,
+        StepSolution as StepSolution,
+    )
+    from quasistatic_ref.certify.verdict import Verdict as Verdict
+    from quasistatic_ref.certify.verification import verify as verify
+    from quasistatic_ref.contact.pairs import ContactPair as ContactPair
+    from quasistatic_ref.errors import (
+        BackendError as BackendError,
+        ContactError as ContactError,
+        InputError as InputError,
+        MissingKey as MissingKey,
+        ModelError as ModelError,
+        NotDifferentiable as NotDifferentiable,
+        QuasistaticError as QuasistaticError,
+        ScenarioError as ScenarioError,
+        StepDataError as StepDataError,
+    )
+    from quasistatic_ref.model.body import Body as Body
+    from quasistatic_ref.model.system import System as System
+    from quasistatic_ref.optional.coulomb.fixed_point import (
+        CoulombSolution as CoulombSolution,
+        coulomb_step as coulomb_step,
+    )
+    from quasistatic_ref.optional.derivatives.derivatives import derivatives as derivatives
+    from quasistatic_ref.optional.derivatives.smoothed import smoothed as smoothed
+    from quasistatic_ref.optional.derivatives.step_jax import (
+        smoothed_jax as smoothed_jax,
+        step_jax as step_jax,
+    )
+    from quasistatic_ref.optional.extensions.extension import (
+        Extension as Extension,
+        Symbols as Symbols,
+    )
+    from quasistatic_ref.optional.fast.simulator import FastSimulator as FastSimulator
+    from quasistatic_ref.optional.forces.forces import contact_forces as contact_forces
+    from quasistatic_ref.optional.guests.mujoco import mujoco_step as mujoco_step
+    from quasistatic_ref.optional.guests.mujoco_opinion import second_opinion as second_opinion
+    from quasistatic_ref.optional.guests.scene import mujoco_scenario as mujoco_scenario
+    from quasistatic_ref.optional.scans.body import scanned_body as scanned_body
+    from quasistatic_ref.optional.show.figures.animation import animate as animate
+    from quasistatic_ref.optional.show.figures.contact_pictures import (
+        stick_slip_map as stick_slip_map,
+    )
+    from quasistatic_ref.optional.show.figures.draw import (
+        draw_scene as draw_scene,
+        draw_scenes as draw_scenes,
+    )
+    from quasistatic_ref.optional.show.figures.friction_cone import cone_with_load as cone_with_load
+    from quasistatic_ref.optional.show.figures.moments import moment as moment
+    from quasistatic_ref.optional.show.figures.viewer import view_written as view_written
+    from quasistatic_ref.scenario.scenario import (
+        Scenario as Scenario,
+        load_scenario as load_scenario,
+    )
+    from quasistatic_ref.shapes.convex_mesh import convex_hull as convex_hull
+    from quasistatic_ref.shapes.placed_shape import (
+        Box as Box,
+        Capsule as Capsule,
+        Cone as Cone,
+        Cylinder as Cylinder,
+        Ellipsoid as Ellipsoid,
+        HalfSpace as HalfSpace,
+        PlacedShape as PlacedShape,
+        PointCloud as PointCloud,
+        Sphere as Sphere,
+    )
+    from quasistatic_ref.simulate.failures import (
+        LimitExceeded as LimitExceeded,
+        NoFixedPoint as NoFixedPoint,
+        RunFailed as RunFailed,
+    )
+    from quasistatic_ref.simulate.finding import Finding as Finding
+    from quasistatic_ref.simulate.limits import Limits as Limits
+    from quasistatic_ref.simulate.motions import relative_turn as relative_turn
+    from quasistatic_ref.simulate.observer import Observer as Observer
+    from quasistatic_ref.simulate.recorder import Recorder as Recorder
+    from quasistatic_ref.simulate.result import StepResult as StepResult
+    from quasistatic_ref.simulate.rollout import rollout as rollout
+    from quasistatic_ref.simulate.simulator import Simulator as Simulator
+    from quasistatic_ref.simulate.trajectory import (
+        Trajectory as Trajectory,
+        trajectory_read as trajectory_read,
+    )
+    from quasistatic_ref.solve.solve import solve_step as solve_step
+    from quasistatic_ref.step.data import Contacts as Contacts, Extra as Extra, StepData as StepData
+    from quasistatic_ref.step.files import step_read as step_read, step_written as step_written
+    from quasistatic_ref.step.problem import StepProblem as StepProblem
+    from quasistatic_ref.step.standard_form import standard_form as standard_form
+else:
+
+    def __getattr__(name: str) -> object:
+        if name not in _HOME:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        home = _HOME[name]
+        if home.startswith("optional."):
+            with import_module(f"{__name__}.parts").needing(name):
+                return getattr(import_module(f"{__name__}.{home}"), name)
+        return getattr(import_module(f"{__name__}.{home}"), name)
 
 
 def __dir__() -> list[str]:

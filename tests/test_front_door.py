@@ -1,9 +1,13 @@
 """The front door: every name is there in every order of imports, documented, with an example."""
 
+import ast
 import doctest
+import inspect
+import re
 import subprocess
 import sys
 import tempfile
+from importlib import import_module
 from operator import attrgetter
 from pathlib import Path
 
@@ -45,6 +49,46 @@ print("good")
 """
 
 
+USERS = """
+import cvxpy as cp
+import numpy as np
+from numpy.typing import NDArray
+
+import quasistatic_ref as qr
+
+Array = NDArray[np.float64]
+ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
+system: qr.System = qr.System([ball])
+scenario = qr.load_scenario("block_push", steps=3)
+simulator = scenario.simulator()
+
+
+def controller(t: float, q: Array) -> list[float]:
+    return [0.01 * t + 0.1 * q[1]]
+
+
+def solver(P: Array, q: Array, G: Array, h: Array) -> tuple[Array, Array, str]:
+    return np.zeros_like(q), np.zeros_like(h), "failed"
+
+
+def limit(symbols: qr.Symbols) -> list[cp.Constraint]:
+    return [symbols.delta_q[0] <= 1e-5]
+
+
+run = qr.rollout(simulator, scenario.system.q_start, controller, 3, progress=False)
+step = run.step_data(0)
+solution = qr.solve_step(step, solver, extension=qr.Extension(limit))
+delta_q: Array = solution.delta_q
+lost: float = qr.optimality_residuals(qr.standard_form(step), delta_q, solution.lam).worst
+slide: Array = qr.derivatives(simulator, [0.0] * 8, [0.1]).along(q_bar_a=[1.0])
+contacts = qr.Contacts(["a"], [0.0], [[0, 0, 1]], [[1, 0, 0]], [[0, 1, 0]], [], [0.5], [0], [4])
+names: list[str] = [finding.name.upper() for finding in run.findings]
+solution.delta_qq  # type: ignore[attr-defined]
+qr.solve_stepp  # type: ignore[attr-defined]
+"""
+"""What users write: the last two lines are needed errors, so that nothing here is of any type."""
+
+
 def run(*arguments):
     command = [sys.executable, *arguments]
     return subprocess.run(
@@ -56,6 +100,59 @@ def test_the_names_are_those_that_dir_shows():
     assert dir(qr) == sorted(qr.__all__)
     assert set(ASKED.split()) <= set(dir(qr))
     assert len(set(NAMES)) == len(NAMES)
+
+
+def typed_only(block):
+    """Whether a part of a module is for type checkers alone."""
+    return isinstance(block, ast.If) and getattr(block.test, "id", "") == "TYPE_CHECKING"
+
+
+def test_type_checkers_see_the_names_of_the_table_of_homes():
+    (block,) = filter(typed_only, ast.parse(inspect.getsource(qr)).body)
+    seen = {
+        (name.name, name.asname, home.module.removeprefix("quasistatic_ref."))
+        for home in block.body
+        for name in home.names
+    }
+    assert seen == {(name, name, home) for name, home in qr._HOME.items()}
+
+
+def test_arguments_that_type_checkers_see_are_those_that_there_are():
+    """Of the classes that make arrays of lists, whose fields are arrays."""
+    seen = 0
+    for path in PACKAGE.rglob("*.py"):
+        if "TYPE_CHECKING:  # what is made of lists" not in (text := path.read_text("utf-8")):
+            continue
+        place = path.relative_to(PACKAGE.parent).with_suffix("")
+        for node in (node for node in ast.parse(text).body if isinstance(node, ast.ClassDef)):
+            for block in filter(typed_only, node.body):
+                (init,) = block.body
+                of_class = inspect.signature(
+                    getattr(import_module(".".join(place.parts)), node.name)
+                )
+                parameters = of_class.parameters.values()
+                assert [arg.arg for arg in init.args.args[1:]] == [p.name for p in parameters]
+                optional = [p for p in parameters if p.default is not p.empty]
+                assert len(init.args.defaults) == len(optional)
+                seen += 1
+    assert seen >= 5
+
+
+def test_nothing_is_imported_with_the_package():
+    done = run("-c", "import sys, quasistatic_ref; print(*sys.modules)")
+    loaded = set(done.stdout.split())
+    assert not loaded & {"numpy", "cvxpy", "pinocchio", "coal"}
+    assert {name for name in loaded if name.startswith("quasistatic_ref.")} == set()
+
+
+@pytest.mark.long
+def test_a_user_s_file_has_types(tmp_path):
+    readme = (PACKAGE.parent / "README.md").read_text("utf-8")
+    (tmp_path / "readme.py").write_text(re.search(r"```python\n(.*?)```", readme, re.S)[1], "utf-8")
+    (tmp_path / "users.py").write_text(USERS, "utf-8")
+    command = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "readme.py", "users.py"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout
 
 
 @pytest.mark.parametrize("name", marked_parameters(NAMES, dict.fromkeys(JAX, "jax") | VIEW))

@@ -22,9 +22,11 @@ steps = [run.step_data(k) for k in range(0, len(run.t), 15)]
 SOLVERS = ("clarabel", "daqp", "osqp", "piqp")
 
 # %%
-digits = {name: [qr.solve_step(step, name).statistics.digits for step in steps] for name in SOLVERS}
-for name, each in digits.items():
-    print(f"{name:9} median {np.median(each):4.1f}, least {min(each):4.1f} digits")
+digits = {}
+for name in SOLVERS:
+    each = [qr.solve_step(step, name).statistics.digits for step in steps]
+    digits[name] = np.array(each, dtype=float)
+    print(f"{name:9} median {np.median(digits[name]):4.1f}, least {digits[name].min():4.1f} digits")
 
 # %%
 figure, axes = plt.subplots(figsize=(5.5, 3), layout="constrained")
@@ -58,5 +60,5 @@ def hildreth(P, q, G, h, sweeps=2000):
 
 
 solution = qr.solve_step(steps[3], hildreth)
-print("digits of Hildreth's method:", round(solution.statistics.digits, 1))
+print(f"digits of Hildreth's method: {solution.statistics.digits:.1f}")
 print("the same bits:", np.array_equal(solution.delta_q, answers[0]))

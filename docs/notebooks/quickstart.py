@@ -47,7 +47,7 @@ for name, scene, each in (("with", scenario, run), ("without", without, turning)
 step = run.step_data(150)
 solution = qr.solve_step(step, "clarabel")
 print(solution.certificate.kind, "with", len(solution.certificate.active), "active rows")
-print("correct digits of Clarabel itself:", round(solution.statistics.digits, 1))
+print(f"correct digits of Clarabel itself: {solution.statistics.digits:.1f}")
 qr.verify(step, solution.delta_q, solution.certificate.active)
 
 # %% [markdown]

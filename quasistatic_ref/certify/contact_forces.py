@@ -25,6 +25,12 @@ class ContactForces:
     sensitivity : float
         At most how much a force changes if each phi of its group changes by 1 m, over the sum of
         the group's normal forces, (R42), the largest of all groups [1/m].
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.contact_forces(step).imbalance < 1e-6
+    True
     """
 
     wrench: Array

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import Judge, row_violations
@@ -29,6 +30,12 @@ class Residuals:
         Eq. :eq:`eq-11`: lam >= 0 [N s].
     complementarity : float
         Eq. :eq:`eq-12`: (A delta_q - b) o lam = 0 [N m s].
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.optimality_residuals(qr.standard_form(step), np.zeros(6), np.zeros(step.m)).primal
+    0.0
     """
 
     stationarity: float
@@ -57,7 +64,7 @@ def largest(x: Array) -> float:
 
 
 def optimality_residuals(
-    form: StandardForm, delta_q: Array, lam: Array, judge: Judge = row_violations
+    form: StandardForm, delta_q: ArrayLike, lam: ArrayLike, judge: Judge = row_violations
 ) -> Residuals:
     """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at an answer.
 
@@ -65,8 +72,8 @@ def optimality_residuals(
     ----------
     form : StandardForm
         The step's H, g, A and b, in SI or in natural units.
-    delta_q : ndarray, shape (n_v,)
-    lam : ndarray, shape (m,)
+    delta_q : array_like, shape (n_v,)
+    lam : array_like, shape (m,)
         Multipliers, contact-major, the user's own rows last.
     judge : callable
         (slack, lam) -> how far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding: of rows, or of
@@ -75,11 +82,20 @@ def optimality_residuals(
     Returns
     -------
     Residuals
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> solution = qr.solve_step(step)
+    >>> form = qr.standard_form(step)
+    >>> qr.optimality_residuals(form, solution.delta_q, solution.lam).worst < 1e-15
+    True
     """
     H, g, A, b = form
-    balance = H @ delta_q - g - A.T @ lam  # Eq. (9), as (13) has it
-    slack = A @ delta_q - b
-    short, pull, work = judge(slack, lam)  # Eqs. (10)-(12)
+    x, y = (np.asarray(numbers, np.float64) for numbers in (delta_q, lam))
+    balance = H @ x - g - A.T @ y  # Eq. (9), as (13) has it
+    slack = A @ x - b
+    short, pull, work = judge(slack, y)  # Eqs. (10)-(12)
     return Residuals(
         stationarity=largest(np.abs(balance)),
         primal=largest(short),

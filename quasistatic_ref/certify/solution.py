@@ -41,6 +41,12 @@ class SolverStatistics(NamedTuple):
         Wall time of the proof, or of the residuals [s]; 0 where nothing is claimed.
     unanswered : bool
         Whether the backend was wanted, and gave no answer: it has no digits then.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.solve_step(step, "clarabel").statistics.status
+    'optimal'
     """
 
     backend: str

@@ -18,6 +18,12 @@ class Verdict:
     ok : bool
     reason : str
         Why not, in plain words; empty if it holds.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.verify(step, np.zeros(6), []).reason
+    'row +d1 of floor(floor, sphere/sphere#0)/0 is violated by the minimiser on the working set'
     """
 
     ok: bool

@@ -15,6 +15,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from flint import arb
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.curved_cone import curved_cone
@@ -36,9 +37,9 @@ from quasistatic_ref.step.groups import Group, group_steps
 
 def verify(
     step: StepData,
-    delta_q: Array,
+    delta_q: ArrayLike,
     active: Sequence[tuple[int, int]],
-    lam: Array | None = None,
+    lam: ArrayLike | None = None,
     claims: Certificate | None = None,
 ) -> Verdict:
     """Whether delta_q is the exact optimum of a step, rounded correctly.

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.joints.joint import Joint
@@ -56,7 +57,7 @@ class Order:
         """Configuration in the paper's order, from pinocchio's; both of shape (n_q,)."""
         return q.take(self.q)
 
-    def model_q(self, q: Array) -> Array:
+    def model_q(self, q: ArrayLike) -> Array:
         """Configuration in pinocchio's order, from the paper's; ModelError unless (n_q,)."""
         return with_shape(q, "q", self.q.shape).take(self.q_back)
 
@@ -65,12 +66,12 @@ class Order:
         return v.take(self.v, axis=-1)
 
 
-def with_shape(x: Array, name: str, shape: tuple[int, ...]) -> Array:
+def with_shape(x: ArrayLike, name: str, shape: tuple[int, ...]) -> Array:
     """Numbers as a float64 array of that shape [any unit]; ModelError, which names it, else."""
-    x = checked_numbers(x, name, ModelError)
-    if x.shape != shape:
-        raise ModelError(f"must have shape {shape}", field=name, value=x.shape)
-    return x
+    numbers = checked_numbers(x, name, ModelError)
+    if numbers.shape != shape:
+        raise ModelError(f"must have shape {shape}", field=name, value=numbers.shape)
+    return numbers
 
 
 def joint_key(joint: str) -> str:

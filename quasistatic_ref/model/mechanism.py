@@ -56,19 +56,19 @@ class StepSystem(Protocol):
     def lock(self) -> RLock:
         """Held by who takes a step."""
 
-    def kinematics(self, q: Array) -> Kinematics:
+    def kinematics(self, q: ArrayLike) -> Kinematics:
         """Pose and Jacobian of every link at q, (n_q,)."""
 
-    def M_u(self, q: Array) -> Array:
+    def M_u(self, q: ArrayLike) -> Array:
         """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
 
-    def gravity_force(self, q: Array, gravity: ArrayLike) -> Array:
+    def gravity_force(self, q: ArrayLike, gravity: ArrayLike) -> Array:
         """Generalised force of gravity, (3,) [m/s^2], at q, shape (n_v,) [N, N m]."""
 
-    def actuated_difference(self, q: Array, q_a: Array) -> Array:
+    def actuated_difference(self, q: ArrayLike, q_a: ArrayLike) -> Array:
         """Change of the actuated coordinates q_a (-) q, shape (n_a,)."""
 
-    def integrate(self, q: Array, delta_q: Array) -> Array:
+    def integrate(self, q: ArrayLike, delta_q: ArrayLike) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
 
 
@@ -160,7 +160,7 @@ class Mechanism(ABC):
         self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self.actuated)
 
     @abstractmethod
-    def kinematics(self, q: Array) -> Kinematics:
+    def kinematics(self, q: ArrayLike) -> Kinematics:
         """Pose and Jacobian of every link at q."""
 
     @abstractmethod
@@ -190,7 +190,7 @@ class Mechanism(ABC):
         of_body = [link.startswith(f"{body}/") for link in self.links]
         return float(self.masses[of_body].sum())
 
-    def with_actuated(self, q: Array, q_a: Array) -> Array:
+    def with_actuated(self, q: ArrayLike, q_a: ArrayLike) -> Array:
         """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""
         q_a = with_shape(q_a, "q_a", (self.n_q_a,))
         return np.concatenate([q_a, np.asarray(q)[self.n_q_a :]])
@@ -273,7 +273,7 @@ class Mechanism(ABC):
 
     def load(
         self,
-        q: Array,
+        q: ArrayLike,
         name: str,
         force: ArrayLike = (0.0, 0.0, 0.0),
         torque: ArrayLike = (0.0, 0.0, 0.0),
@@ -314,7 +314,7 @@ class Mechanism(ABC):
         moment = torque + np.cross(arm, force)
         return product(kinematics.J[link].T, np.concatenate([force, moment]))
 
-    def pose(self, q: Array, link: str) -> tuple[Array, Array]:
+    def pose(self, q: ArrayLike, link: str) -> tuple[Array, Array]:
         """Rotation, shape (3, 3), and origin [m], (3,), of a link at q, in the world frame."""
         i = self.link(link)
         kinematics = self.kinematics(q)

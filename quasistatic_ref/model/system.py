@@ -168,7 +168,7 @@ class System(Mechanism):
         """Configuration with every position zero and bases at the origin, shape (n_q,)."""
         return self._order.paper_q(pin.neutral(self._model))
 
-    def integrate(self, q: Array, delta_q: Array) -> Array:
+    def integrate(self, q: ArrayLike, delta_q: ArrayLike) -> Array:
         """Configuration q (+) delta_q, shape (n_q,). In C: screws.c."""
         here = self._entries(q)
         delta_q = with_shape(delta_q, "delta_q", (self.n_v,))
@@ -178,11 +178,11 @@ class System(Mechanism):
             there += joint.moved(here[joint.q], change[joint.v])
         return np.array(there)
 
-    def difference(self, q: Array, q_next: Array) -> Array:
+    def difference(self, q: ArrayLike, q_next: ArrayLike) -> Array:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
         return _change(self.joints, self._entries(q), self._entries(q_next))
 
-    def actuated_difference(self, q: Array, q_a: Array) -> Array:
+    def actuated_difference(self, q: ArrayLike, q_a: ArrayLike) -> Array:
         """Change of the actuated coordinates q_a (-) q, shape (n_a,).
 
         Raises
@@ -194,14 +194,14 @@ class System(Mechanism):
         self.actuated_units.check(q_a)
         return _change(self.actuated, self._entries(q), q_a.tolist())
 
-    def _entries(self, q: Array) -> list[float]:
+    def _entries(self, q: ArrayLike) -> list[float]:
         """Entries of a q of shape (n_q,), whose quaternions have length one."""
         q = with_shape(q, "q", (self.n_q,))
         self.units.check(q)
         entries: list[float] = q.tolist()
         return entries
 
-    def M_u(self, q: Array) -> Array:
+    def M_u(self, q: ArrayLike) -> Array:
         """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
         if self.varying_mass is not None:
             return self.varying_mass.at(self.kinematics(q))
@@ -209,7 +209,7 @@ class System(Mechanism):
             self._M_u = whole(self.mass_blocks)
         return self._M_u
 
-    def gravity_force(self, q: Array, gravity: ArrayLike) -> Array:
+    def gravity_force(self, q: ArrayLike, gravity: ArrayLike) -> Array:
         """Generalised force of gravity at q, shape (n_v,) [N, N m].
 
         Parameters
@@ -223,7 +223,7 @@ class System(Mechanism):
         force = self._workspace.gravity_torque(self._order.model_q(q), down)
         return 0.0 - self._order.paper_v(force)
 
-    def kinematics(self, q: Array) -> Kinematics:
+    def kinematics(self, q: ArrayLike) -> Kinematics:
         """Pose and Jacobian of every link at q.
 
         The last result is kept, because the q at the end of a step is the q of the next one.

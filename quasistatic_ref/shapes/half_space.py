@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array
@@ -35,6 +37,10 @@ class HalfSpace(Shape):
 
     normal: Array
     offset: float
+
+    if TYPE_CHECKING:  # what is made of lists, too
+
+        def __init__(self, normal: ArrayLike, offset: float) -> None: ...
 
     def __post_init__(self) -> None:
         freeze_array(self, "normal", (3,))

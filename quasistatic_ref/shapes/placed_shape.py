@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -59,6 +60,12 @@ class PlacedShape(Plain):
     R: Array
     t: Array
     shape: Shape
+
+    if TYPE_CHECKING:  # what is made of lists, too
+
+        def __init__(
+            self, name: str, link: int, R: ArrayLike, t: ArrayLike, shape: Shape
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         if not isinstance(self.shape, Shape):

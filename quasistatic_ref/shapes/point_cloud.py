@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
@@ -50,6 +51,10 @@ class PointCloud(Shape):
     """
 
     points: Array
+
+    if TYPE_CHECKING:  # what is made of lists, too
+
+        def __init__(self, points: ArrayLike) -> None: ...
 
     def __post_init__(self) -> None:
         points = np.asarray(self.points)

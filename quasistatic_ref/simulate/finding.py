@@ -22,6 +22,15 @@ class Finding(Plain):
         What to do, and why, with bodies and contacts.
     numbers : mapping of str to float
         What was measured [any unit], by names that end in their unit: ``{"depth_mm": 10.0}``.
+
+    Examples
+    --------
+    >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 1))
+    >>> system = qr.System([ball])
+    >>> run = qr.rollout(qr.Simulator(system, [], h=0.01, K_q=1.0), system.q_start, [], 3,
+    ...                  progress=False)
+    >>> [finding.name for finding in run.findings]
+    ['unsupported body']
     """
 
     name: str

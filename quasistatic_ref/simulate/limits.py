@@ -28,6 +28,12 @@ class Limits:
     ------
     InputError
         If one of them is not greater than 0.
+
+    Examples
+    --------
+    >>> system = qr.System([qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3)])
+    >>> qr.Simulator(system, [], h=0.01, K_q=1.0, limits=qr.Limits(reach=2.0)).limits.reach
+    2.0
     """
 
     penetration: float = 0.05

@@ -53,6 +53,15 @@ class Observer:
         Names of what :meth:`after` returns.
     every_step : bool
         Whether :meth:`after` is called after each step, and not once for several, in less time.
+
+    Examples
+    --------
+    >>> class Watch(qr.Observer):
+    ...     def end(self, recorder, trajectory, interrupted):
+    ...         print(recorder.steps, "steps")
+    ...         return trajectory
+    >>> run = qr.load_scenario("sphere_spin", steps=3).run(progress=False, observers=[Watch()])
+    3 steps
     """
 
     notes: tuple[str, ...] = ()

@@ -94,7 +94,7 @@ class Recorder:
     def __init__(
         self,
         simulator: Simulator,
-        q: Array,
+        q: ArrayLike,
         record: str = "full",
         observers: Sequence[Observer] | None = None,
     ) -> None:

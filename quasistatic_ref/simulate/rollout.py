@@ -7,10 +7,10 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError, QuasistaticError
-from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import doctors
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.interrupt import Interrupt
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 def rollout(
     simulator: Simulator,
-    q: Array,
+    q: ArrayLike,
     target: Target,
     steps: int,
     *,
@@ -50,7 +50,7 @@ def rollout(
     Parameters
     ----------
     simulator : Simulator
-    q : ndarray, shape (n_q,)
+    q : array_like, shape (n_q,)
         Where to start; quaternions are normalised.
     target : callable, ndarray of shape (n_q_a,) or (steps, n_q_a), or mapping
         q_bar_a as a function of t [s], of (t, q) or of (t, q, last), constant, or step by step; or

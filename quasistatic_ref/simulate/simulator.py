@@ -174,7 +174,7 @@ class Simulator(Settings, Shown):
         h: float,
         K_q: ArrayLike | Mapping[str, ArrayLike],
         gravity: Sequence[float] = GRAVITY,
-        gravity_acts: Array | None = None,
+        gravity_acts: ArrayLike | None = None,
         backend: str | None = None,
         accuracy: float = Settings.accuracy,
         certify: str = Settings.certify,
@@ -235,15 +235,15 @@ class Simulator(Settings, Shown):
         return _remade, (type(self), self.settings() | chosen)
 
     @by_one_thread
-    def step(self, q: Array, q_bar_a: Array, force: Array | float | None = 0.0) -> StepResult:
+    def step(self, q: ArrayLike, q_bar_a: ArrayLike, force: ArrayLike | None = 0.0) -> StepResult:
         """One step from q towards the target q_bar_a.
 
         Parameters
         ----------
-        q : ndarray, shape (n_q,)
-        q_bar_a : ndarray, shape (n_q_a,)
+        q : array_like, shape (n_q,)
+        q_bar_a : array_like, shape (n_q_a,)
             Target of the actuated coordinates at the end of the step.
-        force : ndarray, shape (n_v,), optional
+        force : array_like, shape (n_v,), optional
             External generalised force, in addition to gravity [N, N m]; `system.load` makes it.
 
         Returns
@@ -266,21 +266,22 @@ class Simulator(Settings, Shown):
         """
         lap = Stopwatch()
         kinematics = self.system.kinematics(q)
+        here = np.asarray(q, np.float64)
         points = self.closest_points(kinematics)
         lap("distances")
-        step = self.step_data(q, q_bar_a, force, points, kinematics)
+        step = self.step_data(here, q_bar_a, force, points, kinematics)
         lap("rows")
-        solution = self.solution(step) if self.extension is None else self.extended(step, q)
+        solution = self.solution(step) if self.extension is None else self.extended(step, here)
         self.limits.check_penetration(step)  # after the solve: a proof of infeasibility says more
         # An extension adds rows and coordinates: from here on the step is the one that was solved.
         # Without an extension it is the same.
         step = solution.step
         lap("solve")
         lap.separate("proof", solution.statistics.proof_time, "solve")
-        q_next = self.system.integrate(q, solution.delta_q[: self.system.n_v])  # q (+) delta_q
+        q_next = self.system.integrate(here, solution.delta_q[: self.system.n_v])  # q (+) delta_q
         self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
         lap("integrate")
-        return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
+        return StepResult(q_next, step, solution, points, lap.seconds, here, self.scene)
 
     def start_cold(self) -> None:
         """Forget what is kept of earlier steps, if answers depend on it."""
@@ -301,8 +302,8 @@ class Simulator(Settings, Shown):
     def step_data(
         self,
         q: Array,
-        q_bar_a: Array,
-        force: Array | float | None,
+        q_bar_a: ArrayLike,
+        force: ArrayLike | None,
         points: ClosestPoints,
         kinematics: Kinematics,
     ) -> StepData:
@@ -316,7 +317,7 @@ class Simulator(Settings, Shown):
         contacts = self.geometry.contacts(points, kinematics)  # Eqs. (2)-(3)
         return self.step_under(q, q_bar_a, self.generalised_force(q, force), contacts)
 
-    def step_under(self, q: Array, q_bar_a: Array, tau: Array, contacts: Contacts) -> StepData:
+    def step_under(self, q: Array, q_bar_a: ArrayLike, tau: Array, contacts: Contacts) -> StepData:
         """The same, from the contacts and all generalised forces, shape (n_v,) [N, N m]."""
         n_a = self.system.n_a
         return StepData(
@@ -330,13 +331,13 @@ class Simulator(Settings, Shown):
             cone=self.cone,
         )
 
-    def generalised_force(self, q: Array, force: Array | float | None) -> Array:
+    def generalised_force(self, q: ArrayLike, force: ArrayLike | None) -> Array:
         """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
         force = checked_force(self.system, force)
         tau: Array = self.gravity_factor * self.system.gravity_force(q, self.gravity) + force
         return tau
 
-    def findings(self, q: Array | None = None) -> tuple[Finding, ...]:
+    def findings(self, q: ArrayLike | None = None) -> tuple[Finding, ...]:
         """What is wrong with the scene at q, shape (n_q,); by default where the system starts.
 
         Raises

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import Plain
@@ -73,6 +76,21 @@ class Contacts(Plain, Shown):
     mu_v: Array
     mu_omega: Array
     rows: Indices
+
+    if TYPE_CHECKING:  # what is made of lists, too
+
+        def __init__(
+            self,
+            name: Sequence[str],
+            phi: ArrayLike,
+            n: ArrayLike,
+            d1: ArrayLike,
+            d2: ArrayLike,
+            J: ArrayLike,
+            mu_v: ArrayLike,
+            mu_omega: ArrayLike,
+            rows: ArrayLike,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", checked_names(self.name, "contacts.name"))

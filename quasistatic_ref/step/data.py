@@ -7,11 +7,11 @@ tangents are in the world frame; SI units. The JSON form is version 1 of ``quasi
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -65,6 +65,17 @@ class Extra(Plain, Shown):
     b: Array
     H: Array | None = None
     g: Array | None = None
+
+    if TYPE_CHECKING:  # what is made of lists, too
+
+        def __init__(
+            self,
+            names: Sequence[str],
+            A: ArrayLike,
+            b: ArrayLike,
+            H: ArrayLike | None = None,
+            g: ArrayLike | None = None,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "names", checked_names(self.names, "extra.names"))

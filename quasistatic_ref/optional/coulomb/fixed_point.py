@@ -88,6 +88,12 @@ class CoulombSolution(StepSolution):
         Number of convex steps that were solved.
     posed : StepData
         The step as it was given, with phi.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.coulomb_step(step).converged
+    True
     """
 
     converged: bool

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.system import System
@@ -40,10 +41,10 @@ __all__ = ["Derivatives", "derivatives"]
 
 def derivatives(
     simulator: Simulator,
-    q: Array,
-    q_bar_a: Array,
-    force: Array | float | None = 0.0,
-    towards: Mapping[str, Array | float] | None = None,
+    q: ArrayLike,
+    q_bar_a: ArrayLike,
+    force: ArrayLike | None = 0.0,
+    towards: Mapping[str, ArrayLike] | None = None,
     nearly: float = NEARLY,
 ) -> Derivatives:
     """The derivatives of the step that a simulator would take.
@@ -52,9 +53,9 @@ def derivatives(
     ----------
     simulator : Simulator
         Of a polyhedral cone, without an extension.
-    q : ndarray, shape (n_q,)
-    q_bar_a : ndarray, shape (n_q_a,)
-    force : ndarray, shape (n_v,), optional
+    q : array_like, shape (n_q,)
+    q_bar_a : array_like, shape (n_q_a,)
+    force : array_like, shape (n_v,), optional
         External generalised force in addition to gravity, which does not depend on q [N, N m].
     towards : mapping, optional
         A direction of the parameters, with names, shapes (n_v,), (n_a,), ... and units
@@ -140,7 +141,7 @@ def check_derivable(simulator: Simulator) -> None:
 
 
 def _certified(
-    simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float | None
+    simulator: Simulator, q: Array, q_bar_a: ArrayLike, force: ArrayLike | None
 ) -> StepResult:
     """The step with its exact optimum, whatever the simulator certifies."""
     result = simulator.step(q, q_bar_a, force)

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
@@ -65,7 +66,7 @@ class Derivatives(Shown, Plain):
     _rates: StepRates = field(compare=False, repr=False)
     _along: Callable[[DataRates], Array] = field(compare=False, repr=False)
 
-    def along(self, **directions: Array | float) -> Array:
+    def along(self, **directions: ArrayLike) -> Array:
         """The one-sided derivative of q+ along a direction, shape (n_v,).
 
         It exists where the only reasons are rows that touch without load, or nearly.
@@ -130,7 +131,7 @@ def gradient(
     )
 
 
-def directed(places: Places, directions: Mapping[str, Array | float], where: str) -> Array:
+def directed(places: Places, directions: Mapping[str, ArrayLike], where: str) -> Array:
     """A direction of all parameters, by names, in the order of the fields, shape (P,).
 
     Parameters

@@ -5,11 +5,12 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.solution import SolverStatistics, step_solution
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array, checked_numbers
+from quasistatic_ref.numbers.arrays import checked_numbers
 from quasistatic_ref.optional.derivatives.derivatives import check_derivable
 from quasistatic_ref.optional.derivatives.gradient import Derivatives, gradient
 from quasistatic_ref.optional.derivatives.kink_reasons import geometry_obstacles
@@ -29,7 +30,11 @@ def check_kappa(kappa: float) -> None:
 
 
 def smoothed(
-    simulator: Simulator, q: Array, q_bar_a: Array, kappa: float, force: Array | float | None = 0.0
+    simulator: Simulator,
+    q: ArrayLike,
+    q_bar_a: ArrayLike,
+    kappa: float,
+    force: ArrayLike | None = 0.0,
 ) -> Derivatives:
     """The step with barriers in place of rows, and its derivatives.
 

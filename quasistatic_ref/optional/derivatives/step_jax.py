@@ -15,6 +15,7 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.errors import InputError, NotDifferentiable
@@ -48,7 +49,7 @@ def step_jax(
     simulator: Simulator,
     kinks: str = "raise",
     *,
-    towards: Mapping[str, Array | float] | None = None,
+    towards: Mapping[str, ArrayLike] | None = None,
     kappa: float | None = None,
     nearly: float = NEARLY,
 ) -> Callable[..., Any]:

@@ -39,6 +39,14 @@ class Symbols:
     slack : tuple of cvxpy.Expression
         One expression for each row index i of the cone: phi + [J'(n~ + d~_i)]' delta_q [m] of the
         contacts that have row i. In the ellipsoid, the gap phi + J_n delta_q alone.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> def lifted(symbols: qr.Symbols):
+    ...     return [symbols.delta_q_u[2] >= 1e-3]
+    >>> round(float(qr.solve_step(step, extension=qr.Extension(lifted)).delta_q[2]), 9)
+    0.001
     """
 
     delta_q: cp.Expression

@@ -9,6 +9,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import StepSolution
@@ -173,7 +174,7 @@ class FastSimulator(Simulator):
         return FastSimulator, (self.simulator,)
 
     @by_one_thread
-    def step(self, q: Array, q_bar_a: Array, force: Array | float | None = 0.0) -> StepResult:
+    def step(self, q: ArrayLike, q_bar_a: ArrayLike, force: ArrayLike | None = 0.0) -> StepResult:
         """One step, as of a Simulator."""
         if self.by_c:
             try:
@@ -188,7 +189,7 @@ class FastSimulator(Simulator):
             return super().step(q, q_bar_a, force)
         return self.simulator.step(q, q_bar_a, force)
 
-    def _step(self, q: Array, q_bar_a: Array, force: Array | float | None) -> StepResult | None:
+    def _step(self, q: ArrayLike, q_bar_a: ArrayLike, force: ArrayLike | None) -> StepResult | None:
         """The step; None if it is the first, and not that of the plain path."""
         lap = Stopwatch()
         change = self._sums.actuated_difference(q, q_bar_a)  # which checks both
@@ -250,7 +251,7 @@ class FastSimulator(Simulator):
     def _is_plain(
         self,
         q: Array,
-        q_bar_a: Array,
+        q_bar_a: ArrayLike,
         force: Array,
         step: StepData,
         form: StandardForm,
@@ -291,8 +292,8 @@ class FastSimulator(Simulator):
     def step_data(
         self,
         q: Array,
-        q_bar_a: Array,
-        force: Array | float | None,
+        q_bar_a: ArrayLike,
+        force: ArrayLike | None,
         points: ClosestPoints,
         kinematics: Kinematics,
     ) -> StepData:

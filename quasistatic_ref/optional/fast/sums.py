@@ -4,6 +4,7 @@ Sines and angles that C cannot decide are Python's.
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.system import System
@@ -61,7 +62,7 @@ class Sums:
         compiled.sums(s.pointer)
         return s["q_next"].copy()
 
-    def actuated_difference(self, q: Array, q_a: Array) -> Array:
+    def actuated_difference(self, q: ArrayLike, q_a: ArrayLike) -> Array:
         """Change q_a (-) q of the actuated coordinates, shape (n_a,); errors as of the system's."""
         if self._known:
             s = self.structure

@@ -34,6 +34,7 @@ from typing import Final
 
 import numpy as np
 from flint import arb, arb_mat
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.contact_forces import ContactForces
@@ -59,7 +60,7 @@ WRENCH: Final = [1, 2, 0, 3]
 
 def contact_forces(
     step: StepData,
-    compliance: float | Array | None = None,
+    compliance: ArrayLike | None = None,
     near: tuple[Array, Array] | None = None,
 ) -> ContactForces:
     """The forces of a step's contacts, each number rounded correctly.

@@ -279,7 +279,7 @@ class MujocoSystem(Mechanism):
                 problem += "the whole run; a run has springs of joints and of fixed tendons"
                 raise ModelError(problem, field=then.field)
 
-    def qpos(self, q: Array) -> Array:
+    def qpos(self, q: ArrayLike) -> Array:
         """MuJoCo's configuration at q, shape (nq,) [m, rad, -]."""
         qpos: Array = self.start.qpos.copy()
         qpos[self._entries] = q
@@ -289,20 +289,20 @@ class MujocoSystem(Mechanism):
                 qpos[first] = self.model.qpos0[first] + a + b * along
         return qpos
 
-    def state(self, q: Array) -> MujocoState:
+    def state(self, q: ArrayLike) -> MujocoState:
         """MuJoCo's state at q, at rest; the same object at every q."""
-        q = with_shape(q, "q", (self.n_q,))
-        bits = q.tobytes()
+        here = with_shape(q, "q", (self.n_q,))
+        bits = here.tobytes()
         if self._at != bits:
-            self.units.check(q)
+            self.units.check(here)
             self._at = None
-            self._state.data.qpos[:] = self.qpos(q)
+            self._state.data.qpos[:] = self.qpos(here)
             self._state.data.ctrl[:] = self.start.ctrl
             self._state.run()
             self._at = bits
         return self._state
 
-    def kinematics(self, q: Array) -> Placed:
+    def kinematics(self, q: ArrayLike) -> Placed:
         """Pose and Jacobian of every body at q, and the closest points."""
         bits = np.asarray(q).tobytes()
         if self._latest is None or self._latest[0] != bits:
@@ -333,14 +333,14 @@ class MujocoSystem(Mechanism):
         phi[held] = FILLED
         return points._replace(phi=phi)
 
-    def M_u(self, q: Array) -> Array:
+    def M_u(self, q: ArrayLike) -> Array:
         """Un-actuated block of the mass matrix, with armatures, shape (n_u, n_u)."""
         T_u = self.T[:, self.n_a :]
         M = T_u.T @ self.state(q).M @ T_u
         symmetric: Array = (M + M.T) / 2
         return symmetric
 
-    def gravity_force(self, q: Array, gravity: ArrayLike) -> Array:
+    def gravity_force(self, q: ArrayLike, gravity: ArrayLike) -> Array:
         """All forces but those of springs and actuators, shape (n_v,) [N, N m].
 
         Gravity is the model's; `gravity`, shape (3,) [m/s^2], is not read.
@@ -349,9 +349,9 @@ class MujocoSystem(Mechanism):
         force: Array = self.T.T @ (data.qfrc_smooth - data.qfrc_actuator - data.qfrc_spring)
         return force + 0.0
 
-    def actuated_difference(self, q: Array, q_a: Array) -> Array:
+    def actuated_difference(self, q: ArrayLike, q_a: ArrayLike) -> Array:
         """From q_a of q to a target, shape (n_a,)."""
-        self.actuated_units.check(q_a)
+        self.actuated_units.check(np.asarray(q_a))
         return self.difference(q, self.with_actuated(q, q_a))[: self.n_a]
 
     def _rows(self, state: MujocoState) -> Extra:
@@ -364,7 +364,7 @@ class MujocoSystem(Mechanism):
         """Limits, equalities and joint friction at q."""
         return Extension(rows=self._rows(self.state(q)), rises=self.rises)
 
-    def integrate(self, q: Array, delta_q: Array) -> Array:
+    def integrate(self, q: ArrayLike, delta_q: ArrayLike) -> Array:
         """Configuration q (+) delta_q by ``mj_integratePos``, shape (n_q,)."""
         self.units.check(with_shape(q, "q", (self.n_q,)))
         qpos = self.qpos(q)
@@ -372,7 +372,7 @@ class MujocoSystem(Mechanism):
         self._state.mujoco.mj_integratePos(self.model, qpos, moved_by, 1.0)
         return np.asarray(qpos[self._entries])
 
-    def difference(self, q: Array, q_next: Array) -> Array:
+    def difference(self, q: ArrayLike, q_next: ArrayLike) -> Array:
         """Change delta_q = q_next (-) q by ``mj_differentiatePos``, shape (n_v,)."""
         change = np.zeros(self.model.nv)
         here, there = self.qpos(q), self.qpos(q_next)

@@ -8,6 +8,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import listed
@@ -50,7 +51,7 @@ def draw_scene(
     view: str | Camera = "xz",
     parts: Collection[str] = DRAWN,
     metres_per_newton: float | None = None,
-    around: tuple[Array, float] | None = None,
+    around: tuple[ArrayLike, float] | None = None,
     legend: bool = True,
 ) -> None:
     """Draw a moment on axes, in millimetres, as a camera sees it.
@@ -97,7 +98,7 @@ def draw_scene(
             raise InputError(problem, field="parts", value=part)
     box = extent(of)
     if around is not None:
-        box = around[0] + around[1] * SIGNS
+        box = np.asarray(around[0]) + around[1] * SIGNS
     centre, half = middle(box)
     half = MARGIN * half
     if metres_per_newton is None:

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
+from numpy.typing import ArrayLike
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.errors import InputError
@@ -26,7 +27,7 @@ FAINT: Final = 0.5
 
 
 def cone_with_load(
-    axes: Axes, wrench: Array, mu_v: float, mu_omega: float, *, cone: str = "pyramid"
+    axes: Axes, wrench: ArrayLike, mu_v: float, mu_omega: float, *, cone: str = "pyramid"
 ) -> None:
     """Draw the friction that a contact can bear at its normal force, and the friction it bears.
 
@@ -35,7 +36,7 @@ def cone_with_load(
     Parameters
     ----------
     axes : Axes
-    wrench : ndarray, shape (4,)
+    wrench : array_like, shape (4,)
         (f_d1, f_d2, f_n, tau_n) [N, N m].
     mu_v, mu_omega : float
         [-], positive; [m].
