@@ -74,6 +74,8 @@ def test_every_result_is_derived_once_and_cited_ones_are():
     files = (*pages, *PACKAGE.rglob("*.py"), *ROOT.glob("tests/**/*.py"))
     numbers = sorted(int(n) for page in pages for n in DEFINED.findall(page.read_text("utf-8")))
     assert numbers == list(range(1, max(numbers) + 1)), "derive each result once, without a gap"
+    index = RESULT.findall((ROOT / "docs" / "results.md").read_text("utf-8"))
+    assert sorted(map(int, set(index))) == numbers, "docs/results.md has a line for each result"
     cited = {
         f"R{n} is cited in {path.relative_to(ROOT)} and derived nowhere: add **(R{n})** to"
         for path in files
