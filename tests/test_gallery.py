@@ -1,11 +1,13 @@
 """The scripts of docs/gallery: their assertions hold, and their figures look as committed.
 
-``python -m tests.test_gallery`` draws the committed images again. Whoever does so looks at them.
+``python -m tests.test_gallery [NAME...]`` draws the committed images again. Whoever does so looks
+at them.
 """
 
 import ast
 import re
 import runpy
+import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -71,5 +73,5 @@ def test_the_page_shows_every_script():
 
 
 if __name__ == "__main__":
-    for each in SCRIPTS:
-        drawn(each, GALLERY / f"{each.stem}.png")
+    for name in sys.argv[1:] or [script.stem for script in SCRIPTS]:
+        drawn(GALLERY / f"{name}.py", GALLERY / f"{name}.png")
