@@ -41,8 +41,8 @@ class Certificate(Plain, HasPage):
     smallest_active_multiplier : float or None
         Smallest multiplier [N s] of the working set. None if that is empty.
     error_bound : float or None
-        Of an enclosure: a bound of ||delta_q - delta_q*||_H / ||H^-1 g||_H [-]. 0.0 for
-        ``"exact"``, where the only error is the correct rounding of each entry.
+        Of an enclosure: a bound of the error of delta_q, by its one definition (certify/norm.py)
+        [-]. 0.0 for ``"exact"``, where the only error is the correct rounding of each entry.
     gap : float or None
         The duality gap of lam in the ellipsoid, no distance: a bound of f(delta_q*) - d(lam)
         [N m s].

@@ -69,8 +69,8 @@ class Enclosure:
     working_set : tuple of int or None
         Independent rows that determine delta_q if every loaded contact is at its apex, else None.
     error : float
-        Upper bound of ||delta_q - delta_q*||_H / ||H^-1 g||_H [-]; 0.0 where delta_q is delta_q*
-        correctly rounded.
+        Upper bound of the error of delta_q, by its one definition (certify/norm.py) [-]; 0.0 where
+        delta_q is delta_q* correctly rounded.
     gap : float
         Upper bound of f(delta_q*) - d(lam) [N m s].
     """
@@ -112,14 +112,15 @@ class Checked:
         Without radius [m, rad].
     y : list of arb
         Impulses times h.
-    gap, free : arb
-        An upper bound of 1/2 ||x - x*||_H^2, and ||H^-1 g||_H, in the form's H and g.
+    gap, least : arb
+        An upper bound of 1/2 ||x - x*||_H^2, and what errors are divided by but for ||x*||_H, in
+        the form's H and g.
     """
 
     x: arb_mat
     y: list[arb]
     gap: arb
-    free: arb
+    least: arb
 
 
 def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
@@ -204,8 +205,10 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
 def enclosed_error(form: ExactForm, pair: Checked, delta_q: Array) -> float:
     """How far float64 numbers are from the optimum, at most, in the one definition of error [-]."""
     off = exact_matrix(delta_q[:, None]) - pair.x
-    length = square_root(inner(off, form.H * off)) + square_root(2 * pair.gap)
-    return nearest_above(length / pair.free) if pair.free > 0 else float("inf")
+    apart = square_root(2 * pair.gap)  # of the pair's x from x*
+    error = square_root(inner(off, form.H * off)) + apart
+    optimum = square_root(inner(pair.x, form.H * pair.x)) - apart
+    return nearest_above(error / max(pair.least, optimum.lower()))
 
 
 def point(pair: Checked) -> list[fmpq]:
@@ -251,7 +254,7 @@ def checked(frame: ScaledBlocks, pair: Pair) -> Checked | None:
     impulses = mu * y
     off = x - form.H_inverse * (form.g + form.A.transpose() * impulses)
     gap = inner(off, form.H * off) / 2 + inner(s, y)
-    return Checked(x, impulses.entries(), gap, frame.free)
+    return Checked(x, impulses.entries(), gap, frame.least)
 
 
 def _impulses(step: StepData, frame: ScaledBlocks, pair: Checked, states: list[int]) -> Array:

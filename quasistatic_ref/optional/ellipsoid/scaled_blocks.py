@@ -2,14 +2,19 @@
 
 from dataclasses import dataclass
 
-from flint import arb
+import numpy as np
+from flint import arb, arb_mat
 
-from quasistatic_ref.certify.form import ExactForm
+from quasistatic_ref.certify.form import ExactForm, exact_matrix
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, column, diagonal
 from quasistatic_ref.optional.gap import inner, square_root
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.tolerances import UNMOVED
+
+NOTHING = arb(2) ** -10
+"""Share of the deepest penetration below which a free step is no unit of the step [-]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,11 +33,11 @@ class ScaledBlocks:
         Unit of each row: the largest absolute entry of its block; 1 if all are zero.
     give : list of arb
         What each row gives way by for each unit of y.
-    free : arb
-        ||H^-1 g||_H.
+    least : arb
+        The length that errors are divided by (certify/norm.py) but for ||x*||_H, in the form's H.
     size : arb
-        Unit of the step: `free`, or the largest gap in units of `length` if g is zero; 1 if all
-        gaps are zero, too.
+        Unit of the step: ||H^-1 g||_H, or the largest gap in units of `length` where g is next to
+        nothing; 1 if all gaps are zero, too.
     """
 
     form: ExactForm
@@ -41,7 +46,7 @@ class ScaledBlocks:
     root: list[arb]
     length: list[arb]
     give: list[arb]
-    free: arb
+    least: arb
     size: arb
 
     def in_form(self, pair: Pair) -> Pair:
@@ -87,7 +92,11 @@ def scaled_blocks(step: StepData, form: ExactForm, compliance: float = 0.0) -> S
         length += [ell] * len(rows)
     gaps = [form.c[rows[0], 0] / length[rows[0]] for rows in blocks]
     free = square_root(inner(free_step, H * free_step))
-    size = free.mid() if free > 0 else largest(gaps)
+    deepest = max((-gap for gap in gaps if gap < 0), default=arb(0))
+    size = free.mid() if free > NOTHING * deepest else largest(gaps)
+    alone = [square_root(inner(p, form.H_inverse * p)) for p in exact_loads(step, form)]
+    unmoved = arb(UNMOVED) * min((arb(H[v, v]).sqrt() for v in range(form.n)), default=arb(0))
+    least = max(one.lower() for one in (free, *alone, unmoved))
     of_contacts = 4 * step.contacts.n_c
     soft = arb(compliance) / step.h / form.h
     give = [soft] * of_contacts + [arb(0)] * (form.m - of_contacts)
@@ -100,7 +109,23 @@ def scaled_blocks(step: StepData, form: ExactForm, compliance: float = 0.0) -> S
         C=diagonal([c / ell**2 for c, ell in zip(give, length, strict=True)]).mid(),
         rows=blocks,
     )
-    return ScaledBlocks(form, problem, mu, root, length, give, free, size)
+    return ScaledBlocks(form, problem, mu, root, length, give, least, size)
+
+
+def exact_loads(step: StepData, form: ExactForm) -> list[arb_mat]:
+    """What targets, tau_a, tau_u and a cost each add to g, (n, 1) [N s, N m s], times h."""
+    n_a = step.n_a
+    K_q = np.zeros((form.n, form.n))
+    K_q[:n_a, :n_a] = step.K_q
+    columns = np.zeros((4, form.n, 1))
+    columns[0, :n_a, 0] = step.delta_q_bar_a
+    columns[1, :n_a, 0] = step.tau_a
+    columns[2, n_a:, 0] = step.tau_u
+    if step.extra.cost is not None:
+        columns[3, :, 0] = step.extra.cost[1]
+    shift, tau_a, tau_u, pull = map(exact_matrix, columns)
+    h = form.h
+    return [exact_matrix(K_q) * shift * (h * h), tau_a * (h * h), tau_u * (h * h), pull * h]
 
 
 def largest(values: list[arb]) -> arb:

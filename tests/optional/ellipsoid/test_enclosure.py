@@ -6,7 +6,16 @@ import numpy as np
 import pytest
 from flint import arb
 
-from quasistatic_ref import Extra, InputError, StepNotSolved, contact_forces, solve_step, verify
+from quasistatic_ref import (
+    Contacts,
+    Extra,
+    InputError,
+    StepData,
+    StepNotSolved,
+    contact_forces,
+    solve_step,
+    verify,
+)
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.cli.certificate_words import in_words
@@ -184,3 +193,27 @@ def test_an_enclosure_holds_the_answer_however_wide_it_is(monkeypatch):
     off = np.abs(middles - answer)
     assert (off <= radii).all()
     assert (off > ROUNDING * np.abs(answer)).any()  # by more than rounding
+
+
+@pytest.mark.parametrize("share", [1.0, 1e-9, 0.0])
+def test_a_bound_does_not_vanish_as_gravity_fades(share):
+    """Two tilted planes push a ball out while it slides: x* is the length, whatever the load.
+
+    What is left is the rounding of delta_q to float64, at most 2^-53 of each entry.
+    """
+    n = np.array([[np.sin(a), 0.0, np.cos(a)] for a in (0.5, -0.9)])
+    d1 = np.array([[z, 0.0, -x] for x, _, z in n])
+    J = np.array([
+        [*np.column_stack([np.eye(3), np.cross(np.eye(3), -0.05 * k)]), [0, 0, 0, *k]] for k in n
+    ])  # fmt: skip
+    frames = (n, d1, np.cross(n, d1), J)
+    contacts = Contacts(("a", "b"), [-1e-4, -3e-5], *frames, [0.2, 0.3], [0.01, 0.01], [6, 6])
+    weight = [0.0, 0.0, -9.81 * 0.3, 0.0, 0.0, 0.0]
+    step = StepData(
+        h=0.01, K_q=np.zeros((0, 0)), M_u=np.diag([0.3] * 3 + [3e-4] * 3), tau_a=[],
+        tau_u=share * np.array(weight), delta_q_bar_a=[], contacts=contacts, cone="ellipsoid",
+    )  # fmt: skip
+    answer = solve_step(step)
+    assert answer.certificate.kind == "enclosure"
+    assert answer.certificate.error_bound < 2.0**-53 * np.sqrt(6)
+    assert verdict_of(step, answer)
