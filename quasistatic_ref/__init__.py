@@ -40,7 +40,7 @@ _HOMES = {
     # One step and its answer.
     "step.data": "StepData Contacts Extra",
     "step.files": "step_read step_written",
-    "step.problem": "StepProblem",
+    "solve.step_problem": "StepProblem",
     "step.standard_form": "standard_form",
     "optional.extensions.extension": "Extension Symbols",
     "certify.solution": "StepSolution SolverStatistics",
@@ -173,7 +173,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.solve.solve import solve_step as solve_step
     from quasistatic_ref.step.data import Contacts as Contacts, Extra as Extra, StepData as StepData
     from quasistatic_ref.step.files import step_read as step_read, step_written as step_written
-    from quasistatic_ref.step.problem import StepProblem as StepProblem
+    from quasistatic_ref.solve.step_problem import StepProblem as StepProblem
     from quasistatic_ref.step.standard_form import standard_form as standard_form
 else:
 

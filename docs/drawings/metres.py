@@ -1,7 +1,7 @@
 """What metres do to a solver: the error of its answer in m, rad and kg, and in natural units.
 
 CVXPY's own ``solve`` gets the paper's program in SI units, and ends "optimal".
-``StepProblem.solve`` asks the same solver in natural units.
+``StepProblem.solve`` gives the same problem to the same solver in natural units.
 """
 
 import warnings
@@ -18,8 +18,8 @@ from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.compiled import CANON
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.problem import StepProblem
 
 SCENES = ("sphere_spin", "two_finger_pinch", "bunny_grasp")
 SOLVERS = ("clarabel", "osqp", "piqp", "daqp", "scs")
@@ -46,7 +46,6 @@ def errors(scene: str, solver: str) -> tuple[float, float]:
     """Errors of a solver's answers in metres and in natural units [-]."""
     step = step_of(scene)
     page = StepProblem(step)
-    page.set_parameters(step)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # that a solution may be inaccurate
         page.problem.solve(solver=solver.upper(), canon_backend=CANON)

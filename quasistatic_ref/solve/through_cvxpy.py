@@ -11,9 +11,9 @@ from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.compiled import CompiledMap, ProblemData, is_large, problem_data
-from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
+from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.units import StepInBothUnits, within_reach
 from quasistatic_ref.step.data import KIND, StepData
 
@@ -49,7 +49,7 @@ class CvxpySolver(BackendSolver):
 
     def __init__(self, template: StepData, name: str = DEFAULT) -> None:
         super().__init__(template, name)
-        self.problem = CvxpyProblem(template)
+        self.problem = StepProblem(template)
 
     def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:
         """The backend's answer, unless CVXPY would compile the step for minutes: StepNotSolved."""

@@ -1,6 +1,6 @@
-"""Eq. (1), tau_k = K_q delta_q_bar_a. Under test: step.problem.StepProblem."""
+"""Eq. (1), tau_k = K_q delta_q_bar_a. Under test: step.problem.set_values."""
 
-from quasistatic_ref import StepProblem
+from quasistatic_ref.step.problem import paper_problem, set_values
 from tests.closeness import assert_close
 from tests.helpers import random_step
 from tests.tolerances import ROUNDING
@@ -8,7 +8,7 @@ from tests.tolerances import ROUNDING
 
 def test_the_parameter_tau_k_is_the_stiffness_times_the_desired_change(rng):
     step = random_step(rng, n_a=5)
-    problem = StepProblem(step)
-    problem.fill(step)
+    problem = paper_problem(step)
+    set_values(problem, step)
     tau_k = problem.problem.param_dict["tau_k"].value
     assert_close(tau_k, step.K_q @ step.delta_q_bar_a, ROUNDING)

@@ -1,8 +1,8 @@
-"""Eq. (4), phi + [J'(n~ + d~_i)]' delta_q >= 0. Under test: step.problem.StepProblem."""
+"""Eq. (4), phi + [J'(n~ + d~_i)]' delta_q >= 0. Under test: step.problem.paper_problem."""
 
 import numpy as np
 
-from quasistatic_ref import StepProblem
+from quasistatic_ref.step.problem import paper_problem, set_values
 from tests.closeness import assert_close
 from tests.helpers import contact_row, random_step
 from tests.tolerances import ROUNDING
@@ -10,8 +10,8 @@ from tests.tolerances import ROUNDING
 
 def left_hand_sides(step, delta_q):
     """The left-hand side of each row i of the contacts that have it, at a displacement."""
-    problem = StepProblem(step)
-    problem.fill(step)
+    problem = paper_problem(step)
+    set_values(problem, step)
     problem.delta_q_a.value = delta_q[: step.n_a]
     problem.delta_q_u.value = delta_q[step.n_a :]
     # CVXPY keeps a >= 0 as 0 - a <= 0.

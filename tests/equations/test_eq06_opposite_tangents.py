@@ -1,4 +1,4 @@
-"""Eq. (6), d~_3 and d~_4. Under test: step.problem.StepProblem."""
+"""Eq. (6), d~_3 and d~_4. Under test: step.problem.paper_problem."""
 
 from tests.closeness import assert_close
 from tests.equations.test_eq04_contact_rows import added_to_the_gap, along

@@ -1,7 +1,7 @@
-"""Eq. (7), d~_5 and d~_6. Under test: step.problem.StepProblem."""
+"""Eq. (7), d~_5 and d~_6. Under test: step.problem.paper_problem."""
 
-from quasistatic_ref import StepProblem
 from quasistatic_ref.step.cones import pyramid
+from quasistatic_ref.step.problem import paper_problem
 from tests.closeness import assert_close
 from tests.equations.test_eq04_contact_rows import added_to_the_gap
 from tests.helpers import random_step
@@ -14,6 +14,6 @@ def test_they_are_what_the_last_two_constraints_add_to_the_gap(rng):
 
 
 def test_only_contacts_with_six_rows_have_them(rng):
-    problem = StepProblem(random_step(rng, rows=(6, 4, 6)))
+    problem = paper_problem(random_step(rng, rows=(6, 4, 6)))
     assert [constraint.shape for constraint in problem.contact_rows] == [(3,)] * 4 + [(2,)] * 2
     assert pyramid(1.0, 0.0, 0.0, 0.25)[4:] == (1.25, 0.75)

@@ -1,9 +1,10 @@
-"""Eq. (13), the quadratic program. Under test: step.problem.StepProblem."""
+"""Eq. (13), the quadratic program. Under test: step.problem.paper_problem."""
 
 import numpy as np
 import pytest
 
-from quasistatic_ref import StepProblem, standard_form
+from quasistatic_ref import standard_form
+from quasistatic_ref.step.problem import paper_problem, set_values
 from tests.closeness import assert_relative
 from tests.helpers import planted_step, random_step, slacks
 from tests.tolerances import ROUNDING
@@ -20,8 +21,8 @@ def objective(step, delta_q):
 @pytest.mark.parametrize(("n_a", "n_u"), [(3, 4), (0, 4), (3, 0), (1, 1)])
 def test_the_cvxpy_objective_is_the_printed_one(n_a, n_u, rng):
     step = random_step(rng, n_a, n_u)
-    problem = StepProblem(step)
-    problem.fill(step)
+    problem = paper_problem(step)
+    set_values(problem, step)
     delta_q = rng.normal(size=step.n_v)
     problem.delta_q_a.value, problem.delta_q_u.value = np.split(delta_q, [n_a])
     assert_relative(problem.problem.objective.value, objective(step, delta_q), ROUNDING)

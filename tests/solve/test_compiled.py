@@ -7,7 +7,7 @@ import scipy.sparse as sp
 
 from quasistatic_ref import Extra
 from quasistatic_ref.solve.compiled import CompiledMap, problem_data
-from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
+from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.solve.units import StepInBothUnits
 from tests.helpers import planted_step, random_step
@@ -35,8 +35,7 @@ def with_zeros(rng, parameter):
 def test_every_number_of_the_data_has_the_bits_of_cvxpy_s(cone, n_a, n_u, rows, rng):
     own = Extra(("a", "b"), rng.normal(size=(2, n_a + n_u)), rng.normal(size=2))
     step = random_step(rng, n_a, n_u, rows).replace(cone=cone, extra=own)
-    problem = CvxpyProblem(step)
-    problem.fill(step)
+    problem = StepProblem(step)
     template = problem_data(problem.problem, "clarabel", {})
     assert CompiledMap.serves(template)
     compiled = CompiledMap(problem.problem, template)

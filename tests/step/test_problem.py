@@ -3,10 +3,12 @@
 import cvxpy as cp
 import numpy as np
 import pytest
+from numpy.testing import assert_array_equal
 
 from quasistatic_ref import Extra, StepDataError, StepProblem, solve_step
-from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.step.friction import friction_rows
+from quasistatic_ref.step.problem import paper_problem, set_values
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import (
     JUDGE,
@@ -20,12 +22,6 @@ from tests.tolerances import MULTIPLIERS, OPTIMUM
 PAPER = {"n_a": 7, "n_u": 6, "rows": (6,) * 10 + (4,) * 5}
 
 
-def filled_problem(step):
-    problem = CvxpyProblem(step)
-    problem.fill(step)
-    return problem
-
-
 def with_mu_of(other, step):
     """The step with another's mu_v and mu_omega, which are constants of a compiled problem."""
     mu = {name: getattr(other.contacts, name) for name in ("mu_v", "mu_omega")}
@@ -33,7 +29,7 @@ def with_mu_of(other, step):
 
 
 def test_the_paper_s_step_compiles_to_13_variables_and_80_rows(rng):
-    problem = filled_problem(random_step(rng, **PAPER)).problem
+    problem = StepProblem(random_step(rng, **PAPER)).problem
     data, _, _ = problem.get_problem_data(cp.OSQP, solver_opts={})
     assert data["P"].shape == (13, 13)
     assert data["F"].shape == (80, 13)
@@ -87,13 +83,22 @@ def test_multipliers_are_contact_major_though_cvxpy_s_are_not(rng):
     assert_within(answer.lam, lam, MULTIPLIERS * lam.max())
 
 
-@pytest.mark.parametrize("name", ["product", "facets-8", "frictionless", "ellipsoid"])
-def test_the_paper_s_rows_are_not_taken_for_those_of_another_cone(name, rng):
-    with pytest.raises(StepDataError, match=r"cone: is not the pyramid; CvxpyProblem"):
-        StepProblem(random_step(rng).replace(cone=name))
+@pytest.mark.parametrize(("n_a", "n_u"), [(3, 4), (0, 1), (1, 0)])
+def test_the_page_splits_J_to_the_bits_of_the_rows(n_a, n_u, rng):
+    """J_n, J_1, J_2 and J_w combined as in Eqs. (5)-(7) are friction_rows."""
+    step = random_step(rng, n_a, n_u)
+    page = paper_problem(step)
+    set_values(page, step)
+    filled = StepProblem(step).parameters
+    for name, parameter in page.parameters.items():
+        assert_array_equal(parameter.value, filled[name].value, strict=True)
+    J_n, J_1, J_2, J_w = (page.parameters[name].value for name in ("J_n", "J_1", "J_2", "J_w"))
+    mu_v, _, mu_omega = step.contacts.mu.T[..., None]
+    parts = (mu_v * J_1, mu_v * J_2, -mu_v * J_1, -mu_v * J_2, mu_omega * J_w, -mu_omega * J_w)
+    rows = np.stack([J_n + part for part in parts], axis=1)
+    assert_array_equal(friction_rows(step.contacts), rows)
 
 
-def test_rows_of_a_user_s_own_are_not_dropped(rng):
-    step = random_step(rng).replace(extra=Extra(("a",), np.ones((1, 7)), [0.0]))
-    with pytest.raises(StepDataError, match="extra: has a user's own rows; CvxpyProblem"):
-        StepProblem(step)
+def test_a_step_of_another_kind_is_refused(rng):
+    with pytest.raises(StepDataError, match=r"^h: must be 0\.01; make a problem of this step"):
+        StepProblem(random_step(rng)).fill(random_step(rng).replace(h=0.02))

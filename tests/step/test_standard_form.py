@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, standard_form
-from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
+from quasistatic_ref.solve.step_problem import StepProblem
 from tests.closeness import assert_close
 from tests.helpers import random_step
 from tests.tolerances import ROUNDING
@@ -13,8 +13,7 @@ from tests.tolerances import ROUNDING
 
 def by_cvxpy(step):
     """H, g, and the rows [A, b] of A x >= b as CVXPY compiles them for a QP solver."""
-    problem = CvxpyProblem(step)
-    problem.fill(step)
+    problem = StepProblem(step)
     data, _, _ = problem.problem.get_problem_data(cp.OSQP, solver_opts={})
     assert data["A"].shape[0] == 0  # no equality
     P = data["P"].toarray()
@@ -59,8 +58,7 @@ def test_cvxpy_compiles_the_rows_of_every_cone_in_order(name, rows, rng):
 def test_cvxpy_compiles_the_ellipsoid_to_one_second_order_cone_a_contact(rng):
     # Its entries are b - A delta_q in the cone: gap, slip_1, slip_2 and spin.
     step = random_step(rng, 3, 4, (6, 4, 6)).replace(cone="ellipsoid")
-    problem = CvxpyProblem(step)
-    problem.fill(step)
+    problem = StepProblem(step)
     data, _, _ = problem.problem.get_problem_data(cp.CLARABEL, solver_opts={})
     assert (data["dims"].nonneg, data["dims"].soc) == (0, [4, 4, 4])
     form = standard_form(step)

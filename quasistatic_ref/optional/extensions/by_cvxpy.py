@@ -20,8 +20,8 @@ from quasistatic_ref.optional.extensions.quadratic import quadratic_program
 from quasistatic_ref.optional.extensions.terms import checked_terms
 from quasistatic_ref.solve.backends import backend, check_takes_cones
 from quasistatic_ref.solve.compiled import problem_data
-from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.solver import RELAXED
+from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.units import Units, driven, in_si, natural_step, natural_units
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Extra, StepData
@@ -48,12 +48,11 @@ def extension_data(step: StepData, extension: Extension) -> Extra | None:
     """
     if extension.without_stiffness:
         return None
-    problem = CvxpyProblem(step)
+    problem = StepProblem(step)
     terms = _terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0), problem)
     costs = [term for term in terms if isinstance(term, cp.Expression)]
     constraints = [term for term in terms if isinstance(term, cp.Constraint)]
     unknowns = (problem.delta_q_a, problem.delta_q_u)
-    problem.fill(step)
     for x in unknowns:
         x.value = np.zeros(x.shape)
     names: list[str] = []
@@ -116,8 +115,7 @@ def extended_solution(
     if not driven(step):  # nothing but the extension drives it
         units = units._replace(size=1.0)
     natural = natural_step(step, units)
-    problem = CvxpyProblem(natural, partial(_terms, extension, step, units))
-    problem.fill(natural)
+    problem = StepProblem(natural, partial(_terms, extension, step, units))
     if extension.without_stiffness:  # nothing is left of Eq. (1)
         for parameter in (problem.parameters["K_q"], problem.parameters["tau_k"]):
             parameter.value = np.zeros(parameter.shape)
@@ -137,7 +135,7 @@ def extended_solution(
 
 
 def _terms(
-    extension: Extension, step: StepData, units: Units, problem: CvxpyProblem
+    extension: Extension, step: StepData, units: Units, problem: StepProblem
 ) -> list[cp.Constraint | cp.Expression]:
     """Constraints and costs of an extension, in the variables of a problem in `units`."""
     symbols = _symbols(problem, step, units, len(extension.rises))
@@ -147,7 +145,7 @@ def _terms(
     ]
 
 
-def _symbols(problem: CvxpyProblem, step: StepData, units: Units, private: int) -> Symbols:
+def _symbols(problem: StepProblem, step: StepData, units: Units, private: int) -> Symbols:
     """The symbols of a problem in SI units, of whose coordinates the last ones are private."""
     public = step.n_v - private
     unactuated = step.n_u - private
@@ -168,7 +166,7 @@ def _symbols(problem: CvxpyProblem, step: StepData, units: Units, private: int) 
 
 
 def _solved(
-    step: StepData, problem: CvxpyProblem, name: str, accuracy: float, options: dict[str, object]
+    step: StepData, problem: StepProblem, name: str, accuracy: float, options: dict[str, object]
 ) -> tuple[Certificate, SolverStatistics]:
     """Solve the conic program and judge the raw answer; its values are left in the problem."""
     try:

@@ -15,7 +15,7 @@ from quasistatic_ref.optional.extensions.by_cvxpy import (
 )
 from quasistatic_ref.optional.extensions.extended import simulated_solution
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
+from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.units import natural_step, natural_units
 from tests.helpers import changed, point_on_floor, random_step
 from tests.tolerances import ROUNDING
@@ -40,9 +40,8 @@ def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
     form = standard_form(step)
     assert units.length > 2
     natural = natural_step(step, units)
-    problem = CvxpyProblem(natural)
+    problem = StepProblem(natural)
     delta_q = rng.normal(size=7)
-    problem.fill(natural)
     x = delta_q / (units.size * units.coordinate)
     problem.delta_q_a.value = x[:3]
     problem.delta_q_u.value = x[3:]

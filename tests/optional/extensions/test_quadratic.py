@@ -288,8 +288,3 @@ def test_forces_of_a_step_with_a_cost_balance_its_load():
     solution = solve_step(step.replace(extra=push))
     assert_relative(solution.wrench[0, 2], M * 9.81 + 2.0, OPTIMUM)
     assert_relative(solution.forces[0, 2], M * 9.81 + 2.0, 1e-5)
-
-
-def test_a_page_of_the_paper_refuses_a_cost():
-    with pytest.raises(StepDataError, match="has a user's own cost"):
-        qr.StepProblem(two_points(W))

@@ -1,0 +1,203 @@
+"""The program (13) of any step in CVXPY: the paper's page, with any cone and rows of a user's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import cvxpy as cp
+import numpy as np
+
+from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref.errors import BackendError, InputError, StepDataError
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.solve.backends import NONE, QPSOLVERS, backend, check_takes_cones, is_function
+from quasistatic_ref.solve.compiled import problem_data
+from quasistatic_ref.solve.greeting import greeting_silenced
+from quasistatic_ref.solve.scaled import solve_scaled
+from quasistatic_ref.solve.solver import RELAXED
+from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.step.data import KIND, StepData, differences
+from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.problem import paper_problem
+from quasistatic_ref.tolerances import ACCURACY
+
+Additions = Callable[["StepProblem"], Sequence[cp.Constraint | cp.Expression]]
+"""A user's constraints and scalar costs."""
+
+
+class StepProblem:
+    """Eq. :eq:`eq-13`, for the steps of one h, mu_v, mu_omega, cone, row count and size.
+
+    ``problem`` is an ordinary :class:`cvxpy.Problem`, filled with a step in SI units: print it, or
+    put another in its place, as below. Its costs are about 1e-7, below the tolerances of every
+    solver: ``problem.solve()`` ends "optimal", and is wrong by up to all of its digits.
+    :meth:`solve` solves it in natural units.
+
+    Parameters
+    ----------
+    template : StepData
+        A step of that kind, which fills it at first.
+    additions : callable, optional
+        A function of this problem that returns additional constraints and scalar costs. Where a
+        cost replaces the springs, set K_q and tau_k to zero after each :meth:`fill`.
+
+    Attributes
+    ----------
+    problem : cvxpy.Problem
+    parameters : dict of str to cvxpy.Parameter
+        What changes from step to step, by name; :meth:`fill` sets it.
+    delta_q, delta_q_a, delta_q_u : cvxpy.Expression
+        The displacement [m, rad].
+    contact_motion : tuple of cvxpy.Expression
+        gap, slip_1, slip_2 and spin [m], shapes (n_c,), mu included in the last three.
+    contact_rows : list of cvxpy.Constraint
+        The rows of the cone: of the paper's, Eq. :eq:`eq-4` in its order, one constraint for that
+        row of the contacts that have it; none where no contact has.
+    extra : list of cvxpy.Constraint
+        The rows of the step's own ``extra``: one constraint, or none.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> page = qr.StepProblem(step)
+    >>> page.problem.is_qp()
+    True
+    >>> bool(abs(page.solve("clarabel") - qr.solve_step(step).delta_q).max() < 1e-12)
+    True
+    >>> import cvxpy
+    >>> lift = page.delta_q[2] >= 1e-3  # [m]
+    >>> page.problem = cvxpy.Problem(page.problem.objective, [*page.problem.constraints, lift])
+    >>> round(float(page.solve()[2]), 12), page.problem.status
+    (0.001, 'optimal')
+    """
+
+    def __init__(self, template: StepData, additions: Additions | None = None) -> None:
+        self.template = template
+        page = paper_problem(template)
+        self.parameters = page.parameters
+        self.delta_q_a = page.delta_q_a
+        self.delta_q_u = page.delta_q_u
+        self.delta_q = page.delta_q
+        self.contact_motion = page.contact_motion
+        self.contact_rows = page.contact_rows
+        if template.cone != PYRAMID:
+            self.contact_rows = cone(template.cone).constraints(self.contact_motion, template.mask)
+        A_extra = cp.Parameter(template.extra.A.shape, "A_extra")
+        b_extra = cp.Parameter(template.extra.b.shape, "b_extra")
+        self.parameters |= {"A_extra": A_extra, "b_extra": b_extra}
+        self.extra = [A_extra @ self.delta_q >= b_extra] if template.extra.names else []
+        objective = page.problem.objective
+        if template.extra.cost is not None:
+            H_extra = cp.Parameter((template.n_v, template.n_v), "H_extra", PSD=True)
+            g_extra = cp.Parameter(template.n_v, "g_extra")
+            self.parameters |= {"H_extra": H_extra, "g_extra": g_extra}
+            quadratic = cp.quad_form(self.delta_q, H_extra) / 2
+            objective += cp.Minimize(quadratic - g_extra @ self.delta_q)
+        constraints = [*self.contact_rows, *self.extra]
+        for term in [] if additions is None else additions(self):
+            if isinstance(term, cp.Constraint):
+                constraints.append(term)
+            else:
+                objective += cp.Minimize(term)
+        self.problem = cp.Problem(objective, constraints)
+        self.set_parameters(template)
+
+    def fill(self, step: StepData) -> None:
+        """Set every parameter from one step, which has checked its numbers: CVXPY need not again.
+
+        Raises
+        ------
+        StepDataError
+            If the step is of another kind, naming what differs.
+        """
+        for name in differences(self.template, step):
+            needed = np.asarray(KIND[name](self.template)).tolist()
+            value = np.asarray(KIND[name](step)).tolist()
+            message = f"must be {needed!r}; make a problem of this step"
+            raise StepDataError(message, field=name, value=value)
+        self.set_parameters(step)
+
+    def set_parameters(self, step: StepData) -> None:
+        """The same for a step that is known to be of the problem's kind."""
+        self.step = step
+        J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
+        values = {
+            "K_q": step.K_q,
+            "M_u": step.M_u,
+            "tau_k": step.K_q @ step.delta_q_bar_a,  # Eq. (1)
+            "tau_a": step.tau_a,
+            "tau_u": step.tau_u,
+            "phi": step.contacts.phi,
+            "J_n": J_n,
+            "J_1": J_1,
+            "J_2": J_2,
+            "J_w": J_w,
+            "A_extra": step.extra.A,
+            "b_extra": step.extra.b,
+        }
+        if step.extra.cost is not None:
+            values["H_extra"], values["g_extra"] = step.extra.cost
+        for name, value in values.items():
+            self.parameters[name].save_value(value)
+
+    def solve(self, solver: str = "clarabel", accuracy: float = ACCURACY) -> Array:
+        """A solver's answer to ``problem`` as it stands, found in natural units.
+
+        It is the solver's own: nothing is proved. The problem then has its status and value, the
+        variables and the multipliers of all constraints, in SI units.
+
+        Parameters
+        ----------
+        solver : str
+            A backend that CVXPY calls; upper case, as in CVXPY, is as good.
+        accuracy : float
+            Of the answer, in natural units [-].
+
+        Returns
+        -------
+        ndarray, shape (n_v,)
+            delta_q [m, rad].
+
+        Raises
+        ------
+        BackendError
+            If the solver is unknown or not installed, or not one that CVXPY calls.
+        StepNotSolved
+            If it claims anything but a full solution.
+        """
+        name = solver.lower()
+        if name == NONE or name.startswith(QPSOLVERS) or is_function(name):
+            raise BackendError("is not called through CVXPY", field="backend", value=solver)
+        entry = backend(name)
+        if name == "highs":
+            greeting_silenced()
+        if not self.problem.is_qp():
+            check_takes_cones(name, "this problem")
+        least = max(accuracy, entry.floor)
+        factors = (1.0,) if self.problem.is_qp() else RELAXED
+        for tried in (k * least for k in factors):
+            for options in entry.option_sets(tried):
+                try:
+                    data = problem_data(self.problem, name, options)
+                    solve_scaled(self.problem, data, options)
+                except (InputError, cp.error.DCPError):
+                    raise
+                except Exception as error:  # whatever another package raises
+                    status = f"the solver failed: {error}"
+                    continue
+                status = str(self.problem.status)
+                if status == cp.OPTIMAL:
+                    return self.primal()
+        raise StepNotSolved(name, status, self.step, tried)
+
+    def primal(self) -> Array:
+        """delta_q of the last solve, shape (n_v,)."""
+        return np.concatenate([x.value for x in (self.delta_q_a, self.delta_q_u) if x.size])
+
+    def dual(self) -> Array:
+        """Multipliers of the last solve, contact-major, the user's own rows last; shape (m,)."""
+        template = self.template
+        lam = cone(template.cone).multipliers(
+            self.contact_rows, template.mask, template.contacts.mu
+        )
+        return np.concatenate([lam, *(row.dual_value for row in self.extra)])

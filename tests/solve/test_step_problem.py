@@ -1,0 +1,141 @@
+"""``StepProblem.solve`` solves the problem as it stands, and loses nothing to metres."""
+
+from dataclasses import replace
+
+import cvxpy as cp
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.solve import step_problem
+from quasistatic_ref.solve.backends import installed_backends
+from quasistatic_ref.solve.compiled import problem_data
+from tests.helpers import pinch, random_step, sphere_on_floor
+
+WEIGHT = (0.3, 0.0, -2.943, 0.0, 0.0, 1e-3)
+ABLE = [name for name in installed_backends() if ":" not in name and name != "highs"]
+COSTLY = qr.Extra(("stop",), np.eye(7)[:1], [1e-4], H=np.eye(7), g=np.full(7, 1e-6))
+STEPS = {
+    "pinch": lambda: pinch(),
+    "ball": lambda: sphere_on_floor(wrench=WEIGHT),
+    "four and six rows": lambda: random_step(np.random.default_rng(0)),
+    "a user's row and cost": lambda: random_step(np.random.default_rng(0)).replace(extra=COSTLY),
+    "facets": lambda: random_step(np.random.default_rng(0)).replace(cone="facets-8"),
+    "nothing actuated": lambda: random_step(np.random.default_rng(1), n_a=0),
+    "all actuated": lambda: random_step(np.random.default_rng(1), n_u=0),
+    "no rows": lambda: random_step(np.random.default_rng(1), rows=()),
+}
+
+
+@pytest.mark.parametrize("name", STEPS)
+@pytest.mark.parametrize("solver", ABLE)
+def test_solve_is_right_in_si_units(name, solver):
+    """Within 1e-7 of what the step moves, by every solver, in either case of letters."""
+    step = STEPS[name]()
+    page = qr.StepProblem(step)
+    if (name, solver) == ("no rows", "scs"):
+        with pytest.raises(qr.StepNotSolved, match="m must be a positive integer"):
+            page.solve(solver)
+        return
+    exact = qr.solve_step(step)
+    size = np.abs(np.linalg.solve(step.H, qr.standard_form(step).g)).max()
+    for called in (solver, solver.upper()):
+        found = page.solve(called)
+        np.testing.assert_allclose(found, exact.delta_q, atol=1e-6 * size)
+        np.testing.assert_array_equal(page.primal(), found)
+    lam = np.concatenate([exact.lam, exact.lam_extra])
+    assert page.dual().sum() == pytest.approx(lam.sum(), rel=1e-4, abs=1e-9)
+    assert page.problem.status == cp.OPTIMAL
+    form = qr.standard_form(step)
+    least = exact.delta_q @ form.H @ exact.delta_q / 2 - form.g @ exact.delta_q
+    load = np.abs(form.g).max()
+    assert page.problem.value == pytest.approx(least, rel=1e-6, abs=1e-6 * size * load)
+
+
+def test_the_ellipsoid_is_solved_with_its_multipliers():
+    """Second-order cones cost Clarabel digits; lam balances the load: H delta_q - g = A'lam."""
+    step = random_step(np.random.default_rng(3), rows=(6, 4, 6)).replace(cone="ellipsoid")
+    page = qr.StepProblem(step)
+    exact = qr.solve_step(step)
+    size = np.abs(exact.delta_q).max()
+    for solver in ("clarabel", "scs"):
+        np.testing.assert_allclose(page.solve(solver), exact.delta_q, atol=1e-6 * size)
+        form = qr.standard_form(step)
+        load = form.H @ page.primal() - form.g
+        np.testing.assert_allclose(form.A.T @ page.dual(), load, atol=1e-6 * np.abs(load).max())
+    with pytest.raises(qr.BackendError, match="accepts only linear rows"):
+        page.solve("piqp")
+
+
+@pytest.mark.parametrize("solver", [name for name in ABLE if name != "proxqp"])  # test_known_issues
+@pytest.mark.parametrize("lift", [1e-3, 1e-5, -1.0])
+def test_a_row_that_is_added_holds_and_has_its_multiplier(solver, lift):
+    """A ball of weight W is lifted by z: lam h = H_zz z / h + W if z > 0; a far row has none."""
+    step = sphere_on_floor(wrench=(0.0, 0.0, -2.943, 0.0, 0.0, 0.0))
+    page = qr.StepProblem(step)
+    row = page.delta_q[2] >= lift
+    page.problem = cp.Problem(page.problem.objective, [*page.problem.constraints, row])
+    z = page.solve(solver)[2]
+    assert page.problem.status == cp.OPTIMAL
+    assert z == pytest.approx(max(lift, 0.0), rel=1e-6, abs=1e-12)
+    impulse = step.H[2, 2] * lift + step.h * 2.943 if lift > 0 else 0.0
+    assert row.dual_value == pytest.approx(impulse, rel=1e-6, abs=1e-9)
+
+
+def test_a_curved_constraint_a_cost_and_a_variable_of_a_user_are_obeyed():
+    """1 N s pulls the ball along x, no farther than 2 mm, whatever is added to its cost."""
+    step = sphere_on_floor(wrench=(0.0, 0.0, -2.943, 0.0, 0.0, 0.0))
+
+    def additions(page):
+        square = cp.Variable()
+        pull = -1.0 * page.delta_q[0]
+        return [
+            cp.norm(page.delta_q[:2]) <= 2e-3,
+            square >= cp.square(page.delta_q[0]),
+            square,
+            pull,
+        ]
+
+    page = qr.StepProblem(step, additions)
+    np.testing.assert_allclose(page.solve()[:2], [2e-3, 0.0], atol=1e-9)
+    assert page.problem.value == pytest.approx(page.problem.objective.value, rel=1e-12)
+
+
+def test_what_has_no_solution_and_data_that_are_not_known_are_said_in_a_sentence(monkeypatch):
+    page = qr.StepProblem(pinch())
+    walls = [page.delta_q[0] >= 1e-3, page.delta_q[0] <= -1e-3]
+    whole = page.problem
+    page.problem = cp.Problem(whole.objective, [*whole.constraints, *walls])
+    with pytest.raises(qr.StepNotSolved, match="infeasible"):
+        page.solve()
+    assert page.problem.status == cp.INFEASIBLE
+    page.problem = cp.Problem(whole.objective, [*whole.constraints, cp.diag(page.delta_q[:2]) >> 0])
+    assert (page.solve()[:2] >= -1e-12).all()
+
+    def another_form(*arguments):
+        data = problem_data(*arguments)
+        return replace(data, numbers={**data.numbers, "h": data.numbers["b"]})
+
+    monkeypatch.setattr(step_problem, "problem_data", another_form)
+    with pytest.raises(qr.BackendError, match="takes data of a form that is not known here"):
+        page.solve()
+
+
+def test_metres_lose_what_natural_units_keep():
+    """The pinch moves by 0.4 mm: CVXPY's own answer is off by more than 0.5 % of that."""
+    step = qr.load_scenario("two_finger_pinch", steps=12).run(progress=False).step_data(11)
+    exact = qr.solve_step(step).delta_q
+    size = np.abs(exact).max()
+    page = qr.StepProblem(step)
+    page.problem.solve(solver=cp.CLARABEL, canon_backend=cp.CPP_CANON_BACKEND)
+    assert page.problem.status == cp.OPTIMAL
+    assert np.abs(page.delta_q.value - exact).max() > 0.005 * size
+    assert np.abs(page.solve() - exact).max() < 1e-9 * size
+
+
+def test_a_solver_that_cvxpy_does_not_call_is_refused():
+    page = qr.StepProblem(pinch())
+    with pytest.raises(qr.BackendError, match="is not a backend"):
+        page.solve("clarabell")
+    with pytest.raises(qr.BackendError, match="is not called through CVXPY"):
+        page.solve("none")
