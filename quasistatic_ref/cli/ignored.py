@@ -4,6 +4,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Sequence
 
+from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.system import System
 
 ALWAYS = (
@@ -16,6 +17,7 @@ LIMITS = "joint limits: position, effort and velocity"
 NOT_STOPPED = "joint limits: effort and velocity"
 WORDS = {
     "limit": LIMITS,
+    "joint.limit.bounds": "bounds of joints that turn without end",
     "joint.dynamics.damping": "joint damping",
     "joint.dynamics.friction": "joint friction",
     "link.collision.friction": "friction of contacts: the scenario has it",
@@ -66,6 +68,14 @@ def ignored_lines(
                 f"{body}: links with visual but no collision geometry: {', '.join(unseen)}"
             )
     return lines
+
+
+def unknown_elements(system: Mechanism) -> str:
+    """Elements of its URDFs that no part of the model knows, and how often: one line, or none."""
+    entries = system.ignored if isinstance(system, System) else ()
+    kinds = Counter(_words(entry.partition(": ")[2]) for entry in entries)
+    unknown = [f"{kind} ({n})" for kind, n in kinds.items() if kind.startswith("<")]
+    return f"ignored: {', '.join(unknown)}; inspect lists all" if unknown else ""
 
 
 def _words(entry: str) -> str:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.cli import options as shared
+from quasistatic_ref.cli.ignored import unknown_elements
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.npz import header_of, npz_arrays
@@ -92,6 +93,8 @@ def run(options: argparse.Namespace) -> int:
     tables = {"--table": options.table, "--contacts-table": options.contacts_table}
     tables = {option: file for option, file in tables.items() if file is not None}
     _check_parts(options, tables)
+    if unknown := unknown_elements(scenario.system):
+        print(f"quasistatic-ref: {unknown}", file=sys.stderr)
     failure: RunFailed | None = None
     try:
         trajectory: Trajectory = scenario.run(progress=not options.quiet)

@@ -52,8 +52,8 @@ class BodyEntry(Plain):
         As parsed: a table of joints, or ``"urdf"``.
     support : TableReader or None
         The table of that name.
-    joint_limits : str or None
-        ``"urdf"`` where the joints stop at the limits of the file.
+    joint_limits : object
+        As parsed: a table of joints, or ``"urdf"``.
     """
 
     body: Body
@@ -65,7 +65,7 @@ class BodyEntry(Plain):
     wrenches: Wrenches | None
     joint_friction: Any
     support: TableReader | None = field(compare=False)
-    joint_limits: str | None
+    joint_limits: Any
 
     @property
     def extends(self) -> bool:
@@ -107,7 +107,7 @@ def body_entry(
             "gravity_compensated", "needs an actuated joint, and this body has none"
         )
     if path is not None:
-        folders += shared_folders(path)
+        folders += [folder, *shared_folders(path)]
     try:
         body = Body(name, urdf, base, actuated, xyz, rpy, start, folders)
     except ModelError as error:

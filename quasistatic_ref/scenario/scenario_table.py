@@ -146,8 +146,13 @@ TABLES = Tables({
             ]},
         ),
         "joint_limits": Field(
-            "text", 'with "urdf" its joints stop at the position limits of the file',
-            default=None, choices=(URDF,),
+            'table by joint, or "urdf"',
+            "least and greatest position of a joint, its stops; \"urdf\" takes those of the file",
+            "m, rad", None,
+            schema={"anyOf": [
+                {"enum": [URDF]},
+                {"type": "object", "additionalProperties": LIST},
+            ]},
         ),
         "support": Field(
             "table", "friction of a planar base on its floor", default=None, of=SUPPORT,

@@ -54,6 +54,13 @@ def test_inspect_does_not_call_ignored_what_the_scenario_uses(tmp_path, cli):
     assert all("arm: joint damping (3)" in each for each in lines.values())
 
 
+@pytest.mark.parametrize("kind", ["continuous", "ball"])
+def test_bounds_of_a_joint_without_ends_are_ignored_and_named(tmp_path, cli, kind):
+    text = robot(link("a", inertial=""), link("b"), joint("j", "a", "b", kind))
+    ignored = json.loads(cli("inspect", urdf_of_text(tmp_path, text), "--json").out)["ignored"]
+    assert "r: bounds of joints that turn without end (1)" in ignored
+
+
 def test_inspect_says_what_a_mimic_follows(tmp_path, cli):
     path = urdf_of_text(tmp_path, CHAIN, "arm.urdf")
     assert "\narm/swing_mimic = -0.7 * arm/swing + 0.2\n" in cli("inspect", path).out

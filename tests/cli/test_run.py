@@ -9,7 +9,8 @@ import pytest
 
 from quasistatic_ref import solve_step, step_read, trajectory_read
 from quasistatic_ref.simulate import simulator
-from tests.scenes import SWING, written_scenario
+from tests.model.urdf.urdf_texts import joint, urdf_of_text
+from tests.scenes import RAIL, SWING, written_scenario
 from tests.tolerances import MULTIPLIERS
 
 
@@ -25,6 +26,18 @@ def test_run_writes_the_trajectory_and_tells_of_it(scene, out, cli):
     )
     assert printed.endswith(f"wrote {out / 'scene.npz'}\n")
     assert trajectory_read(out / "scene.npz").steps == 5
+
+
+def test_run_says_once_what_of_a_file_means_nothing_to_the_model(tmp_path, out, cli):
+    loops = '<loop_joint name="l"/><link name="z"><odd/></link>'
+    ground = joint("y", "rail", "z", "fixed")
+    text = RAIL.replace("</robot>", f"{loops}{ground}</robot>")
+    urdf_of_text(tmp_path, text, "rail.urdf")
+    head = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 2\n'
+    bodies = '[bodies.one]\nurdf = "rail.urdf"\n[bodies.two]\nurdf = "rail.urdf"\n'
+    scene = urdf_of_text(tmp_path, head + bodies, "scene.toml")
+    said = cli("run", scene, "--out", out).err
+    assert said.count("ignored: <loop_joint> (2), <link.odd> (2); inspect lists all") == 1
 
 
 def test_run_prints_one_json_object(scene, out, cli):

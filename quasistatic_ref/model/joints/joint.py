@@ -65,8 +65,8 @@ class Joint(Plain, ABC):
         Its entries of q and of delta_q: lengths first.
     limits : tuple of float, optional
         Least and greatest position that its URDF allows [m, rad], which the model ignores. None
-        where the URDF gives none, both are 0 or the lower is above the upper one, and for bases and
-        joints whose position is no number.
+        where the URDF gives none or the lower is above the upper one, and for bases and joints
+        whose position is no number. Both may be 0, which hold it.
     effort : float
         Largest force that its URDF allows [N, N m], which the model ignores; infinity where the
         URDF gives none or 0.

@@ -24,7 +24,9 @@ MOST_ABOVE = 8
 """Folders above a file in which its package is looked for, where no repository bounds them."""
 
 
-def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -> Path:
+def mesh_path(
+    uri: str, folder: Path, package_dirs: Sequence[str | Path] = (), *, is_of_file: bool = True
+) -> Path:
     """The file that a mesh's URI means.
 
     Parameters
@@ -32,10 +34,13 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -
     uri : str
         ``package://NAME/PATH``, looked for as NAME/PATH in each of the package folders and in the
         folders above `folder`, up to that of its repository, then as PATH in those that are called
-        NAME, then as PATH in each; or a path relative to `folder`.
+        NAME, then as PATH in each; or a path relative to `folder`, which may lead into a folder
+        beside it, and anywhere in the package (``package.xml``) or the repository that it lies in.
     folder : Path
         Of the file that the URI stands in.
     package_dirs : sequence of str or Path
+    is_of_file : bool
+        False of a text, which has no folder of its own.
 
     Raises
     ------
@@ -60,6 +65,7 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -
         raise ModelError("must be package://NAME/PATH or a relative path", value=uri)
     else:
         places = [folder / uri]
+        packages += _package(uri, folder.resolve()) if is_of_file else []
     try:
         path = next((place.resolve() for place in places if place.is_file()), None)
     except (OSError, ValueError, RuntimeError):  # a NUL, a name too long, a ring of links
@@ -79,6 +85,17 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -
         problem = f"is larger than {LARGEST_MESH / 2**20:g} MiB; take a simpler mesh"
         raise ModelError(problem, value=uri)
     return path
+
+
+def _package(uri: str, folder: Path) -> list[Path]:
+    """Where a relative URI may lead besides `folder`: the package of that, and ../NAME/."""
+    above = _repository(folder)
+    marks = ("package.xml", ".git")
+    packages = [each for each in above if any((each / mark).exists() for mark in marks)]
+    match Path(uri).parts:
+        case ("..", name, *_, _) if name != "..":
+            packages.append(folder.parent / name)
+    return packages
 
 
 def _repository(folder: Path) -> list[Path]:

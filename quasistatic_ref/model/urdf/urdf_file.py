@@ -1,5 +1,6 @@
 """What a URDF file says, checked on its own, before any library has read it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import Path
@@ -12,6 +13,7 @@ from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import JOINTS
+from quasistatic_ref.model.readers.mesh_files import mesh_path
 from quasistatic_ref.model.readers.xml_text import xml_root
 from quasistatic_ref.model.urdf.urdf_tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.model.urdf.urdf_xml import Tag
@@ -19,6 +21,8 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
 
+TEXT: Final = Path("<robot>")
+"""In the place of its path, of a text."""
 INERTIA_TRIANGLE: Final = 1e-6
 """How far the largest principal moment of inertia may exceed the sum of the other two, relative.
 
@@ -51,6 +55,11 @@ _GEOMETRIES = {
 
 Defect = tuple[str, str, object]
 """What is wrong with an inertia: ``"mass"`` or ``"inertia"``, the problem, the value."""
+
+
+MOMENTS: Final = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+NO_INERTIA: Final[Defect] = ("inertia", "is missing", None)
+"""Of a link with a mass alone."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,6 +149,10 @@ class UrdfFile:
     ignored: tuple[str, ...]
     notes: tuple[str, ...] = ()
 
+    def mesh_path(self, uri: str, package_dirs: Sequence[str | Path]) -> Path:
+        """The file that a mesh's URI means; ModelError as of :func:`.mesh_files.mesh_path`."""
+        return mesh_path(uri, self.path.parent, package_dirs, is_of_file=self.path != TEXT)
+
 
 def urdf_file(source: str | Path) -> UrdfFile:
     """Content of a URDF file, or of a string that is a URDF: one that begins with ``<``.
@@ -151,7 +164,7 @@ def urdf_file(source: str | Path) -> UrdfFile:
         has no place for; the message names the file, the element and the value.
     """
     if isinstance(source, str) and source.lstrip().startswith("<"):
-        path = Path("<robot>")
+        path = TEXT
         text = source
     else:
         path = Path(source)
@@ -233,9 +246,10 @@ def _inertial(link: Tag) -> tuple[float, Array, Array, Defect | None, float]:
     mass = inertial.child("mass", "value").number("value")
     if mass < 0:
         raise ModelError("must not be negative", field=f"{inertial.where}.mass", value=mass)
-    names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
-    moments = inertial.child("inertia", *names, *SAME_MOMENT)
-    xx, yy, zz, xy, xz, yz = (moments.number(name) for name in names)
+    moments = inertial.perhaps("inertia", *MOMENTS, *SAME_MOMENT)
+    if moments is None:
+        return mass, com, np.zeros((3, 3)), NO_INERTIA, 0.0
+    xx, yy, zz, xy, xz, yz = (moments.number(name) for name in MOMENTS)
     for twin, name in SAME_MOMENT.items():
         moment = moments.number(name)
         if moments.number(twin, moment) != moment:
@@ -387,6 +401,10 @@ def _followers(joints: list[FileJoint], notes: list[str]) -> list[FileJoint]:
     return followers
 
 
+_ENDLESS = ("continuous", "ball")
+"""Types of joints whose positions have no bounds."""
+
+
 def _check_limit(joint: Tag, notes: list[str], needed: bool, bounded: bool) -> bool:
     """Limits are no part of the model, but urdfdom refuses a joint without good ones."""
     limit = joint.perhaps("limit")
@@ -398,6 +416,8 @@ def _check_limit(joint: Tag, notes: list[str], needed: bool, bounded: bool) -> b
         for name in ("effort", "velocity", "lower", "upper"):
             limit.number(name, None if needed and name[0] in "ev" else 0.0, most=np.inf)
         bounds = limit.position_limits()
+        if bounds is not None and joint.text("type") in _ENDLESS:
+            joint.unread.append(f"{limit.where}.bounds")
         missing = [name for name in ("lower", "upper") if name not in limit.element.attrib]
         if bounded and bounds is None:
             notes.append(f"{limit.where}: has no bounds, and limits no position")

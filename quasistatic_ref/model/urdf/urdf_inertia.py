@@ -15,6 +15,7 @@ import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.urdf.urdf_file import (
+    NO_INERTIA,
     Defect,
     FileLink,
     UrdfFile,
@@ -64,6 +65,10 @@ def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> 
                     "actuator at that joint (actuated)"
                 )
                 raise ModelError(problem, field=f"link[{first}].inertial")
+            if NO_INERTIA in (link.defect for link in links):
+                name = next(link.name for link in links if link.defect == NO_INERTIA)
+                problem = f"is missing, but {mover[first]} moves this link, whose mass needs it"
+                raise ModelError(problem, field=f"link[{name}].inertial.inertia")
             defect = inertia_defect(_welded(heavy, poses).inertia, max(x.digit for x in links))
             if defect is not None:
                 name, (field, problem, value) = defects[0] if defects else (first, defect)

@@ -14,10 +14,9 @@ from quasistatic_ref.model.readers.mesh_files import (
     hull_note,
     hull_of_loaded,
     loaded_mesh,
-    mesh_path,
 )
 from quasistatic_ref.model.readers.xml_text import xml_root
-from quasistatic_ref.model.urdf.urdf_file import FileMesh, UrdfFile, written_shape
+from quasistatic_ref.model.urdf.urdf_file import MOMENTS, FileMesh, UrdfFile, written_shape
 from quasistatic_ref.model.urdf.urdf_xml import Tag
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import Capsule, PlacedShape, Sphere
@@ -69,6 +68,9 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
             limit.set("effort", limit.get("effort", "0"))
             limit.set("velocity", limit.get("velocity", "0"))
     for link in robot.findall("link"):
+        for inertial in link.findall("inertial"):
+            if inertial.find("inertia") is None:
+                SubElement(inertial, "inertia", dict.fromkeys(MOMENTS, "0"))
         for collision in link.findall("collision"):
             if written_shape(Tag(collision, "collision"), []) is None:
                 link.remove(collision)
@@ -76,7 +78,7 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
             for mesh in collision.findall("geometry/mesh"):
                 with about_field(f"link[{link.get('name')}].collision[{count}].mesh.filename"):
                     uri = mesh.get("filename", "")
-                    mesh.set("filename", str(mesh_path(uri, file.path.parent, package_dirs)))
+                    mesh.set("filename", str(file.mesh_path(uri, package_dirs)))
     return tostring(robot, encoding="unicode")
 
 
@@ -134,7 +136,7 @@ def checked_shapes(
                 name = written.name
             if isinstance(shape, FileMesh):
                 with about_field(f"{where}[{count}].mesh"):
-                    path = mesh_path(shape.uri, file.path.parent, package_dirs)
+                    path = file.mesh_path(shape.uri, package_dirs)
                     mesh = once(("mesh", path), partial(loaded_mesh, path))
                 if not len(mesh.vertices):
                     notes.append(f"{name}: left out, since {shape.uri} is empty")

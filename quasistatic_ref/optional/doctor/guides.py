@@ -86,10 +86,11 @@ def guides(start: Start, contacts: Contacts) -> Iterator[Guide]:
             share = _squeeze(
                 signed[0, of_guide] / np.where(reach > 0, reach, 1.0), sides, w, clearance[of_guide]
             )
-            if share is None:
+            moved = slides[of_guide].any(axis=0)
+            if share is None or not moved.any():
                 continue
             together = float(share @ clearance[of_guide]), float(share @ mu_v[of_guide])
-            yield Guide(tuple(of_guide.tolist()), slides[of_guide].any(axis=0), *together, False)
+            yield Guide(tuple(of_guide.tolist()), moved, *together, False)
 
 
 def _between(n: Array, contacts: Indices) -> Iterator[tuple[tuple[Indices, ...], Array]]:

@@ -12,6 +12,10 @@ from quasistatic_ref.optional.doctor.telling import amount
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import BEYOND, IN_METRES
 
+SHARE = 1e-3
+"""Of the way between a joint's limits, by which it may be beyond one [-]."""
+MOST = {"m": 1e-4, "rad": 1e-3}
+"""And the most that this may be [m, rad]."""
 GROSS = 100.0
 """Force over effort that is grave [-]; an effort of 1, which many URDFs have for want of a number,
 is asked no sooner."""
@@ -24,7 +28,7 @@ def beyond_limits(run: Run) -> Iterator[Finding]:
             continue
         target, limit, k = _farthest(joint, run["q_bar_a"])
         far = unit == "m" and abs(target) > IN_METRES  # its unit is doubted already
-        if abs(target - limit) > BEYOND and not far:
+        if abs(target - limit) > _allowed(joint) and not far:
             yield Finding(
                 "target beyond a limit",
                 True,
@@ -54,9 +58,9 @@ def joints_beyond(run: Run) -> Iterator[Finding]:
         position, limit, k = _farthest(joint, run["q"])
         if joint.actuated:
             target, end, _ = _farthest(joint, run["q_bar_a"])
-            if abs(target - end) > BEYOND:
+            if abs(target - end) > _allowed(joint):
                 continue  # its target is said
-        if abs(position - limit) > BEYOND:
+        if abs(position - limit) > _allowed(joint):
             body = joint.name.partition("/")[0]
             yield Finding(
                 "joint beyond a limit",
@@ -98,6 +102,13 @@ def _limited(run: Run) -> Iterator[tuple[Joint, str]]:
     for joint in run.system.joints:
         if joint.limits is not None and joint.v.start not in run.bounded:
             yield joint, joint.coordinates[0].unit
+
+
+def _allowed(joint: Joint) -> float:
+    """How far it may be beyond a limit unsaid: springs give way [m, rad]."""
+    assert joint.limits is not None
+    lower, upper = joint.limits
+    return max(BEYOND, min(SHARE * (upper - lower), MOST[joint.coordinates[0].unit]))
 
 
 def _farthest(joint: Joint, q: Array) -> tuple[float, float, int]:

@@ -13,7 +13,7 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.extensions.extension import Extension, ExtensionOfQ, Rises
 from quasistatic_ref.optional.extensions.rises import private_rises, urdf_friction
-from quasistatic_ref.optional.extensions.stops import JointLimits, urdf_limits
+from quasistatic_ref.optional.extensions.stops import JointLimits, stops_of, urdf_limits
 from quasistatic_ref.scenario.bodies import BodyEntry
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.scenario_table import SUPPORT, URDF, value
@@ -80,7 +80,10 @@ def of_scenario(
     InputError
         Naming the field.
     """
-    limits = urdf_limits(system, [name for name, e in entries.items() if e.joint_limits])
+    ends = urdf_limits(system, [name for name, e in entries.items() if e.joint_limits == URDF])
+    for entry in entries.values():
+        ends |= joint_limits(system, entry)
+    limits = stops_of(system, ends)
     limits.check_start(system.q_start)
     friction: dict[str, float] = {}
     for entry in entries.values():
@@ -90,6 +93,32 @@ def of_scenario(
         system, pairs, h=h, K_q=K_q, gravity=gravity, friction=friction, support=support
     )
     return pairs, OfScenario(rises, limits)
+
+
+def joint_limits(system: System, entry: BodyEntry) -> dict[str, tuple[float, float]]:
+    """Least and greatest positions that a body's table gives, by the names of joints [m, rad].
+
+    Raises
+    ------
+    ScenarioError
+        If a joint is unknown or has no position of one number, or the first is above the second.
+    """
+    table = {} if entry.joint_limits in (None, URDF) else entry.joint_limits
+    fields = TableReader(table, entry.table.name("joint_limits"), ScenarioError)
+    joints = {
+        entry.short(joint): joint
+        for joint in system.joints
+        if joint.name.startswith(f"{entry.body.name}/") and len(joint.positions) == 1
+    }
+    fields.only(joints)
+    limits = {}
+    for name in fields.names_left():
+        lower, upper = fields.array(name, (2,)).tolist()
+        if lower > upper:
+            problem = "must be a least position, and then a greatest one"
+            raise fields.error_about(name, problem, [lower, upper])
+        limits[joints[name].name] = lower, upper
+    return limits
 
 
 def joint_friction(system: System, entry: BodyEntry) -> dict[str, float]:

@@ -1,6 +1,6 @@
 """Stops at joint limits: rows of a step, certified as any others, whose multipliers are forces."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -69,8 +69,8 @@ class JointLimits(Plain):
             raise InputError(problem, field=self.names[i], value=float(at[i]))
 
 
-def urdf_limits(system: System, bodies: Collection[str]) -> JointLimits:
-    """What ``<limit>`` says of the joints of some bodies.
+def urdf_limits(system: System, bodies: Collection[str]) -> dict[str, tuple[float, float]]:
+    """What ``<limit>`` says of the joints of some bodies, by their names [m, rad].
 
     A joint that mimics another limits that one: multiplier * q + offset stays within its limits.
     Where both bounds are missing there is none, where one is missing it is 0; bounds that are both
@@ -105,6 +105,18 @@ def urdf_limits(system: System, bodies: Collection[str]) -> JointLimits:
         if low > high:
             problem = "has no position within its limits and those of the joints that mimic it"
             raise InputError(problem, field=name, value=[low, high])
+    return limits
+
+
+def stops_of(system: System, limits: Mapping[str, tuple[float, float]]) -> JointLimits:
+    """Stops of joints.
+
+    Parameters
+    ----------
+    system : System
+    limits : mapping of str to (float, float)
+        Name of a joint -> its least and greatest position [m, rad].
+    """
     joints = {joint.name: joint for joint in system.joints}
     limited = [joints[name] for name in limits]
     return JointLimits(

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from quasistatic_ref import Body, ModelError, System
+from quasistatic_ref import Body, ModelError, System, load_scenario
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.readers import placed_meshes, text
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_hull, mesh_path
@@ -67,6 +67,36 @@ def test_a_package_address_is_looked_for_above_the_file(tmp_path, place):
     (tmp_path / place).unlink()
     with pytest.raises(ModelError, match="no such file"):  # nothing outside of the repository
         mesh_path("package://arm/meshes/a.obj", urdf)
+
+
+@pytest.mark.parametrize(("uri", "place", "mark"), [
+    ("../meshes/a.obj", "arm/meshes/a.obj", None),
+    ("../../meshes/a.obj", "meshes/a.obj", "package.xml"),
+    ("../../other/meshes/a.obj", "other/meshes/a.obj", ".git"),
+])  # fmt: skip
+def test_a_relative_path_leads_anywhere_in_its_package(tmp_path, uri, place, mark):
+    urdf = tmp_path / "arm" / "urdf"
+    urdf.mkdir(parents=True)
+    (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
+    mesh = urdf_of_text((tmp_path / place).parent, TETRAHEDRON, "a.obj")
+    if mark is not None:
+        with pytest.raises(ModelError, match="outside the folder of this file"):
+            mesh_path(uri, urdf)
+        (tmp_path / mark).touch()
+    assert mesh_path(uri, urdf) == mesh.resolve()
+    with pytest.raises(ModelError, match="outside the folder of this file"):
+        mesh_path(uri, urdf, is_of_file=False)
+
+
+def test_a_relative_path_leads_anywhere_in_the_folder_of_its_scenario(tmp_path):
+    (tmp_path / "robots" / "urdf").mkdir(parents=True)
+    urdf_of_text(tmp_path, TETRAHEDRON, "a.obj")
+    mesh = collision('<mesh filename="../../a.obj"/>')
+    urdf_of_text(tmp_path / "robots" / "urdf", robot(link("a", mesh)))
+    scene = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
+    scene += '[bodies.r]\nurdf = "robots/urdf/r.urdf"\nbase = "floating"\n'
+    (shape,) = load_scenario(urdf_of_text(tmp_path, scene, "s.toml")).system.shapes
+    assert_within(shape.shape.volume, 1 / 6, CLOSED_FORM)
 
 
 OUTSIDE = {

@@ -20,6 +20,26 @@ def loaded(folder, text, **more):
     return loaded_urdf(urdf_of_text(folder, text), actuated="all", **more)
 
 
+BARE = '<inertial><mass value="1.0"/></inertial>'
+
+
+def test_a_mass_without_inertia_loads_where_nothing_needs_it_and_is_noted(tmp_path):
+    """In a fixed base, or what an actuator moves; it counts as a weight."""
+    links = LINKS.replace('<link name="a"/>', link("a", inertial=BARE))
+    links = links.replace('<link name="b"/>', link("b", inertial=BARE))
+    urdf = loaded(tmp_path, f'<robot name="r">{links}{J}{K}</robot>')
+    said = [f"link[{name}].inertial.inertia: is missing; accepted, because no un-actuated joint "
+            "moves this link" for name in "ab"]  # fmt: skip
+    assert [note for note in urdf.notes if "inertial" in note] == said
+    assert urdf.model.inertias[1].mass == 1.0
+    with pytest.raises(ModelError, match=r"link\[b\].inertial.inertia: is missing, but joint"):
+        loaded_urdf(urdf_of_text(tmp_path, f'<robot name="r">{links}{J}{K}</robot>'))
+    welded = links + link("d")
+    weld = '<joint name="w" type="fixed"><parent link="b"/><child link="d"/></joint>'
+    with pytest.raises(ModelError, match=r"link\[b\].inertial.inertia: is missing"):
+        loaded_urdf(urdf_of_text(tmp_path, f'<robot name="r">{welded}{J}{K}{weld}</robot>'))
+
+
 @pytest.mark.parametrize("last", [K, MIMIC], ids=["alone", "mimic"])
 @pytest.mark.parametrize(
     ("attributes", "more"),

@@ -55,6 +55,20 @@ def test_a_slack_rope_holds_nothing():
     assert "lamp" in in_the_air(ROPE, hook=0.5)
 
 
+def test_rails_inside_of_what_they_should_guide_are_penetration():
+    """The cart and pole of others: their box, 0.4 x 0.3 x 0.2 m, is around the rails."""
+    rail = '<geom name="{0}" type="capsule" pos="0 {1} 1" zaxis="1 0 0" size="0.02 2"/>'
+    cart = '<body pos="0 0 1"><joint type="slide" axis="1 0 0"/>'
+    cart += '<geom type="box" size="0.2 0.15 0.1" mass="1"/></body>'
+    rails = rail.format("one", 0.07) + rail.format("two", -0.07)
+    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{rails}{cart}</worldbody></mujoco>")
+    scenario = qr.mujoco_scenario(model, h=0.01, settings=("steps=1",))
+    with pytest.raises(qr.RunFailed) as failed:
+        scenario.run(progress=False)
+    deep = [one for one in failed.value.trajectory.findings if "deep at the start" in one.cause]
+    assert len(deep) == 2
+
+
 SLIDE = """<body name="arm" pos="0 0 0.5"><joint name="arm" type="slide" axis="0 0 1"/>
 <geom name="arm" type="box" size="0.02 0.02 0.02" mass="0.1"/></body>"""
 BOX = """<body name="box" pos="0 0 {z}"><freejoint/>

@@ -6,7 +6,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.extensions.extension import Extension
-from quasistatic_ref.optional.extensions.stops import urdf_limits
+from quasistatic_ref.optional.extensions.stops import stops_of, urdf_limits
 from tests.closeness import assert_relative, assert_within
 from tests.model.urdf.urdf_texts import joint, link, mimic, robot
 from tests.tolerances import ROUNDING
@@ -72,6 +72,40 @@ def test_the_account_of_a_run_has_the_force_of_a_stop():
     assert_relative(run.account().numbers["stops"][stop.name]["largest_force"], 20.0, ROUNDING)
 
 
+def test_a_table_by_joint_takes_the_place_of_the_file():
+    """The drawer may go to 2 mm by its file, and to 1.5 mm here; at least and most 0 hold it."""
+    for ends, end in (([-0.001, 0.0015], 0.0015), ([0, 0], 0.0)):
+        run = pushed_drawer(qr.load_scenario(scene(drawer(), {"slide": ends})), 50.0, 4)
+        assert run["q"][-1, 0] == end
+        assert not [one for one in run.findings if "limit" in one.name]
+
+
+@pytest.mark.parametrize(("table", "words"), [
+    ({"slid": [0, 1]}, r"bodies.c.joint_limits.slid: is unknown; did you mean 'slide'"),
+    ({"slide": [1, 0]}, r"joint_limits.slide: must be a least position, and then a greatest one"),
+    ({"slide": 1}, r"joint_limits.slide: must be 2 numbers"),
+    ("file", r"bodies.c.joint_limits: must be a table of named fields"),
+])  # fmt: skip
+def test_a_table_of_limits_that_means_nothing_is_refused(table, words):
+    with pytest.raises(InputError, match=words):
+        qr.load_scenario(scene(drawer(), table))
+
+
+@pytest.mark.parametrize(("lower", "upper", "beyond", "found"), [
+    (0, 0.5, 9e-5, False), (0, 0.5, 1.1e-4, True),
+    (0, 0.02, 1.9e-5, False), (0, 0.02, 2.1e-5, True), (0, 0, 1e-5, True),
+])  # fmt: skip
+def test_a_joint_may_be_beyond_its_limit_by_little(lower, upper, beyond, found):
+    """By a thousandth of its way, and 0.1 mm at most; so may its target."""
+    text = drawer(lower, upper)
+    moved = pushed_drawer(qr.load_scenario(scene(text, None)), -beyond * M / H**2, 1)
+    targets = [{"t": 0, "slide": -beyond}]
+    fields = {"actuated": ["slide"], "K_q": {"slide": 100.0}, "targets": targets}
+    aimed = qr.load_scenario(scene(text, None, **fields)).run(progress=False)
+    for run, name in ((moved, "joint beyond a limit"), (aimed, "target beyond a limit")):
+        assert any(one.name == name for one in run.findings) == found
+
+
 @pytest.mark.parametrize("start", [0.0, 0.005])
 def test_an_actuated_joint_presses_against_its_stop(start):
     """Its spring of 100 N/m towards 5 mm bears 100 N/m (5 mm - 2 mm) = 0.3 N on the stop.
@@ -92,7 +126,7 @@ def test_a_joint_that_follows_limits_its_leader(multiplier, offset):
     follower = joint_with_limits(-0.001, 0.002, mimic("slide", multiplier, offset), "under")
     text = drawer(-0.001, 0.002, link("lower"), follower.replace('"drawer"', '"lower"'))
     system = qr.load_scenario(scene(text)).system
-    found = urdf_limits(system, ["c"])
+    found = stops_of(system, urdf_limits(system, ["c"]))
     ends = sorted((end - offset) / multiplier for end in (-0.001, 0.002))
     assert found.names == ("c/slide",)
     expected = max(ends[0], -0.001), min(ends[1], 0.002)
@@ -128,7 +162,7 @@ def test_limits_that_cannot_stop_a_joint_are_refused_by_its_name(urdf, words):
 def test_a_follower_that_stands_still_within_its_limits_and_a_wheel_limit_nothing():
     wheel = link("rim") + joint("wheel", "cabinet", "rim", "continuous", "1 0 0")
     inside = SLOW.replace('offset="5"', 'offset="0.5"').replace("</robot>", wheel + "</robot>")
-    assert urdf_limits(qr.load_scenario(scene(inside)).system, ["c"]).names == ("c/slide",)
+    assert [*urdf_limits(qr.load_scenario(scene(inside)).system, ["c"])] == ["c/slide"]
 
 
 BOUNDS = {
@@ -144,8 +178,7 @@ BOUNDS = {
 def test_bounds_that_are_missing_and_bounds_of_zero(written, expected, note):
     text = drawer().replace('lower="-0.001" upper="0.002" ', written)
     system = qr.load_scenario(scene(text)).system
-    limits = urdf_limits(system, ["c"])
-    assert [*zip(limits.lower, limits.upper, strict=True)] == ([expected] if expected else [])
+    assert [*urdf_limits(system, ["c"]).values()] == ([expected] if expected else [])
     notes = [f"c: joint[slide].limit: {note}"] if note else []
     assert [each for each in system.notes if "limit" in each] == notes
     assert system.joints[0].limits == expected

@@ -10,11 +10,12 @@ from matplotlib.colors import to_hex
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_path
+from quasistatic_ref.model.readers.mesh_files import loaded_mesh
 from quasistatic_ref.model.readers.xml_text import xml_root
 from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf.urdf_file import (
     FileMesh,
+    UrdfFile,
     urdf_file,
     written_shape,
 )
@@ -68,7 +69,7 @@ def _of_body(body: Body, system: System, body_colour: str) -> Iterator[Visual]:
                 if shape is None:
                     continue
                 R, t = visual.frame()
-                corners = _corners(shape, file.path.parent, body.package_dirs)
+                corners = _corners(shape, file, body.package_dirs)
             except ModelError:
                 continue
             colour = _colour(element, named) or body_colour
@@ -76,11 +77,11 @@ def _of_body(body: Body, system: System, body_colour: str) -> Iterator[Visual]:
             yield Visual(number, corners @ R.T + t, colour)
 
 
-def _corners(shape: Shape | FileMesh, folder: Path, package_dirs: Sequence[str | Path]) -> Array:
+def _corners(shape: Shape | FileMesh, file: UrdfFile, package_dirs: Sequence[str | Path]) -> Array:
     """Triangles as triples of points, shape (3T, 3) [m]."""
     if not isinstance(shape, FileMesh):
         return triangles(surface_points(shape, AROUND, UP))
-    mesh = loaded_mesh(mesh_path(shape.uri, folder, package_dirs))
+    mesh = loaded_mesh(file.mesh_path(shape.uri, package_dirs))
     return np.asarray((mesh.vertices * shape.scale)[mesh.triangles.ravel()])
 
 
