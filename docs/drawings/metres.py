@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.lab.figures.labels import label_axes, legend_below
-from quasistatic_ref.lab.figures.line_styles import COLOURS, MARKS
+from quasistatic_ref.lab.figures.line_styles import MARKS
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -28,6 +28,7 @@ STEP = 11
 LEAST = 1e-16
 """Errors that are drawn as this one: float64 has no more digits."""
 UNITS = ("metres", "natural units")
+FACES = ("0.3", "white")
 
 
 @cache
@@ -67,8 +68,8 @@ def figure(*, scenes: Sequence[str] = SCENES, solvers: Sequence[str] = SOLVERS) 
         for k, unit in enumerate(UNITS):
             axes.plot(
                 x + 0.2 * (j - 1), each[:, k], linestyle="none", marker=MARKS[j],
-                markersize=scaled(5.5), color=COLOURS[k], markeredgecolor="black",
-                markeredgewidth=0.5, label=f"{scene}, {unit}",
+                markersize=scaled(5.5), markerfacecolor=FACES[k], markeredgecolor="black",
+                markeredgewidth=scaled(0.8), label=f"{scene}, {unit}",
             )  # fmt: skip
     axes.set_yscale("log")
     axes.set_xticks(x, solvers)

@@ -21,6 +21,8 @@ MOST: Final = 8
 """Most lines of a panel: those that reach farthest."""
 HEIGHTS: Final = {"touches": 0.3, "slides": 0.6, "spins": 0.8}
 """Of bars, over the height of a pair's row [-]."""
+COLOURS: Final = {"touches": "0.75", "slides": "C1", "spins": "black"}
+"""They differ in grey, too."""
 
 
 def page(account: Account) -> bytes:
@@ -79,12 +81,14 @@ def figure(account: Account) -> Figure:
 
 def _contacts(axes: Axes, account: Account) -> None:
     """A row a pair: a thin bar while it touches, thicker ones while it slides or spins."""
-    for i, (word, height) in reversed(list(enumerate(HEIGHTS.items()))):
+    for word, height in reversed(HEIGHTS.items()):
         for row, pair in enumerate(account.pairs):
             starts = account.t[getattr(pair, word)] - account.h
             parts = [(start, account.h) for start in starts]
             label = word if row == 0 else None
-            axes.broken_barh(parts, (row - height / 2, height), color=f"C{i}", lw=0, label=label)
+            axes.broken_barh(
+                parts, (row - height / 2, height), color=COLOURS[word], lw=0, label=label
+            )
     axes.set_yticks(range(len(account.pairs)), [pair.name for pair in account.pairs])
     axes.tick_params(axis="y", labelsize="x-small")
     axes.set_ylim(len(account.pairs) - 0.5, -0.5)
