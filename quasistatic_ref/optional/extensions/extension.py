@@ -93,6 +93,9 @@ class Rises(Plain):
             array = checked_array(getattr(self, name), f"rises.{name}", (p,))
             object.__setattr__(self, name, array)
         freeze_copies(self, "coordinates", "contacts")
+        if not (self.masses > 0).all():
+            problem = "must be greater than 0"
+            raise StepDataError(problem, field="rises.masses", value=self.masses.tolist())
         if (self.loads < 0).any():
             problem = "must be >= 0: friction holds, it does not push"
             raise StepDataError(problem, field="rises.loads", value=self.loads.tolist())

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.step.data import Extra, StepData
@@ -9,13 +10,20 @@ from quasistatic_ref.step.data import Extra, StepData
 
 def with_numbers(step: StepData, extension: Extension) -> StepData:
     """A step with the rows and the private rises of an extension."""
-    if extension.rows is not None:
-        step = step.replace(extra=joined(step.extra, extension.rows))
+    rows = extension.rows
+    if rows is not None:
+        extra = joined(step.extra, rows)
+        if rows.cost is not None or extra.A.shape[1] != step.n_v:
+            step = step.replace(extra=extra)  # which has to fit
+        else:
+            step = StepData.unchecked(**(field_values(step) | {"extra": extra}))
     return with_rises(step, extension.rises)
 
 
 def joined(first: Extra, second: Extra) -> Extra:
     """The rows of the one, then those of the other, and the sum of their costs."""
+    if first.empty:
+        return second
     names = first.names + second.names
     A = np.vstack([first.A, second.A])
     b = np.concatenate([first.b, second.b])

@@ -1,19 +1,19 @@
 """Friction of coordinates, and of a planar base on its floor, by private rises of a step, (R40)."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.model.system import System
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.optional.extensions.extension import Rises
 from quasistatic_ref.optional.extensions.urdf_joints import urdf_joints
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.tolerances import LIGHT
 
@@ -28,28 +28,39 @@ def with_rises(step: StepData, rises: Rises) -> StepData:
     if not p:
         return step
     n_v = step.n_v
+    n_u = step.n_u
     contacts = step.contacts
     columns = np.arange(n_v, n_v + p)
-    J = np.pad(contacts.J, ((0, 0), (0, 0), (0, p)))
+    J = _wider(contacts.J, p)
     J[rises.contacts, :3, columns[c:]] = contacts.n[rises.contacts]
     rows = np.zeros((2, c, n_v + p))
     rows[:, np.arange(c), columns[:c]] = 1.0
     rows[:, np.arange(c), rises.coordinates] = np.array(WAYS)[:, None]
+    M_u = np.zeros((n_u + p, n_u + p))
+    M_u[:n_u, :n_u] = step.M_u
+    M_u[range(n_u, n_u + p), range(n_u, n_u + p)] = rises.masses
     extra = step.extra
     H, g = extra.cost or (None, None)
     names = tuple(f"rise {way} delta_q[{i}]" for way in "+-" for i in rises.coordinates)
-    return step.replace(
-        M_u=block_diag(step.M_u, np.diag(rises.masses)),
-        tau_u=np.concatenate([step.tau_u, -rises.loads]),
-        contacts=replace(contacts, J=J),
-        extra=Extra(
+    # What is added is right by construction; the rest is that of a step.
+    of_step = {
+        "M_u": read_only(M_u),
+        "tau_u": read_only(np.concatenate([step.tau_u, -rises.loads])),
+        "contacts": Contacts.unchecked(**(field_values(contacts) | {"J": read_only(J)})),
+        "extra": Extra(
             extra.names + names,
-            np.concatenate([np.pad(extra.A, ((0, 0), (0, p))), *rows]),
+            np.concatenate([_wider(extra.A, p), *rows]),
             np.concatenate([extra.b, np.zeros(2 * c)]),
             H=None if H is None else np.pad(H, (0, p)),
             g=None if g is None else np.pad(g, (0, p)),
         ),
-    )
+    }
+    return StepData.unchecked(**(field_values(step) | of_step))
+
+
+def _wider(array: Array, p: int) -> Array:
+    """The same with p columns of zeros more."""
+    return np.concatenate([array, np.zeros((*array.shape[:-1], p))], axis=-1)
 
 
 def private_rises(

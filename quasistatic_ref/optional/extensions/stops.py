@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -49,14 +50,19 @@ class JointLimits(Plain):
 
         The multiplier of a row over h is the force of its stop [N, N m].
         """
+        at = q[self.places]
+        b = np.concatenate([self.lower - at, at - self.upper])
+        return Extra(*self._of_every_q, b)
+
+    @cached_property
+    def _of_every_q(self) -> tuple[tuple[str, ...], Array]:
+        """Names and A of the stops, whatever q is."""
         c = len(self)
         A = np.zeros((2, c, self.n_v))
         A[0, np.arange(c), self.coordinates] = 1.0
         A[1, np.arange(c), self.coordinates] = -1.0
-        at = q[self.places]
         names = [f"{name} at its {end} limit" for end in ("lower", "upper") for name in self.names]
-        b = np.concatenate([self.lower - at, at - self.upper])
-        return Extra(tuple(names), A.reshape(2 * c, self.n_v), b)
+        return tuple(names), A.reshape(2 * c, self.n_v)
 
     def check_start(self, q: Array) -> None:
         """Check that no joint is beyond its limits at q, shape (n_q,); InputError naming it."""
