@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.contact.batches.batch import Batch
+from quasistatic_ref.contact.batches.boxes import Boxes
 from quasistatic_ref.contact.batches.on_half_space import OnHalfSpaces
 from quasistatic_ref.contact.batches.spheres import Spheres
 from quasistatic_ref.contact.distance import ClosestPoints, check_finite, pair_closest_points
@@ -99,6 +100,8 @@ def kind_of(pair: ContactPair) -> Kind | None:
     ball, other = sides[::-1] if ball_last else sides
     if isinstance(ball, Sphere) and isinstance(other, HalfSpace | Rounded) and pair.n_c == 1:
         return Spheres, (ball_last, isinstance(other, HalfSpace))
+    if all(isinstance(side, Box) for side in sides) and pair.n_c > 1:
+        return Boxes, pair.n_c
     plane_first = isinstance(sides[0], HalfSpace)
     plane, solid = sides if plane_first else sides[::-1]
     known = isinstance(plane, HalfSpace) and isinstance(solid, Box | Capsule | ConvexMesh)

@@ -14,7 +14,7 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope
 from quasistatic_ref.contact.tied_faces import TURNED
 from quasistatic_ref.numbers.angles import cos_sin
-from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import Capsule, Cone, Cylinder
@@ -106,7 +106,8 @@ def edges(body: ShapeInWorld, x: Array, n: Array) -> Edges:
         ends, number = line(shape, shape.radius, way)
         total = ROUND
     else:
-        ends, number = _of_polytope(flat, shape.extent, product(body.R.T, x - body.t), way)
+        number = np.flatnonzero(bearing(flat, shape.extent, product(body.R.T, x - body.t), way))
+        ends = flat.vertices[flat.edges[number]]
         total = len(flat.edges)
     return Edges(rotated(body.R, ends) + body.t, number, total)
 
@@ -139,25 +140,48 @@ def line(shape: Revolved, above: float, way: Array) -> tuple[Array, Indices]:
     return ends, np.zeros(1, dtype=np.int64)
 
 
-def _of_polytope(flat: Polytope, extent: float, x: Array, way: Array) -> tuple[Array, Indices]:
-    """The ends of edges (S, 2, 3) [m] of a box or a convex mesh, and their numbers."""
+def bearing(flat: Polytope, extent: float | Array, x: Array, way: Array) -> Mask:
+    """Which edges of a box or a convex mesh may bear, shape (E,); of P stacked ones (P, E).
+
+    Parameters
+    ----------
+    flat : Polytope
+    extent : float or ndarray, shape (P, 1)
+        Of the shape [m].
+    x, way : ndarray, shape (3,) or (P, 3)
+        Its closest point [m] and the pair's normal out of it [-], in its frame.
+    """
+    x = x[..., None, :]
+    way = way[..., None, :]
     on = dot(flat.normals, x) >= flat.offsets - OVER_FACE * extent
     facing = on & (dot(flat.normals, way) >= TURNED)
     level = np.abs(dot(flat.ways, way)) <= EDGE_COSINE * norm(flat.ways)
-    some = facing[flat.sides].any(axis=1) | on[flat.sides].all(axis=1) & level
-    return flat.vertices[flat.edges[some]], np.flatnonzero(some)
+    borne = facing[..., flat.sides].any(axis=-1) | on[..., flat.sides].all(axis=-1) & level
+    return np.asarray(borne)
 
 
 def edge_crossings(on_a: Edges, on_b: Edges, n: Array) -> Crossings:
-    """Crossings of straight curves, seen along the pair's normal n, shape (3,) [-].
-
-    In C: crossings.c.
-    """
+    """Crossings of straight curves, seen along the pair's normal n, shape (3,) [-]."""
     i, j = every(len(on_a.ends), len(on_b.ends))
-    tail = on_a.ends[i, 0]
-    start = on_b.ends[j, 0]
-    u = on_a.ends[i, 1] - tail
-    v = on_b.ends[j, 1] - start
+    crossing, alpha, beta = lines_crossed(on_a.ends[i], on_b.ends[j], n)
+    number = crossing_number(on_a.number[i], on_b.number[j], on_b.total)
+    return Crossings(alpha[crossing], beta[crossing], number[crossing])
+
+
+def lines_crossed(on_a: Array, on_b: Array, n: Array) -> tuple[Mask, Array, Array]:
+    """Whether lines with ends (N, 2, 3) cross, and where on either: of shape (N, 3) [m].
+
+    Parameters
+    ----------
+    on_a, on_b : ndarray, shape (N, 2, 3)
+        [m].
+    n : ndarray, shape (3,) or (N, 3)
+        Along which they are seen [-].
+    """
+    tail = on_a[:, 0]
+    start = on_b[:, 0]
+    u = on_a[:, 1] - tail
+    v = on_b[:, 1] - start
     w = start - tail
     # tail + s u + phi n = start + t v
     steep = dot(crossed(u, v), n)
@@ -166,10 +190,7 @@ def edge_crossings(on_a: Edges, on_b: Edges, n: Array) -> Crossings:
     s = dot(crossed(w, v), n) / steep
     t = dot(crossed(w, u), n) / steep
     crossing &= (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
-    alpha = tail + s[:, None] * u
-    beta = start + t[:, None] * v
-    number = crossing_number(on_a.number[i], on_b.number[j], on_b.total)
-    return Crossings(alpha[crossing], beta[crossing], number[crossing])
+    return crossing, tail + s[:, None] * u, start + t[:, None] * v
 
 
 def crossing_number(first: Indices, second: Indices, count: int) -> Indices:

@@ -40,7 +40,7 @@ from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, finite
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.shapes.placed_shape import PointCloud
-from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, SAME_NORMAL, UPRIGHT
+from quasistatic_ref.tolerances import FILLED, ON_RIM, OVER_FACE, REPEATED, SAME_NORMAL, UPRIGHT
 
 SPANNED: Final = 1e-6
 """How far out of the convex hull of other contacts a closest pair may be, relative to the smaller
@@ -80,7 +80,7 @@ class ClosestPoints(NamedTuple):
         """The same contacts with alpha's and beta's bodies exchanged."""
         return self._replace(alpha=self.beta, beta=self.alpha, n=-self.n)
 
-    def chosen(self, index: Indices) -> "ClosestPoints":
+    def chosen(self, index: Indices | Mask) -> "ClosestPoints":
         """The contacts of an `index` of shape (k,), in its order."""
         return ClosestPoints._make(field[index] for field in self)
 
@@ -356,7 +356,9 @@ def _corners_on_solid(
         return joined_contacts([])
     relative = relative_pose(solid, other)
     x = moved(relative, corners)
-    surface = corner_surface(solid, x, product(solid.R.T, n), rounding(solid, other))
+    within = rounding(solid, other)
+    near = OVER_FACE * solid.shape.extent + within
+    surface = corner_surface(solid.shape, x, product(solid.R.T, n), within, near)
     return _contacts(solid, other, corners, radius, surface)
 
 

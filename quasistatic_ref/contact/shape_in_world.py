@@ -23,6 +23,10 @@ class ShapeInWorld(NamedTuple):
         return self.shape.support_value(product(directions, self.R)) + dot(directions, self.t)
 
 
+Pose = tuple[Array, Array]
+"""R (P, 3, 3) [-] and t (P, 3) [m] of one shape of each of P pairs."""
+
+
 class Witness(NamedTuple):
     """Closest points of two solids, in one frame: beta - alpha = phi n."""
 
@@ -34,6 +38,15 @@ class Witness(NamedTuple):
     def swapped(self) -> "Witness":
         """The same with alpha and beta exchanged."""
         return Witness(self.phi, self.beta, self.alpha, -self.n)
+
+
+class Witnesses(NamedTuple):
+    """The same of P pairs, with fields of shape (P, ...)."""
+
+    phi: Array
+    alpha: Array
+    beta: Array
+    n: Array
 
 
 def moved(pose: Array, points: Array) -> Array:

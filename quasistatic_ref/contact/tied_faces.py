@@ -27,7 +27,7 @@ from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import dot, product
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud, Shape
 from quasistatic_ref.shapes.shape import CHUNK
-from quasistatic_ref.tolerances import FACING, OVER_FACE, SAME_NORMAL
+from quasistatic_ref.tolerances import FACING, SAME_NORMAL
 
 TURNED = cos_sin(FACING)[0]
 """Least cosine of the angle between the pair's normal and that of a face or corner that bears."""
@@ -51,7 +51,7 @@ class Surface(NamedTuple):
     tie: Indices
 
 
-def faces_apart(heights: Array, normals: Array, within: float) -> tuple[Indices, Mask]:
+def faces_apart(heights: Array, normals: Array, within: float | Array) -> tuple[Indices, Mask]:
     """The highest face of each point, and those of another normal that are as high.
 
     Parameters
@@ -60,7 +60,7 @@ def faces_apart(heights: Array, normals: Array, within: float) -> tuple[Indices,
         As of :meth:`~quasistatic_ref.shapes.shape.Shape.faces`, F > 0 [m].
     normals : ndarray, shape (N, F, 3)
         [-].
-    within : float
+    within : float or ndarray, shape (N,)
         Largest difference of heights that are equal [m].
 
     Returns
@@ -75,65 +75,73 @@ def faces_apart(heights: Array, normals: Array, within: float) -> tuple[Indices,
     return highest, level & (away > SAME_NORMAL)
 
 
-def corner_surface(solid: ShapeInWorld, x: Array, n: Array, within: float) -> Surface:
+def corner_surface(
+    shape: Shape, x: Array, n: Array, within: float | Array, near: float | Array
+) -> Surface:
     """What corners of another solid have on a solid.
 
     Parameters
     ----------
-    solid : ShapeInWorld
+    shape : Shape
     x : ndarray, shape (N, 3)
         In its frame [m].
-    n : ndarray, shape (3,)
+    n : ndarray, shape (3,) or (N, 3)
         The pair's normal out of the solid, in its frame [-].
-    within : float
-        What is rounding [m].
+    within, near : float or ndarray, shape (N,)
+        What is rounding, and how far above a face a corner is over it [m].
     """
-    shape = solid.shape
     phi, normal = shape.signed_distance(x)
     tie = np.full(len(x), UNIQUE_NORMAL)
     if isinstance(shape, HalfSpace):
         return Surface(phi, normal, tie)
     # Another corner is outside, and nearest to a face that faces n: nothing else to choose.
-    near = OVER_FACE * shape.extent + within
+    within = np.broadcast_to(within, len(x))
+    near = np.broadcast_to(near, len(x))
     undecided = np.flatnonzero((phi <= near) | (dot(normal, n) < TURNED))
+    reach = np.broadcast_to(shape.support_value(np.atleast_2d(n)), len(x))
+    n = np.broadcast_to(n, x.shape)
     phi = phi.copy()
     before = normal
     normal = normal.copy()
-    block = max(1, CHUNK // max(1, shape.faces(x[:1])[0].size))
+    block = max(1, CHUNK // max(1, shape.at_points(slice(1)).faces(x[:1])[0].size))
     for start in range(0, len(undecided), block):
         some = undecided[start : start + block]
-        over, phi[some], normal[some] = _facing(shape, x[some], n, phi[some], normal[some], within)
+        known = phi[some], normal[some]
+        there = shape.at_points(some)
+        over, phi[some], normal[some] = _facing(
+            there, x[some], n[some], *known, within[some], near[some]
+        )
         edge = some[~over]
-        gap = dot(x[edge], n) - shape.support_value(n[None])
-        on_edge = _over(shape, x[edge], gap, np.broadcast_to(n, (len(edge), 3)), near)
+        gap = dot(x[edge], n[edge]) - reach[edge]
+        on_edge = _over(shape.at_points(edge), x[edge], gap, n[edge], near[edge])
         phi[edge[on_edge]] = gap[on_edge]
-        normal[edge[on_edge]] = n
+        normal[edge[on_edge]] = n[edge[on_edge]]
     tie[dot(before, normal) < 1 - SAME_NORMAL] = OF_PAIR
     return Surface(phi, normal, tie)
 
 
 def _facing(
-    shape: Shape, x: Array, n: Array, phi: Array, normal: Array, within: float
+    shape: Shape, x: Array, n: Array, phi: Array, normal: Array, within: Array, near: Array
 ) -> tuple[Mask, Array, Array]:
     """Which points are over a face that faces n, and what they have then; others as they were."""
     heights, normals = shape.faces(x)
     if not heights.size:
         return np.zeros(len(x), dtype=bool), phi, normal
-    heights = np.where(dot(normals, n) >= TURNED, heights, -np.inf)
+    heights = np.where(dot(normals, n[:, None]) >= TURNED, heights, -np.inf)
     face, rivals = faces_apart(heights, normals, within)
     chosen = np.arange(len(x)), face
     height = heights[chosen]
     facing = normals[chosen]
-    over = _over(shape, x, height, facing, OVER_FACE * shape.extent + within) & ~rivals.any(axis=1)
+    over = _over(shape, x, height, facing, near) & ~rivals.any(axis=1)
     return over, np.where(over, height, phi), np.where(over[:, None], facing, normal)
 
 
-def _over(shape: Shape, x: Array, height: Array, normal: Array, near: float) -> Mask:
+def _over(shape: Shape, x: Array, height: Array, normal: Array, near: Array) -> Mask:
     """Whether points are not above a plane, and their feet on it are on the shape."""
     over = (height <= near) & np.isfinite(height)
     if over.any():
         foot = x[over] - height[over, None] * normal[over]
-        over[over] = shape.signed_distance(foot)[0] <= near
+        over[over] = shape.at_points(over).signed_distance(foot)[0] <= near[over]
     return over
 
 

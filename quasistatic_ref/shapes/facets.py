@@ -66,7 +66,7 @@ class Facets:
         return np.asarray(over.max(axis=0) - self.margin(points))
 
     def above_faces(self, points: Array) -> Array:
-        """A better one, by the planes of all faces: inside, the distance itself less the margin."""
+        """A better one, shape (N,), by the planes of all faces: of `points` inside nearly exact."""
         blocks = np.array_split(points, 1 + len(points) * len(self.normals) // CHUNK)
         above = [(product(some, self.normals.T) - self.offsets).max(axis=1) for some in blocks]
         return np.concatenate(above) - self.margin(points)

@@ -1,6 +1,7 @@
 """The questions that every shape answers, in its own frame; by default a shape refuses them."""
 
 from functools import cached_property
+from typing import Self
 
 import coal
 import numpy as np
@@ -8,7 +9,7 @@ from coal import CollisionGeometry
 
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 
 AXES = np.concatenate([np.eye(3), -np.eye(3)])
 CHUNK = 1 << 17
@@ -31,7 +32,7 @@ class Shape(Plain):
         raise self.lacks("has no coal object")
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
-        """Signed distance and outward normal of points. In C: solid.h.
+        """Signed distance and outward normal of points.
 
         Parameters
         ----------
@@ -53,6 +54,10 @@ class Shape(Plain):
             If the shape is not solid.
         """
         raise self.lacks("a cloud touches solid shapes only")
+
+    def at_points(self, some: Indices | Mask | slice) -> Self:
+        """The same for `some` of the points: a shape is one for all of them."""
+        return self
 
     def faces(self, points: Array) -> tuple[Array, Array]:
         """Heights of points above each face, and the faces' outward normals there.

@@ -7,11 +7,9 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.shape_in_world import Pose
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.ordered import product
-
-Pose = tuple[Array, Array]
-"""R (P, 3, 3) [-] and t (P, 3) [m] of one shape of each pair."""
 
 
 class Batch(ABC):
@@ -56,8 +54,3 @@ def farthest_places(*poses: Pose) -> Array:
     """The largest coordinate of both places of each pair, shape (P,) [m]; `poses` are two."""
     one, other = (np.abs(t).max(axis=1) for _, t in poses)
     return np.asarray(np.maximum(one, other))
-
-
-def transposed(matrices: Array) -> Array:
-    """Each of some `matrices` (P, m, n) [any unit], transposed."""
-    return matrices.swapaxes(1, 2)

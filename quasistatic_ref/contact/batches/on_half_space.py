@@ -8,12 +8,12 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.contact.batches.batch import Batch, farthest_places, transposed
+from quasistatic_ref.contact.batches.batch import Batch, farthest_places
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import UNIQUE_NORMAL
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.numbers.ordered import dot, product, rotated
+from quasistatic_ref.numbers.ordered import dot, product, rotated, transposed
 from quasistatic_ref.shapes.placed_shape import HalfSpace
 from quasistatic_ref.shapes.shape import AXES
 

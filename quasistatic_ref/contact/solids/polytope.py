@@ -4,6 +4,7 @@ A capsule is a segment with a margin, its radius. So box, convex mesh and capsul
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
@@ -25,7 +26,9 @@ class Polytope:
     Parameters
     ----------
     shape : Capsule, Box or ConvexMesh
-    margin : float
+    half_extents : ndarray, shape (3,)
+        Of the core, a segment or a box [m]; of a mesh empty.
+    margin : ndarray, shape ()
         [m].
     vertices : ndarray, shape (V, 3)
         Of the core [m].
@@ -38,10 +41,13 @@ class Polytope:
         Vertices at the ends of each edge.
     sides : ndarray of int, shape (E, 2)
         The two faces that meet there.
+
+    Of P :func:`stacked` ones, shapes of all but edges and sides begin with P.
     """
 
     shape: Shape
-    margin: float
+    half_extents: Array
+    margin: Array
     vertices: Array
     normals: Array
     offsets: Array
@@ -51,25 +57,52 @@ class Polytope:
     @cached_property
     def tails(self) -> Array:
         """Where each edge begins, shape (E, 3) [m]."""
-        return self.vertices[self.edges[:, 0]]
+        return self.vertices[..., self.edges[:, 0], :]
 
     @cached_property
     def ways(self) -> Array:
         """From there to its end, shape (E, 3) [m]."""
-        return self.vertices[self.edges[:, 1]] - self.tails
+        return self.vertices[..., self.edges[:, 1], :] - self.tails
+
+    @cached_property
+    def alone(self) -> "Polytope":
+        """A stack of this one alone."""
+        return stacked([self])
 
     def moved(self, R: Array, t: Array) -> "Polytope":
-        """The polytope in another frame, x' = R x + t (`shape` stays in its own)."""
-        normals = rotated(R, self.normals)
-        vertices = rotated(R, self.vertices) + t
-        offsets = self.offsets + dot(normals, t)
+        """Stacked polytopes in other frames, x' = R x + t (`shape` stays in its own).
+
+        Parameters
+        ----------
+        R, t : ndarray, shapes (P, 3, 3) and (P, 3)
+            [-] and [m].
+        """
+        normals = rotated(R[:, None], self.normals)
+        vertices = rotated(R[:, None], self.vertices) + t[:, None]
+        offsets = self.offsets + dot(normals, t[:, None])
         return replace(self, vertices=vertices, normals=normals, offsets=offsets)
 
     def core_distance(self, points: Array) -> tuple[Array, Array]:
-        """Signed distance and normal of points, in the shape's own frame, to the core."""
-        if isinstance(self.shape, Capsule):
-            return distance_to_rounded_box(points, self.shape.core[0])
-        return self.shape.signed_distance(points)
+        """Signed distances and normals of points (P, N, 3) [m], in each one's own frame."""
+        flat = points.reshape(-1, 3)
+        if isinstance(self.shape, ConvexMesh):
+            phi, normal = self.shape.signed_distance(flat)
+        else:
+            half_extents = np.repeat(self.half_extents, points.shape[1], axis=0)
+            phi, normal = distance_to_rounded_box(flat, half_extents)
+        return phi.reshape(points.shape[:2]), normal.reshape(points.shape)
+
+
+def stacked(polytopes: Sequence[Polytope]) -> Polytope:
+    """Several `polytopes` as one: boxes, or one mesh."""
+    return replace(
+        polytopes[0],
+        half_extents=np.array([one.half_extents for one in polytopes]),
+        margin=np.array([one.margin for one in polytopes]),
+        vertices=np.array([one.vertices for one in polytopes]),
+        normals=np.array([one.normals for one in polytopes]),
+        offsets=np.array([one.offsets for one in polytopes]),
+    )
 
 
 @lru_cache(maxsize=256)
@@ -83,7 +116,9 @@ def polytope(shape: Shape) -> Polytope | None:
             around = np.array([[1.0, 0.0, 0.0], [x, y, 0.0], [x, -y, 0.0]])
             sides = np.array([[0, 1], [1, 2], [2, 0]])
             edges = np.array([[0, 1]] * 3)
-            return Polytope(shape, radius, ends, around, np.zeros(3), edges, sides)
+            half_extents, _ = shape.core
+            margin = np.array(radius)
+            return Polytope(shape, half_extents, margin, ends, around, np.zeros(3), edges, sides)
         case Box():
             return _box(shape)
         case ConvexMesh():
@@ -103,9 +138,11 @@ def _box(box: Box) -> Polytope:
         for corner in np.flatnonzero(bits[:, axis] == 0):
             edges.append((corner, corner | 1 << axis))
             sides.append([a if bits[corner, a] else a + 3 for a in (first, second)])
-    vertices, margin = box.corners(UP)
-    offsets = np.tile(box.half_extents, 2)
-    return Polytope(box, margin, vertices, normals, offsets, np.array(edges), np.array(sides))
+    vertices, radius = box.corners(UP)
+    half = box.half_extents
+    margin = np.array(radius)
+    offsets = np.tile(half, 2)
+    return Polytope(box, half, margin, vertices, normals, offsets, np.array(edges), np.array(sides))
 
 
 def _mesh(mesh: ConvexMesh) -> Polytope:
@@ -119,4 +156,8 @@ def _mesh(mesh: ConvexMesh) -> Polytope:
     edges = np.sort(pairs, axis=1)[order].reshape(-1, 2, 2)[:, 0]
     sides = owner[order].reshape(-1, 2)
     real = sides[:, 0] != sides[:, 1]
-    return Polytope(mesh, 0.0, mesh.vertices, planes[:, :3], planes[:, 3], edges[real], sides[real])
+    none = np.zeros(0)
+    normals = planes[:, :3]
+    edges = edges[real]
+    sides = sides[real]
+    return Polytope(mesh, none, np.array(0.0), mesh.vertices, normals, planes[:, 3], edges, sides)

@@ -7,60 +7,72 @@ or at the common normal of an edge of each whose arcs on the Gauss sphere cross;
 between two corners, or a corner and an edge.
 """
 
-import numpy as np
+from typing import Any
 
-from quasistatic_ref.contact.shape_in_world import Witness
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.contact.shape_in_world import Witnesses
 from quasistatic_ref.contact.solids.polytope import Polytope
-from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.ordered import dot, norm, product
+from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.ordered import dot, norm, product, rotated, transposed
 from quasistatic_ref.shapes.placed_shape import Capsule
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 
-def polytope_pair(
+def polytope_pairs(
     a: Polytope, b: Polytope, R: Array, t: Array, gaps: tuple[Array, Array]
-) -> Witness:
-    """Signed distance, closest points and normal of two polytopes, in the frame of `a`.
+) -> Witnesses:
+    """Signed distances, closest points and normals of pairs of polytopes, in the frames of `a`.
 
     Parameters
     ----------
     a, b : Polytope
-        Each in its own frame.
-    R, t : ndarray, shapes (3, 3) and (3,)
-        Pose of b's frame in a's.
+        P of each, as of :func:`~quasistatic_ref.contact.solids.polytope.stacked`, in their frames;
+        of two capsules one pair.
+    R, t : ndarray, shapes (P, 3, 3) and (P, 3)
+        Poses of b's frames in a's.
     gaps : (ndarray, ndarray)
         Of :func:`gaps_between` them [m], [-].
+
+    Returns
+    -------
+    Witnesses
+        With fields of shape (P, ...).
     """
     if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
         return _capsule_pair(a, b.moved(R, t))
-    best = int(gaps[0].argmax())
-    gap = float(gaps[0][best])
-    n = gaps[1][best]
-    size = float(max(np.abs(a.vertices).max(), np.abs(b.vertices).max(), np.abs(t).max()))
-    if gap > 0:
-        on_a, on_b, miss = _nearest(a, b, R, t, gap * n, size)
-        between = on_b - on_a
-        distance = float(norm(between))
-        if miss > OUTSIDE_FACE * size and distance > ON_SURFACE * size:
-            gap = distance
-            n = between / distance
-    else:
-        # Parted along n, they touch: where they do is where they are deepest now.
-        on_a, _, _ = _nearest(a, b, R, t - gap * n, 0 * n, size)
+    every = np.arange(len(t))
+    best = gaps[0].argmax(axis=1)
+    gap = gaps[0][every, best]
+    n = gaps[1][every, best]
+    sizes = [np.abs(points).max(axis=(1, 2)) for points in (a.vertices, b.vertices, t[:, None])]
+    size = np.maximum.reduce(sizes)
+    apart = gap > 0
+    push = gap[:, None] * n
+    # Of those in penetration: parted along n, they touch where they are deepest now.
+    shift = np.where(apart[:, None], t, t - push)
+    on_a, on_b, miss = _nearest(a, b, R, shift, np.where(apart[:, None], push, 0.0), size)
+    between = on_b - on_a
+    distance = norm(between)
+    edge = apart & (miss > OUTSIDE_FACE * size) & (distance > ON_SURFACE * size)
+    gap = np.where(edge, distance, gap)
+    n = np.where(edge[:, None], between / np.where(edge, distance, 1.0)[:, None], n)
     return _with_margins(a, b, gap, on_a, n)
 
 
-def _with_margins(a: Polytope, b: Polytope, gap: float, on_a: Array, n: Array) -> Witness:
-    on_b = on_a + gap * n
-    return Witness(gap - a.margin - b.margin, on_a + a.margin * n, on_b - b.margin * n, n)
+def _with_margins(a: Polytope, b: Polytope, gap: Array, on_a: Array, n: Array) -> Witnesses:
+    on_b = on_a + gap[:, None] * n
+    alpha = on_a + a.margin[:, None] * n
+    return Witnesses(gap - a.margin - b.margin, alpha, on_b - b.margin[:, None] * n, n)
 
 
-def _capsule_pair(a: Polytope, b: Polytope) -> Witness:
+def _capsule_pair(a: Polytope, b: Polytope) -> Witnesses:
     """Two segments have no volume: the distance is never negative, but may be without direction."""
-    tail_a = a.tails[:1]
-    tail_b = b.tails[:1]
-    way_a = a.ways[:1]
-    way_b = b.ways[:1]
+    tail_a = a.tails[0, :1]
+    tail_b = b.tails[0, :1]
+    way_a = a.ways[0, :1]
+    way_b = b.ways[0, :1]
     s, r = nearest_on_segments(tail_a, way_a, tail_b, way_b)
     on_a = tail_a + s * way_a
     on_b = tail_b + r * way_b
@@ -72,119 +84,157 @@ def _capsule_pair(a: Polytope, b: Polytope) -> Witness:
     inside = 0 < s[0] < 1 and 0 < r[0] < 1
     n = apart
     if gap <= ON_SURFACE * size:  # axes that cross, or lie in each other
-        n = across if norm(across) > ON_SURFACE * size**2 else a.normals[0]
+        n = across if norm(across) > ON_SURFACE * size**2 else a.normals[0, 0]
     elif inside and steepness * size > gap:  # the difference of near points has few digits
         n = across
     if n is not apart:
         n = n * (1.0 if dot(n, apart) >= 0 else -1.0)
         gap = float(dot(n, apart) / norm(n))
-    return _with_margins(a, b, gap, on_a[0], n / norm(n))
+    return _with_margins(a, b, np.array([gap]), on_a, (n / norm(n))[None])
 
 
 def gaps_between(a: Polytope, b: Polytope) -> tuple[Array, Array]:
-    """Gaps along the normals of all faces of the Minkowski difference.
+    """Gaps along the normals of all faces of the Minkowski differences.
 
     Parameters
     ----------
     a, b : Polytope
-        In one frame.
+        P of each, in one frame a pair.
 
     Returns
     -------
-    gaps : ndarray, shape (N,)
-        [m].
-    normals : ndarray, shape (N, 3)
+    gaps : ndarray, shape (P, N)
+        [m]; -inf where there is none.
+    normals : ndarray, shape (P, N, 3)
         From a to b [-].
     """
-    along_a = product(a.normals, b.vertices.T).min(axis=1) - a.offsets
-    along_b = product(b.normals, a.vertices.T).min(axis=1) - b.offsets
-    crossing, gaps = _crossing_edges(a, b)
-    normals = np.concatenate([a.normals, -b.normals, crossing])
-    return np.concatenate([along_a, along_b, gaps]), normals
+    along_a = product(a.normals, transposed(b.vertices)).min(axis=2) - a.offsets
+    along_b = product(b.normals, transposed(a.vertices)).min(axis=2) - b.offsets
+    pair, crossing, gaps = _crossing_edges(a, b)
+    along_edges = padded(gaps, pair, len(along_a), -np.inf)
+    crossing = padded(crossing, pair, len(along_a), 0.0)
+    normals = np.concatenate([a.normals, -b.normals, crossing], axis=1)
+    return np.concatenate([along_a, along_b, along_edges], axis=1), normals
 
 
-def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Array, Array]:
+def padded(values: NDArray[Any], pair: Indices, count: int, filling: float) -> NDArray[Any]:
+    """Values of pairs side by side.
+
+    Parameters
+    ----------
+    values : ndarray, shape (N, ...)
+        [any unit].
+    pair : ndarray of int, shape (N,)
+        Of which pair each is, in ascending order.
+    count : int
+        Number of pairs, P.
+    filling : float
+        Where a pair has fewer values than another [their unit].
+
+    Returns
+    -------
+    ndarray, shape (P, M, ...)
+        M being the largest number of values of a pair.
+    """
+    place = np.arange(len(pair)) - np.searchsorted(pair, pair)
+    shape = (count, place.max(initial=-1) + 1, *values.shape[1:])
+    together = np.full(shape, filling, values.dtype)
+    together[pair, place] = values
+    return together
+
+
+def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Indices, Array, Array]:
     """Common normals, from a to b, of the edges whose arcs cross; and the gaps along them.
 
-    The arc of an edge joins the normals of its two faces; those of b count negated. (D. Gregorius,
-    "The separating axis test between convex polyhedra".)
+    Before them stands of which pair each is. The arc of an edge joins the normals of its two faces;
+    those of b count negated. (D. Gregorius, "The separating axis test between convex polyhedra".)
     """
-    b_on_a = product(-a.ways, b.normals.T)
-    a_on_b = product(b.ways, a.normals.T)
-    c = b_on_a[:, b.sides[:, 0]]
-    d = b_on_a[:, b.sides[:, 1]]
-    e = a_on_b[:, a.sides[:, 0]].T
-    f = a_on_b[:, a.sides[:, 1]].T
+    b_on_a = product(-a.ways, transposed(b.normals))
+    a_on_b = product(b.ways, transposed(a.normals))
+    c = b_on_a[..., b.sides[:, 0]]
+    d = b_on_a[..., b.sides[:, 1]]
+    e = transposed(a_on_b[..., a.sides[:, 0]])
+    f = transposed(a_on_b[..., a.sides[:, 1]])
     # Each arc has its ends on different sides of the plane of the other ...
-    i, j = np.nonzero((c * d < 0) & (e * f < 0))
-    if not len(i):
-        return np.zeros((0, 3)), np.zeros(0)
-    way_a = a.ways[i]
-    way_b = b.ways[j]
+    pair, i, j = np.nonzero((c * d < 0) & (e * f < 0))
+    way_a = a.ways[pair, i]
+    way_b = b.ways[pair, j]
     n = np.cross(way_a, way_b)
     length = norm(n)
     scale = np.sqrt(dot(way_a, way_a) * dot(way_b, way_b))
     keep = length > ON_SURFACE * scale
+    pair = pair[keep]
     i = i[keep]
     j = j[keep]
     n = n[keep] / length[keep, None]
     # ... and they are on the same hemisphere: n is on the side of a's normals and of -b's.
-    middle_a = a.normals[a.sides[i, 0]] + a.normals[a.sides[i, 1]]
-    middle_b = -(b.normals[b.sides[j, 0]] + b.normals[b.sides[j, 1]])
+    middle_a = a.normals[pair, a.sides[i, 0]] + a.normals[pair, a.sides[i, 1]]
+    middle_b = -(b.normals[pair, b.sides[j, 0]] + b.normals[pair, b.sides[j, 1]])
     side_a = dot(n, middle_a)
     side_b = dot(n, middle_b)
     same = side_a * side_b > 0
-    i = i[same]
-    j = j[same]
+    pair = pair[same]
     n = n[same] * np.sign(side_a[same])[:, None]
-    apart = b.tails[j] - a.tails[i]
-    return n, dot(n, apart)
+    apart = b.tails[pair, j[same]] - a.tails[pair, i[same]]
+    return pair, n, dot(n, apart)
 
 
 def _nearest(
-    a: Polytope, b: Polytope, R: Array, t: Array, way: Array, size: float
-) -> tuple[Array, Array, float]:
-    """Closest points of two cores that are apart or touch, and how far they miss a way [m].
+    a: Polytope, b: Polytope, R: Array, t: Array, way: Array, size: Array
+) -> tuple[Array, Array, Array]:
+    """Closest points of cores that are apart or touch, and how far they miss ways (P, 3) [m].
 
     They are a corner and a face, or an edge and an edge. Near a rim both are as near as each other
     in float64, and that which the way leads to is right.
     """
+    every = np.arange(len(t))
     moved = b.moved(R, t)
-    phi_b, normal = a.core_distance(moved.vertices)
-    i = int(phi_b.argmin())
-    tip_b = moved.vertices[i]
-    foot_a = moved.vertices[i] - phi_b[i] * normal[i]
-    phi_a, normal = b.core_distance(product(a.vertices - t, R))
-    j = int(phi_a.argmin())
-    tip_a = a.vertices[j]
-    foot_b = a.vertices[j] - phi_a[j] * product(R, normal[j])
-    least = float(min(phi_a[j], phi_b[i]))
-    distance, on_a, on_b = _edge_distances(a, moved, max(least, 0.0))
-    distance = np.concatenate([[phi_b[i], phi_a[j]], distance])
-    on_a = np.concatenate([[foot_a, tip_a], on_a])
-    on_b = np.concatenate([[tip_b, foot_b], on_b])
-    miss = norm(on_b - on_a - way)
-    best = int(distance.argmin())
-    as_near = (distance <= distance[best] + OUTSIDE_FACE * size) & (miss <= OUTSIDE_FACE * size)
-    if not as_near[best] and as_near.any():
-        best = int(as_near.argmax())
-    return on_a[best], on_b[best], float(miss[best])
+    phi_b, normal_a = a.core_distance(moved.vertices)
+    phi_a, normal_b = b.core_distance(product(a.vertices - t[:, None], R))
+    i = phi_b.argmin(axis=1)
+    j = phi_a.argmin(axis=1)
+    phi_b = phi_b[every, i]
+    phi_a = phi_a[every, j]
+    tip_b = moved.vertices[every, i]
+    tip_a = a.vertices[every, j]
+    foot_a = tip_b - phi_b[:, None] * normal_a[every, i]
+    foot_b = tip_a - phi_a[:, None] * rotated(R, normal_b[every, j])
+    bound = np.maximum(np.minimum(phi_a, phi_b), 0.0)
+    pair, distance, on_a, on_b = _edge_distances(a, moved, bound)
+    corners = np.stack([phi_b, phi_a], axis=1)
+    distance = np.concatenate([corners, padded(distance, pair, len(t), np.inf)], axis=1)
+    tips = padded(on_a, pair, len(t), 0.0)
+    on_a = np.concatenate([np.stack([foot_a, tip_a], axis=1), tips], axis=1)
+    tips = padded(on_b, pair, len(t), 0.0)
+    on_b = np.concatenate([np.stack([tip_b, foot_b], axis=1), tips], axis=1)
+    miss = norm(on_b - on_a - way[:, None])
+    best = distance.argmin(axis=1)
+    limit = (OUTSIDE_FACE * size)[:, None]
+    as_near = (distance <= distance[every, best][:, None] + limit) & (miss <= limit)
+    other = as_near.any(axis=1) & ~as_near[every, best]
+    best = np.where(other, as_near.argmax(axis=1), best)
+    return on_a[every, best], on_b[every, best], miss[every, best]
 
 
-def _edge_distances(a: Polytope, b: Polytope, bound: float) -> tuple[Array, Array, Array]:
-    """Distances (N,) and closest points (N, 3) of pairs of edges, of those within a bound."""
+def _edge_distances(a: Polytope, b: Polytope, bound: Array) -> tuple[Indices, Array, Array, Array]:
+    """Distances (N,) and closest points (N, 3) of edges within bounds (P,), after their pairs."""
     middle_a = a.tails + a.ways / 2
     middle_b = b.tails + b.ways / 2
     reach_a = norm(a.ways) / 2
     reach_b = norm(b.ways) / 2
     # Only edges whose surrounding balls come within the bound.
-    apart = middle_a[:, None] - middle_b
+    apart = middle_a[:, :, None] - middle_b[:, None]
     apart2 = dot(apart, apart)
-    i, j = np.nonzero(apart2 <= (reach_a[:, None] + reach_b + bound) ** 2)
-    s, r = nearest_on_segments(a.tails[i], a.ways[i], b.tails[j], b.ways[j])
-    on_a = a.tails[i] + s[:, None] * a.ways[i]
-    on_b = b.tails[j] + r[:, None] * b.ways[j]
-    return norm(on_b - on_a), on_a, on_b
+    reach = reach_a[:, :, None] + reach_b[:, None] + bound[:, None, None]
+    pair, i, j = np.nonzero(apart2 <= reach**2)
+    tail_a = a.tails[pair, i]
+    tail_b = b.tails[pair, j]
+    way_a = a.ways[pair, i]
+    way_b = b.ways[pair, j]
+    s, r = nearest_on_segments(tail_a, way_a, tail_b, way_b)
+    on_a = tail_a + s[:, None] * way_a
+    on_b = tail_b + r[:, None] * way_b
+    return pair, norm(on_b - on_a), on_a, on_b
 
 
 def nearest_on_segments(p: Array, u: Array, q: Array, v: Array) -> tuple[Array, Array]:

@@ -1,0 +1,145 @@
+"""Boxes on boxes, all at once."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from quasistatic_ref.contact.batches.batch import Batch, farthest_places
+from quasistatic_ref.contact.crossings import bearing, crossing_number, lines_crossed
+from quasistatic_ref.contact.distance import SPANNED, ClosestPoints
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.separations import TIED_FACES, UNIQUE_NORMAL
+from quasistatic_ref.contact.shape_in_world import Pose, Witnesses
+from quasistatic_ref.contact.solids.polytope import Polytope, polytope, stacked
+from quasistatic_ref.contact.solids.polytope_pair import padded
+from quasistatic_ref.contact.solids.solid_pair import polytopes_and_gaps
+from quasistatic_ref.contact.tied_faces import TURNED, corner_surface
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+from quasistatic_ref.numbers.ordered import dot, norm, product, rotated, transposed
+from quasistatic_ref.shapes.placed_shape import Box, Shape
+from quasistatic_ref.tolerances import OVER_FACE, REPEATED, SAME_NORMAL
+
+
+class BoxOfEach(Box):
+    """A box for each of N points: its half extents are of shape (N, 3)."""
+
+    def at_points(self, some: Indices | Mask | slice) -> "BoxOfEach":
+        """The boxes of `some` of the points."""
+        return BoxOfEach.unchecked(half_extents=self.half_extents[some])
+
+
+def boxes_of(shapes: Sequence[Shape]) -> Polytope:
+    """Some boxes, stacked."""
+    return stacked([flat for flat in map(polytope, shapes) if flat is not None])
+
+
+class Boxes(Batch):
+    """Pairs of boxes."""
+
+    def __init__(self, pairs: Sequence[ContactPair]) -> None:
+        super().__init__(pairs)
+        self._solids = (
+            boxes_of([pair.alpha.shape for pair in pairs]),
+            boxes_of([pair.beta.shape for pair in pairs]),
+        )
+        self._extents = [2 * one.half_extents.max(axis=1) for one in self._solids]
+        each = [np.repeat(one.half_extents, one.vertices.shape[1], axis=0) for one in self._solids]
+        self._of_corners = [BoxOfEach.unchecked(half_extents=half) for half in each]
+        self._corners = pairs[0].corners
+
+    def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
+        """The candidates that rank first.
+
+        A pair is known where it has one normal and enough candidates, and where one of them is at
+        the place of the closest pair or none is as near: whether others span it is then plain.
+        """
+        poses = self.in_world(R, t)
+        nearest, (gaps, normals) = polytopes_and_gaps(*self._solids, *poses)
+        phi, alpha, _, n = nearest
+        extent = np.maximum(*self._extents)
+        within = TIED_FACES * np.maximum(farthest_places(*poses), extent)
+        rivals = np.abs(normals - n[:, None]).max(axis=2) > SAME_NORMAL / 4
+        rivals &= gaps >= (phi - within)[:, None]
+        known = (phi > within) | ~rivals.any(axis=1)
+
+        on_b = self._corners_on(1, poses, -n, within).swapped()
+        on_a = self._corners_on(0, poses, n, within)
+        on_a = on_a._replace(point=on_b.point.shape[1] + on_a.point)
+        lists = [on_b, on_a, self._alone(nearest), self._crossings(poses, nearest)]
+        every = ClosestPoints(
+            *(np.concatenate(field, axis=1) for field in zip(*lists, strict=True))
+        )
+        there = every.point >= 0
+        alone = every.point == self._corners
+
+        level = there & ~alone & (every.phi <= (phi + self.resolution)[:, None])
+        level &= np.abs(every.n - n[:, None]).max(axis=2) <= SAME_NORMAL
+        away = norm(every.alpha - alpha[:, None])
+        at_its_place = (level & (away <= SPANNED / 2 * self.size[:, None])).any(axis=1)
+        known &= at_its_place | ~level.any(axis=1)
+        there &= ~(alone & at_its_place[:, None]) & (dot(every.n, n[:, None]) >= TURNED)
+        known &= np.count_nonzero(there, axis=1) >= self.n_c
+
+        rank = np.rint(every.phi / self.resolution[:, None])
+        rank = np.where(there, np.where(_repeated(every, there), np.inf, rank), np.nan)
+        order = rank.argsort(axis=1, kind="stable")[:, : self.n_c]
+        first = np.arange(len(order))[:, None], order
+        return known, ClosestPoints._make(field[first] for field in every)
+
+    def _alone(self, nearest: Witnesses) -> ClosestPoints:
+        """The closest pairs, as candidates."""
+        number = np.full(len(nearest.phi), self._corners)
+        points = ClosestPoints(*nearest, number, np.full_like(number, UNIQUE_NORMAL))
+        return ClosestPoints._make(field[:, None] for field in points)
+
+    def _corners_on(
+        self, on: int, poses: tuple[Pose, Pose], n: Array, within: Array
+    ) -> ClosestPoints:
+        """The corners of the other side on side `on`, out of which n points."""
+        R, t = poses[on]
+        R_other, t_other = poses[1 - on]
+        corners = self._solids[1 - on].vertices
+        back = transposed(R)
+        x = rotated(product(back, R_other)[:, None], corners)
+        x += rotated(back, t_other - t)[:, None]
+        count = corners.shape[1]
+        ways = np.repeat(rotated(back, n), count, axis=0)
+        near = np.repeat(OVER_FACE * self._extents[on] + within, count)
+        within = np.repeat(within, count)
+        surface = corner_surface(self._of_corners[on], x.reshape(-1, 3), ways, within, near)
+        phi = surface.phi.reshape(-1, count)
+        n = rotated(R[:, None], surface.normal.reshape(corners.shape))
+        centre = rotated(R_other[:, None], corners) + t_other[:, None]
+        feet = centre - phi[..., None] * n
+        number = np.broadcast_to(np.arange(count), phi.shape)
+        return ClosestPoints(phi, feet, centre - 0.0 * n, n, number, surface.tie.reshape(phi.shape))
+
+    def _crossings(self, poses: tuple[Pose, Pose], nearest: Witnesses) -> ClosestPoints:
+        """Crossings of edges; numbers of those that are none are negative."""
+        some: list[Mask] = []
+        ends: list[Array] = []
+        of_side = zip(self._solids, self._extents, poses, nearest[1:3], (1, -1), strict=True)
+        for flat, extent, (R, t), x, sign in of_side:
+            back = transposed(R)
+            way = rotated(back, sign * nearest.n)
+            some.append(bearing(flat, extent[:, None], rotated(back, x - t), way))
+            world = rotated(R[:, None], flat.vertices) + t[:, None]
+            ends.append(world[:, flat.edges])
+        pair, i, j = np.nonzero(some[0][:, :, None] & some[1][:, None])
+        n = nearest.n[pair]
+        crossing, alpha, beta = lines_crossed(ends[0][pair, i], ends[1][pair, j], n)
+        number = self._corners + self.n_c + crossing_number(i, j, some[1].shape[1])
+        found = ClosestPoints(dot(beta - alpha, n), alpha, beta, n, number, 0 * number)
+        pair = pair[crossing]
+        count = len(nearest.phi)
+        return ClosestPoints._make(padded(one, pair, count, -1) for one in found.chosen(crossing))
+
+
+def _repeated(candidates: ClosestPoints, there: Mask) -> Mask:
+    """Which candidates repeat an earlier one that is there; of shape (P, M) both."""
+    count = there.shape[1]
+    alike = there[:, None] & np.tri(count, k=-1, dtype=bool)
+    every = np.concatenate([candidates.phi[..., None], candidates.alpha, candidates.n], axis=2)
+    for values in np.moveaxis(every, 2, 0):
+        alike &= np.abs(values[:, :, None] - values[:, None]) <= REPEATED
+    return np.asarray(alike.any(axis=2))
