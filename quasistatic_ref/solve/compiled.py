@@ -6,12 +6,12 @@ CVXPY compiles a problem to a cone program
 
 whose numbers are linear in the parameters; it keeps that map as sparse matrices. Before each solve
 ``get_problem_data`` applies them one by one, and makes sparse matrices of the numbers step by step.
-Here they are applied as one matrix, to the same bits, in a twentieth of the time.
+Here they are applied as one matrix, to the same bits, in a twentieth of the time. That takes names
+private to CVXPY: where one is missing, ``through_cvxpy`` does without this file.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import cvxpy as cp
@@ -22,54 +22,10 @@ from cvxpy.cvxcore.python.canonInterface import lo
 from cvxpy.reductions.cvx_attr2constr import lower_value
 from cvxpy.reductions.solvers.conic_solvers.conic_solver import ConicSolver
 from cvxpy.reductions.solvers.solver_inverse_data import SolverInverseData
-from cvxpy.reductions.solvers.solving_chain import SolvingChain
 
 from quasistatic_ref.numbers.arrays import Indices
 from quasistatic_ref.solve.backends import Options
-
-CANON = cp.CPP_CANON_BACKEND
-"""CVXPY's way of compiling, for problems of any size. From 1,000 parameters on it would choose
-another by itself, which fails at a product of mu_v with J_1 delta_q (docs/studies.md)."""
-
-MOST_ENTRIES = 10_000
-"""Most entries of parameters whose map is compiled: of 24,000 that takes five times as long as a
-first step without it, which later steps win back in their hundreds."""
-
-
-@dataclass(frozen=True, eq=False)
-class ProblemData:
-    """What ``cvxpy.Problem.get_problem_data`` returns.
-
-    Parameters
-    ----------
-    numbers : dict
-        The data of the solver: P, c, A, b and the cones, by CVXPY's words.
-    chain : SolvingChain
-        Has ``solve_via_data``.
-    inverse : list
-        What ``unpack_results`` leads back to the problem with.
-    """
-
-    numbers: dict[str, Any]
-    chain: SolvingChain
-    inverse: list[Any]
-
-
-def problem_data(problem: cp.Problem, name: str, options: Options) -> ProblemData:
-    """The data as CVXPY forms them, for any backend.
-
-    The first call compiles the problem, unless its parameters are many: their values then count as
-    constants, in each call.
-    """
-    data = problem.get_problem_data(
-        name.upper(), ignore_dpp=is_large(problem), canon_backend=CANON, solver_opts=options
-    )
-    return ProblemData(*data)
-
-
-def is_large(problem: cp.Problem) -> bool:
-    """Whether a problem has more entries of parameters than are compiled."""
-    return bool(sum(parameter.size for parameter in problem.parameters()) > MOST_ENTRIES)
+from quasistatic_ref.solve.problem_data import ProblemData
 
 
 class CompiledMap:

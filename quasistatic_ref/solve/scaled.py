@@ -27,7 +27,7 @@ from scipy.sparse.linalg import norm
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.solve.backends import Options
-from quasistatic_ref.solve.compiled import ProblemData
+from quasistatic_ref.solve.problem_data import ProblemData
 from quasistatic_ref.solve.units import coordinate_units
 
 
@@ -139,9 +139,9 @@ class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
         return Solution(solution.status, solution.opt_val, primal, dual, solution.attr)
 
 
-def scaled(matrix: sp.csr_array, rows: Array, columns: Array) -> sp.csr_array:
-    """A sparse matrix, shape (m, n), whose `rows`, (m,), and `columns`, (n,), are multiplied."""
-    return sp.diags_array(rows) @ matrix @ sp.diags_array(columns)
+def scaled(matrix: sp.csr_array, of_rows: Array, of_columns: Array) -> sp.csr_array:
+    """A sparse matrix, shape (m, n), times a number of each row, (m,), and column, (n,)."""
+    return sp.diags_array(of_rows) @ matrix @ sp.diags_array(of_columns)
 
 
 def row_scales(A: sp.csr_array, of: Indices) -> Array:

@@ -11,9 +11,8 @@ from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import BackendError, InputError, StepDataError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.backends import NONE, QPSOLVERS, backend, check_takes_cones, is_function
-from quasistatic_ref.solve.compiled import problem_data
 from quasistatic_ref.solve.greeting import greeting_silenced
-from quasistatic_ref.solve.scaled import solve_scaled
+from quasistatic_ref.solve.problem_data import problem_data
 from quasistatic_ref.solve.solver import RELAXED
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import KIND, StepData, differences
@@ -165,6 +164,9 @@ class StepProblem:
         StepNotSolved
             If it claims anything but a full solution.
         """
+        # Here: it has names of CVXPY that a new one may move.
+        from quasistatic_ref.solve.scaled import solve_scaled
+
         name = solver.lower()
         if name == NONE or name.startswith(QPSOLVERS) or is_function(name):
             raise BackendError("is not called through CVXPY", field="backend", value=solver)

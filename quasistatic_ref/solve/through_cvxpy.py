@@ -2,7 +2,7 @@
 
 from functools import cached_property
 from time import perf_counter
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import cvxpy as cp
 import cvxpy.settings as words
@@ -10,12 +10,15 @@ import cvxpy.settings as words
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import DEFAULT, Options
-from quasistatic_ref.solve.compiled import CompiledMap, ProblemData, is_large, problem_data
+from quasistatic_ref.solve.problem_data import ProblemData, is_large, problem_data
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
 from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.units import StepInBothUnits, within_reach
 from quasistatic_ref.step.data import KIND, StepData
+
+if TYPE_CHECKING:
+    from quasistatic_ref.solve.compiled import CompiledMap
 
 MOST_CONTACTS = 2000
 """Most contacts that are compiled: 6 s, in a time that grows with their square."""
@@ -77,13 +80,18 @@ class CvxpySolver(BackendSolver):
         return cvxpy_reply(self.problem, self.name, options, False, data)
 
     @cached_property
-    def _map(self) -> CompiledMap | None:
+    def _map(self) -> "CompiledMap | None":
         """The compiled map from parameters to data, where it serves; the problem is filled."""
         problem = self.problem.problem
         if is_large(problem):
             return None
         template = problem_data(problem, self.name, {})
-        return CompiledMap(problem, template) if CompiledMap.serves(template) else None
+        try:
+            from quasistatic_ref.solve.compiled import CompiledMap
+
+            return CompiledMap(problem, template) if CompiledMap.serves(template) else None
+        except (ImportError, AttributeError):  # a name that is private to CVXPY has moved
+            return None
 
 
 def cvxpy_reply(

@@ -1,12 +1,15 @@
 """The data of a solve by the compiled map: those of CVXPY, in every bit."""
 
+import sys
+
 import cvxpy as cp
 import numpy as np
 import pytest
 import scipy.sparse as sp
 
 from quasistatic_ref import Extra
-from quasistatic_ref.solve.compiled import CompiledMap, problem_data
+from quasistatic_ref.solve.compiled import CompiledMap
+from quasistatic_ref.solve.problem_data import problem_data
 from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.solve.units import StepInBothUnits
@@ -56,11 +59,17 @@ def test_every_number_of_the_data_has_the_bits_of_cvxpy_s(cone, n_a, n_u, rows, 
         assert found.inverse[-1].solver_options == expected.inverse[-1].solver_options
 
 
-def test_answers_have_the_bits_of_the_problem_s_own_solve(rng):
+@pytest.mark.parametrize("moved", [None, "cvxpy.cvxcore.python.canonInterface"])
+def test_answers_have_the_bits_of_the_problem_s_own_solve(moved, rng, monkeypatch):
+    """Also where CVXPY has moved a name that is private to it."""
+    if moved is not None:
+        monkeypatch.setitem(sys.modules, moved, None)
+        monkeypatch.delitem(sys.modules, CompiledMap.__module__)
     step, _, _ = planted_step(rng, 3, 4, (6, 4, 6))
     solver = CvxpySolver(step, "clarabel")
     both = StepInBothUnits(step)
     solver.write(both)
+    assert (solver._map is None) == (moved is not None)
     _, options = solver.option_sets(1e-12)[0]
     reply = solver.reply(options, both)
     problem = solver.problem

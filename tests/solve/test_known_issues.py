@@ -11,7 +11,7 @@ from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
-from quasistatic_ref.solve.compiled import CANON
+from quasistatic_ref.solve.problem_data import CANON
 
 
 def test_proxqp_still_calls_problems_infeasible_that_have_an_exact_answer():

@@ -9,7 +9,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.solve import step_problem
 from quasistatic_ref.solve.backends import installed_backends
-from quasistatic_ref.solve.compiled import problem_data
+from quasistatic_ref.solve.problem_data import problem_data
 from tests.helpers import pinch, random_step, sphere_on_floor
 
 WEIGHT = (0.3, 0.0, -2.943, 0.0, 0.0, 1e-3)

@@ -7,7 +7,7 @@ import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.backends import Options
-from quasistatic_ref.solve.compiled import CANON
+from quasistatic_ref.solve.problem_data import CANON
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.through_cvxpy import cvxpy_reply
 from quasistatic_ref.step.standard_form import StandardForm

@@ -19,7 +19,7 @@ from quasistatic_ref.optional.extensions.own_rows import joined
 from quasistatic_ref.optional.extensions.quadratic import quadratic_program
 from quasistatic_ref.optional.extensions.terms import checked_terms
 from quasistatic_ref.solve.backends import backend, check_takes_cones
-from quasistatic_ref.solve.compiled import problem_data
+from quasistatic_ref.solve.problem_data import problem_data
 from quasistatic_ref.solve.solver import RELAXED
 from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.units import Units, driven, in_si, natural_step, natural_units

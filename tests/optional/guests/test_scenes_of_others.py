@@ -9,7 +9,7 @@ from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.optional.guests import places
 from quasistatic_ref.optional.guests.compiler import compiled_model
 from quasistatic_ref.optional.guests.places import placed
-from quasistatic_ref.solve.compiled import is_large
+from quasistatic_ref.solve.problem_data import is_large
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 
 BOX = '<geom {}type="box" size="0.05 0.05 0.05" mass="1"{}/>'
