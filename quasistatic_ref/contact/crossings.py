@@ -106,8 +106,10 @@ def edges(body: ShapeInWorld, x: Array, n: Array) -> Edges:
         ends, number = line(shape, shape.radius, way)
         total = ROUND
     else:
-        number = np.flatnonzero(bearing(flat, shape.extent, product(body.R.T, x - body.t), way))
-        ends = flat.vertices[flat.edges[number]]
+        out = flat.margin * way  # from the core to the surface
+        at = product(body.R.T, x - body.t) - out
+        number = np.flatnonzero(bearing(flat, shape.extent, at, way))
+        ends = flat.vertices[flat.edges[number]] + out
         total = len(flat.edges)
     return Edges(rotated(body.R, ends) + body.t, number, total)
 

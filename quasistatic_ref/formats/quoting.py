@@ -54,6 +54,11 @@ def one_line(text: str) -> str:
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
+def no_formula(text: str) -> str:
+    """A cell of a CSV: what spreadsheets would take for a formula begins with a quotation mark."""
+    return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t", "\r")) else text
+
+
 def clipped(text: str, longest: int = LONGEST) -> str:
     """Text of at most so many characters; a longer one loses its middle."""
     if len(text) <= longest:

@@ -20,6 +20,7 @@ from quasistatic_ref.formats.files import (
     text_written,
     writable_folder,
 )
+from quasistatic_ref.formats.quoting import no_formula
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.parallel import results
@@ -291,10 +292,12 @@ def _table(rows: Sequence[Row]) -> str:
     text = io.StringIO()
     lines = csv.writer(text, lineterminator="\n")
     about = ["outcome", "reason", "findings", "not_looked_at"]
-    lines.writerow(["run", *rows[0]["values"], *about, *named])
+    lines.writerow(["run", *map(no_formula, rows[0]["values"]), *about, *map(no_formula, named)])
     for row in rows:
         cells = [row[word] for word in about]
         cells[2] = "; ".join(row["findings"])
         numbers = [row["measures"].get(name) for name in names]
-        lines.writerow([row["run"], *row["values"].values(), *cells, *numbers])
+        words = [row["run"], *row["values"].values(), *cells]
+        safe = [no_formula(word) if isinstance(word, str) else word for word in words]
+        lines.writerow([*safe, *numbers])
     return text.getvalue()

@@ -6,6 +6,7 @@ form, in an optional part; and, for DAQP alone, its own, in ``optional/fast``. A
 :class:`~quasistatic_ref.solve.solver.Solver` in a file of its own, which ``solver_for`` chooses.
 """
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
@@ -15,6 +16,7 @@ from typing import Any
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import check_there, qpsolvers_names
+from quasistatic_ref.solve.greeting import broken_solvers
 from quasistatic_ref.step.cones import cone
 
 Options = dict[str, Any]
@@ -204,7 +206,11 @@ def reached(interface: str) -> tuple[str, ...]:
     if interface == "cvxpy":
         import cvxpy
 
-        return tuple(name.lower() for name in cvxpy.installed_solvers())
+        names = tuple(name.lower() for name in cvxpy.installed_solvers())
+        for broken in broken_solvers:
+            words = f"{broken} is installed, but cannot be imported, and is left out"
+            warnings.warn(words, stacklevel=2)
+        return names
     return tuple(qpsolvers_names())
 
 

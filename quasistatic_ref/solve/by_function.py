@@ -7,7 +7,7 @@ import importlib.util
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, redirect_stdout
+from contextlib import contextmanager, redirect_stdout, suppress
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -127,9 +127,10 @@ def apart() -> Iterator[None]:
         In place of what is no :class:`Exception`, such as `SystemExit`; Ctrl-C stays itself.
     """
     sys.stdout.flush()
-    sys.stderr.flush()
-    kept = os.dup(1)
-    os.dup2(2, 1)
+    kept = None
+    with suppress(OSError):  # closed: nothing is answered there
+        kept = os.dup(1)
+        os.dup2(2, 1)
     try:
         with redirect_stdout(sys.stderr):
             yield
@@ -138,9 +139,9 @@ def apart() -> Iterator[None]:
     except BaseException as error:
         raise RuntimeError(f"{type(error).__name__}: {error}") from None
     finally:
-        sys.stderr.flush()
-        os.dup2(kept, 1)
-        os.close(kept)
+        if kept is not None:
+            os.dup2(kept, 1)
+            os.close(kept)
 
 
 def called(function: Function) -> str:

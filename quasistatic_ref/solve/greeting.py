@@ -1,10 +1,26 @@
-"""HiGHS greets on standard output, once a process, when its first object is made."""
+"""What solvers say when they begin: HiGHS greets, CVXPY logs which it cannot import."""
 
 import ctypes
+import logging
 import os
+import re
 import sys
 from functools import cache
 from importlib import import_module
+
+CANNOT_IMPORT = re.compile(r"Encountered unexpected exception importing solver (\w+)")
+broken_solvers: dict[str, None] = {}
+"""Those that CVXPY could not import, once it was imported itself."""
+
+
+def _is_none_of_those(record: logging.LogRecord) -> bool:
+    words = CANNOT_IMPORT.match(record.getMessage())
+    if words is not None:
+        broken_solvers[words[1].lower()] = None
+    return words is None
+
+
+logging.getLogger("__cvxpy__").addFilter(_is_none_of_those)
 
 
 @cache

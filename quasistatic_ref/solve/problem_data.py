@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -46,9 +47,14 @@ def problem_data(problem: cp.Problem, name: str, options: Options) -> ProblemDat
     The first call compiles the problem, unless its parameters are many: their values then count as
     constants, in each call.
     """
-    data = problem.get_problem_data(
-        name.upper(), ignore_dpp=is_large(problem), canon_backend=CANON, solver_opts=options
-    )
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        data = problem.get_problem_data(
+            name.upper(), ignore_dpp=is_large(problem), canon_backend=CANON, solver_opts=options
+        )
+    if any("not DPP" in str(one.message) for one in said):
+        words = f"{name} takes no quadratic cost: CVXPY compiles each step anew, which takes longer"
+        warnings.warn(words, stacklevel=2)
     return ProblemData(*data)
 
 

@@ -4,14 +4,17 @@ Added here is a box with a ball about each of its points. On a face its distance
 less the radius; beyond a corner it is the distance to the corner less the radius.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref import Box, ContactError, HalfSpace, Sphere, load_scenario
+from quasistatic_ref.contact import crossings as crossings_of
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.solids import solid_pair as solid_pair_of
+from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.formats.declared import Field
 from quasistatic_ref.optional.curved.faces import kinks
@@ -75,6 +78,25 @@ def test_its_distance_to_other_solids_is_that_of_the_faces(other):
     found = solid_pair("pad", ShapeInWorld(PAD, np.eye(3), np.zeros(3)), above)
     np.testing.assert_allclose(found.phi, gap, atol=ROUNDING)
     np.testing.assert_allclose(found.n, [0, 0, 1], atol=ROUNDING)
+
+
+def test_edges_of_a_polytope_cross_outside_of_its_margin(monkeypatch):
+    """A pad below a bar, crossed flat: each of four crossings has the gap of the faces."""
+    pad = Pad(np.array([0.1, 0.02, 0.01]), 0.005)
+    core = replace(polytope(Box(half_extents=pad.half_extents)), shape=pad, margin=pad.radius)
+    for module in (solid_pair_of, crossings_of):
+        monkeypatch.setattr(
+            module, "polytope", lambda shape: core if shape is pad else polytope(shape)
+        )
+    low = ShapeInWorld(pad, np.eye(3), np.zeros(3))
+    for turned in (np.eye(3), np.diag([1.0, -1.0, -1.0])):  # which is alpha, and the other way up
+        top = ShapeInWorld(Box(half_extents=(0.02, 0.1, 0.01)), turned, np.array([0, 0, 0.026]))
+        for a, b in ((low, top), (top, low)):
+            near = solid_pair("pair", a, b)
+            found = crossings_of.crossings(a, b, near.alpha, near.beta, near.n)
+            gaps = (found.beta - found.alpha) @ near.n
+            np.testing.assert_allclose(gaps, [0.001] * 4, atol=ROUNDING)
+            assert_relative(near.phi, 0.001, 1e-12)
 
 
 def test_what_it_has_not_said_is_refused_in_a_sentence():

@@ -77,3 +77,12 @@ def test_answers_have_the_bits_of_the_problem_s_own_solve(moved, rng, monkeypatc
     assert reply.solved
     assert reply.x.tobytes() == problem.primal().tobytes()
     assert reply.lam.tobytes() == problem.dual().tobytes()
+
+
+def test_a_cost_that_a_backend_does_not_take_is_said_in_our_words():
+    """CVXPY's warning of parameters, which ECOS causes, is one of p^2 x, too."""
+    p, x = cp.Parameter(value=2.0), cp.Variable()
+    problem = cp.Problem(cp.Minimize(p * p * x), [x >= 1])
+    with pytest.warns(UserWarning, match="^clarabel takes no quadratic cost") as said:
+        problem_data(problem, "clarabel", {})
+    assert len(said) == 1

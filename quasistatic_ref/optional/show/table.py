@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.formats.quoting import no_formula
 from quasistatic_ref.optional.show.loads import shown_forces
 from quasistatic_ref.parts import needed_package
 
@@ -91,6 +92,9 @@ def table_written(trajectory: "Trajectory", path: Path, option: str = "--table")
     """
     frame = data_frame(trajectory) if option == "--table" else contact_frame(trajectory)
     if path.suffix == ".csv":
+        frame = frame.rename(columns=no_formula)
+        if "pair" in frame:
+            frame["pair"] = [*map(no_formula, frame["pair"])]
         return written_whole(path, lambda file: frame.to_csv(file, mode="wb"))
     return written_whole(path, frame.to_parquet)
 

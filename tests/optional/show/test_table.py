@@ -1,5 +1,6 @@
 """A trajectory as attributes and as tables of pandas."""
 
+import csv
 import sys
 from operator import attrgetter
 
@@ -8,7 +9,8 @@ import pandas
 import pytest
 
 from quasistatic_ref import InputError, Trajectory, load_scenario, trajectory_read
-from tests.scenes import written_scenario
+from quasistatic_ref.optional.show.table import table_written
+from tests.scenes import BALL, written_scenario
 
 
 @pytest.fixture(scope="module")
@@ -71,6 +73,22 @@ def test_run_writes_both_tables_as_csv_or_parquet(tmp_path, scene, cli):
     assert contacts["pair"].tolist() == run.pair_names * run.steps
     for name, numbers in (("phi [m]", run.phi), ("f_n [N]", run.forces[:, :, 2])):
         np.testing.assert_array_equal(contacts[name].astype(float), numbers.ravel())
+
+
+def test_a_name_is_no_formula_in_a_table(tmp_path):
+    """Spreadsheets take a cell for one that begins with one of these; Parquet has no formulas."""
+    for k, begin in enumerate("=+-@"):
+        name = f"{begin}1+1"
+        ball = {"urdf": BALL, "base": "floating", "pose": {"xyz": [0, 0, 0.05]}}
+        floor = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}
+        touch = {"alpha": "floor", "beta": name, "mu_v": 0.5, "rows": 4, "k": 1}
+        scene = {"h": 0.01, "steps": 1, "bodies": {name: ball}, "shapes": {"floor": floor}}
+        run = load_scenario({**scene, "contacts": {name: touch}}).run(progress=False)
+        for option in ("--table", "--contacts-table"):
+            text = table_written(run, tmp_path / f"{k}.csv", option).read_text()
+            cells = [cell for line in csv.reader(text.splitlines()) for cell in line]
+            assert not [cell for cell in cells if cell.startswith(tuple("=+@"))]
+            assert any(cell.startswith(f"'{begin}1+1") for cell in cells)
 
 
 def test_a_table_of_another_kind_is_refused_before_the_run(tmp_path, scene, cli):
