@@ -102,11 +102,11 @@ class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
         S = np.ones(n)
         costly = P.diagonal() > 0
         S[costly] = coordinate_units(P.diagonal()[costly])
-        E = row_scales(scaled(A, np.ones(len(b)), S * costly), of)
-        longest = norm(scaled(A, E[of], np.ones(n)), axis=0)
+        E = row_scales(_scaled(A, np.ones(len(b)), S * costly), of)
+        longest = norm(_scaled(A, E[of], np.ones(n)), axis=0)
         free = ~costly & (longest > 0)
         S[free] = powers_of_two(1 / longest[free])
-        E = row_scales(scaled(A, np.ones(len(b)), S), of)
+        E = row_scales(_scaled(A, np.ones(len(b)), S), of)
 
         # rho: the size of the solution, from the loads and from what is violated where x = 0.
         far = E[of] * b
@@ -117,8 +117,8 @@ class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
 
         self.columns = rho * S
         self.rows = {one.id: rho * E[i] for i, one in enumerate(constraints)}
-        A = scaled(A, E[of], S).tocsc()
-        self.numbers = numbers | {words.P: scaled(P, S, S).tocsc(), q: S * numbers[q] / rho}
+        A = _scaled(A, E[of], S).tocsc()
+        self.numbers = numbers | {words.P: _scaled(P, S, S).tocsc(), q: S * numbers[q] / rho}
         first = 0
         for block, end in ends.items():
             last = first + numbers[end].size
@@ -139,7 +139,7 @@ class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
         return Solution(solution.status, solution.opt_val, primal, dual, solution.attr)
 
 
-def scaled(matrix: sp.csr_array, of_rows: Array, of_columns: Array) -> sp.csr_array:
+def _scaled(matrix: sp.csr_array, of_rows: Array, of_columns: Array) -> sp.csr_array:
     """A sparse matrix, shape (m, n), times a number of each row, (m,), and column, (n,)."""
     return sp.diags_array(of_rows) @ matrix @ sp.diags_array(of_columns)
 
