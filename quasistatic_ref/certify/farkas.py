@@ -73,7 +73,7 @@ def farkas_vector(step: StepData, form: ExactForm, proof: Farkas, rows: Indices)
     y = [fmpq(0)] * step.m
     for i, y_i in proof.y.items():
         y[int(rows[i])] = y_i / largest
-    parts = (-y_i * fraction(form.exact_row(i)[-1]) for i, y_i in proof.y.items())
+    parts = (-y_i * fraction(form.exact_rows([i])[0][-1]) for i, y_i in proof.y.items())
     contradiction = sum(parts, fmpq(0)) / largest
     return FarkasVector(
         y=np.array([nearest_fraction(y_i) for y_i in y]),
@@ -112,7 +112,7 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
     sums = [fmpq(0)] * (form.n + 1)  # A'y and -b'y
     for i, y_i in enumerate(y):
         if y_i:
-            row = form.exact_row(i)
+            (row,) = form.exact_rows([i])
             sums = [total + y_i * fraction(v) for total, v in zip(sums, row, strict=True)]
     if any(sums[:-1]):
         return "A'y is not zero"

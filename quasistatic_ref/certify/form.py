@@ -113,8 +113,8 @@ class ExactForm(ABC):
     h: arb
 
     @abstractmethod
-    def exact_row(self, i: int) -> Row:
-        """One row [a, c]."""
+    def exact_rows(self, some: Iterable[int]) -> list[Row]:
+        """Some rows [a, c]."""
 
     @abstractmethod
     def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
@@ -145,10 +145,6 @@ class ExactForm(ABC):
             columns(self.exact_rows(some), slice(0, self.n + 1)) * z
         ).tolist()
         return values
-
-    def exact_rows(self, some: Iterable[int]) -> list[Row]:
-        """Some rows [a, c]."""
-        return [self.exact_row(i) for i in some]
 
     def integers(self, some: Iterable[int]) -> list[list[fmpz]]:
         """Some rows [a, c] times a power of two that they have in common."""
@@ -196,9 +192,9 @@ class MatrixForm(ExactForm):
         self.h = arb(1)
         self._rows = rows.tolist()
 
-    def exact_row(self, i: int) -> Row:
-        """One row [a, c]."""
-        return self._rows[i]
+    def exact_rows(self, some: Iterable[int]) -> list[Row]:
+        """Some rows [a, c]."""
+        return [self._rows[i] for i in some]
 
     def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
         """As of the base, from `x` and `most`, shape (n,) [any unit]."""
@@ -259,33 +255,39 @@ class StepForm(ExactForm):
 
     def motion(self, c: int) -> arb_mat:
         """Gap, slips and spin of a contact as rows [a, c], friction included: shape (4, n + 1)."""
-        turn, J = self.motion_factors(c)
         with working_precision(EXACT):
+            turn, J = self.motion_factors(c)
             return turn * J
 
     def motion_factors(self, c: int) -> tuple[arb_mat, arb_mat]:
-        """The frame of a contact with friction, and its J and phi: shapes (4, 5) and (5, n + 1)."""
+        """The frame of a contact with friction, and its J and phi: shapes (4, 5) and (5, n + 1).
+
+        Of 106 bits or more, the present precision makes them exact.
+        """
         if c not in self._factors:
             n, d1, d2, _ = self._frame[c, :, :3].tolist()
             mu_1, mu_2, mu_w = map(arb, self._mu[c].tolist())
             J = np.zeros((5, self.n + 1))
             J[:4, :-1] = self._J[c]
             J[4, -1] = self._phi[c]
-            with working_precision(EXACT):
-                d1, d2 = [mu_1 * v for v in d1], [mu_2 * v for v in d2]
-                turn = [*n, 0, 1, *d1, 0, 0, *d2, 0, 0, 0, 0, 0, mu_w, 0]
-                self._factors[c] = arb_mat(4, 5, turn), exact_matrix(J)
+            d1, d2 = [mu_1 * v for v in d1], [mu_2 * v for v in d2]
+            turn = [*n, 0, 1, *d1, 0, 0, *d2, 0, 0, 0, 0, 0, mu_w, 0]
+            self._factors[c] = arb_mat(4, 5, turn), exact_matrix(J)
         return self._factors[c]
 
-    def exact_row(self, i: int) -> Row:
-        """One row [a, c]: Eq. :eq:`eq-4` combines the four rows of a contact's motion."""
-        c, kind = self._places[i]
-        if c >= len(self._phi):
-            return [arb(v) for v in self._extra[c - len(self._phi)].tolist()]
-        if c not in self._rows:
-            with working_precision(EXACT):
-                self._rows[c] = (self._exact_cone * self.motion(c)).tolist()
-        return self._rows[c][kind]
+    def exact_rows(self, some: Iterable[int]) -> list[Row]:
+        """Some rows [a, c]: Eq. :eq:`eq-4` combines the four rows of a contact's motion."""
+        rows = []
+        with working_precision(EXACT):
+            for c, kind in (self._places[i] for i in some):
+                if c >= len(self._phi):
+                    rows.append([arb(v) for v in self._extra[c - len(self._phi)].tolist()])
+                    continue
+                if c not in self._rows:
+                    turn, J = self.motion_factors(c)
+                    self._rows[c] = (self._exact_cone * (turn * J)).tolist()
+                rows.append(self._rows[c][kind])
+        return rows
 
     def values(self, some: Iterable[int], z: arb_mat) -> list[list[arb]]:
         """As of the base, from the motion of each contact."""

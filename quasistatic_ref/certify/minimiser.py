@@ -31,7 +31,7 @@ from quasistatic_ref.certify.form import (
     fraction,
     whole_numbers,
 )
-from quasistatic_ref.certify.rounding import nearest, nearest_in
+from quasistatic_ref.certify.rounding import all_nearest, nearest
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.precision import working_precision
 
@@ -169,8 +169,9 @@ class Minimiser:
     @cached_property
     def float_slacks(self) -> tuple[Array, Array]:
         """All slacks in float64, and bounds of their errors, each shape (m,)."""
-        x = np.array([float(v) for v in self.balls.x])
-        off = np.array([float(v.rad()) for v in self.balls.x])
+        balls = self.balls.x
+        x = np.array([float(v) for v in balls])
+        off = np.array([float(v.rad()) for v in balls])
         # float(v) is off by UNIT |x|, or next to nothing; radii are rounded, which 4 makes good.
         with np.errstate(over="ignore", invalid="ignore"):
             return self.form.float_slacks(x, np.abs(x) + 4.0 * off / UNIT + TINY)
@@ -279,8 +280,8 @@ class Minimiser:
         with working_precision(PRECISION):
             balls = numbers(self.settled)
             balls = balls if unit is None else [ball / unit for ball in balls]
-            values = [nearest_in(ball) for ball in balls]
-        if None not in values:
+            values = all_nearest(balls)
+        if values is not None:
             return np.array(values, dtype=np.float64)
         exact = self.fractions
         with working_precision(EXACT):

@@ -1,5 +1,7 @@
 """From exact numbers and from balls to float64, rounded correctly (half to even)."""
 
+from collections.abc import Sequence
+
 from flint import arb, fmpq
 
 
@@ -27,11 +29,17 @@ def nearest_fraction(x: fmpq) -> float:
 
 
 def nearest_in(ball: arb) -> float | None:
-    """The float64 nearest to every number in a ball, or None if there is no such float64.
+    """As :func:`all_nearest`, of one ball [its unit]."""
+    nearest = all_nearest([ball])
+    return None if nearest is None else nearest[0]
 
-    None mostly means that the ball has a radius and holds zero, or a number half-way between two
+
+def all_nearest(balls: Sequence[arb]) -> list[float] | None:
+    """The float64 nearest to every number in a ball, of each; None if one has no such float64.
+
+    This mostly means that the ball has a radius and holds zero, or a number half-way between two
     float64 numbers. Rounding keeps the order, so that both ends decide (FLINT rounds the midpoint
     of a ball correctly).
     """
-    low = float(ball.lower()) + 0.0  # never -0.0
-    return low if low == float(ball.upper()) else None
+    lows = [float(ball.lower()) + 0.0 for ball in balls]  # never -0.0
+    return lows if lows == [float(ball.upper()) for ball in balls] else None

@@ -3,7 +3,7 @@
 import struct
 from collections.abc import Mapping
 from dataclasses import Field, fields
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -18,6 +18,8 @@ class Plain:
     cannot.
     """
 
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Plain):
             return NotImplemented
@@ -26,7 +28,7 @@ class Plain:
     @classmethod
     def kept(cls) -> tuple[str, ...]:
         """Names of what an object keeps, and a copy gets: its fields."""
-        return tuple(field.name for field in _declared(cls))
+        return tuple(field.name for field in fields(cls))
 
     @classmethod
     def unchecked(cls, **fields: Any) -> Self:
@@ -50,14 +52,9 @@ class Plain:
             values[name].setflags(write=False)
 
 
-def _declared(data: Any) -> tuple[Field[Any], ...]:
-    """The fields of plain data, every class of which is a dataclass."""
-    return fields(data)
-
-
 def field_values(data: Plain) -> dict[str, Any]:
     """All fields of plain data by name."""
-    return {f.name: getattr(data, f.name) for f in _declared(data)}
+    return {f.name: getattr(data, f.name) for f in fields(data)}
 
 
 def bits(value: Any) -> Any:
@@ -72,7 +69,7 @@ def bits(value: Any) -> Any:
     if isinstance(value, str | int):
         return type(value), value
     if isinstance(value, Plain):
-        compared = [f.name for f in _declared(value) if f.compare]
+        compared = [f.name for f in fields(value) if f.compare]
         return type(value), tuple(bits(getattr(value, name)) for name in compared)
     if isinstance(value, np.ndarray):
         numbers = value + 0.0 if value.dtype.kind == "f" else value

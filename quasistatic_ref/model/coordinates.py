@@ -68,6 +68,8 @@ class Order:
 
 def with_shape(x: ArrayLike, name: str, shape: tuple[int, ...]) -> Array:
     """Numbers as a float64 array of that shape [any unit]; ModelError, which names it, else."""
+    if type(x) is np.ndarray and x.dtype == np.float64 and x.shape == shape:
+        return x
     numbers = checked_numbers(x, name, ModelError)
     if numbers.shape != shape:
         raise ModelError(f"must have shape {shape}", field=name, value=numbers.shape)

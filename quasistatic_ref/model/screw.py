@@ -84,7 +84,8 @@ def dot(w: Vector, v: Vector) -> float:
 
 def length(w: Vector) -> float:
     """Length of a vector of three numbers [its unit]; 0 where its square is."""
-    return math.sqrt(dot(w, w))
+    p, q, r = w
+    return math.sqrt(p * p + q * q + r * r)
 
 
 def combined(v: Vector, w: Vector, a: float, c1: float, c2: float) -> list[float]:
@@ -102,9 +103,9 @@ def combined(v: Vector, w: Vector, a: float, c1: float, c2: float) -> list[float
 
 def carried(position: Vector, R: list[list[float]], t: Vector) -> list[float]:
     """The position of a base, 3 floats, after a translation t in its own axes, those of R [m]."""
-    x, y, z = position
-    row_x, row_y, row_z = R
-    return [x + dot(row_x, t), y + dot(row_y, t), z + dot(row_z, t)]
+    x, y, z = t
+    moves = zip(position, R, strict=True)
+    return [start + (p * x + q * y + r * z) for start, (p, q, r) in moves]
 
 
 def turned(q_joint: Vector, w: Vector, half: HalfTurn) -> list[float]:
@@ -170,7 +171,8 @@ def rows(quaternion: Vector) -> list[list[float]]:
 
 def along(R: list[list[float]], v: Vector) -> list[float]:
     """R'v of the rows of R: a vector of the world along a link's own axes [its unit]."""
-    return [dot(axis, v) for axis in zip(*R, strict=True)]
+    x, y, z = v
+    return [p * x + q * y + r * z for p, q, r in zip(*R, strict=True)]
 
 
 def quaternion_rates(quaternion: Array) -> Array:

@@ -108,12 +108,17 @@ def checked_array(
     InputError
         If the numbers are not finite, or not of that shape.
     """
-    array = checked_numbers(value, name, error)
+    if type(value) is np.ndarray and value.dtype == np.float64:
+        array = value
+    else:
+        array = checked_numbers(value, name, error)
     if array.shape != shape and (array.size or 0 not in shape):
         raise error(f"must have shape {shape}", field=name, value=array.shape)
     if not np.isfinite(array).all():
         raise error("must contain finite numbers only", field=name, value=array.tolist())
-    return read_only(array.reshape(shape) + 0.0)
+    copy: Array = array.reshape(shape) + 0.0
+    copy.setflags(write=False)
+    return copy
 
 
 def check_and_freeze(

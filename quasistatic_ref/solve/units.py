@@ -241,9 +241,11 @@ def natural_step(step: StepData, units: Units) -> StepData:
     of_extra = {"A": extra.A * (S / ell), "b": extra.b / (rho * ell)}
     if extra.cost is not None:
         of_extra |= {"H": extra.cost[0] * np.outer(S, S), "g": extra.cost[1] * S / rho}
-    for name, array in (of_step | of_contacts | of_extra).items():
-        if not finite(read_only(array).ravel()):
-            raise StepDataError("must contain finite numbers only", field=name)
+    arrays = [*of_step.values(), *of_contacts.values(), *of_extra.values()]
+    for array in arrays:
+        array.setflags(write=False)
+    if not finite(np.concatenate([array.ravel() for array in arrays])):
+        raise out_of_range()
     # Shapes, signs, frames and definiteness are those of the step, which are checked.
     parts = {
         "contacts": Contacts.unchecked(**(field_values(c) | of_contacts)),
@@ -371,10 +373,7 @@ class StepInBothUnits:
     @cached_property
     def natural_step(self) -> StepData:
         """The step in its natural units."""
-        try:
-            return natural_step(self.si_step, self.units)
-        except StepDataError:
-            raise out_of_range() from None
+        return natural_step(self.si_step, self.units)
 
     @cached_property
     def natural_form(self) -> StandardForm:

@@ -7,7 +7,7 @@ tangents are in the world frame; SI units. The JSON form is version 1 of ``quasi
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -94,7 +94,7 @@ class Extra(Plain, Shown):
             problem = "must have no negative diagonal entry: a cost must be convex"
             raise StepDataError(problem, field="extra.H", value=np.diag(self.H).tolist())
 
-    @property
+    @cached_property
     def cost(self) -> tuple[Array, Array] | None:
         """H, shape (n_v, n_v), and g, shape (n_v,), of the cost; None where there is none."""
         return None if self.H is None or self.g is None else (self.H, self.g)
@@ -216,10 +216,8 @@ class StepData(Plain, HasPage):
         cone_of(cone)  # refuses a name that it does not know
         # Of three that have one length, two outvote the third, which is then refused by its name.
         of_a = {"K_q": K_q, "tau_a": tau_a, "delta_q_bar_a": delta_q_bar_a}
-        n_a = sorted(_length(value, key) for key, value in of_a.items())[1]
-        of_u = {"M_u": M_u, "tau_u": tau_u}
-        lengths = [_length(value, key) for key, value in of_u.items()]
-        n_u = sorted([*lengths, contacts.n_v - n_a])[1]
+        n_a = sorted(_lengths(of_a))[1]
+        n_u = sorted([*_lengths({"M_u": M_u, "tau_u": tau_u}), contacts.n_v - n_a])[1]
         n_v = n_a + n_u
         extra = no_rows(n_v) if extra is None else extra
         for key, columns in (("contacts.J", contacts.n_v), ("extra.A", extra.A.shape[1])):
@@ -274,17 +272,17 @@ class StepData(Plain, HasPage):
         cost = self.extra.cost
         return coupled if cost is None else coupled | (cost[0] != 0)
 
-    @property
+    @cached_property
     def n_a(self) -> int:
         """Number of actuated coordinates."""
         return int(self.tau_a.size)
 
-    @property
+    @cached_property
     def n_u(self) -> int:
         """Number of un-actuated coordinates."""
         return int(self.tau_u.size)
 
-    @property
+    @cached_property
     def n_v(self) -> int:
         """Number of coordinates of delta_q."""
         return self.n_a + self.n_u
@@ -326,10 +324,10 @@ class StepData(Plain, HasPage):
         return StepData(**(field_values(self) | changes))
 
 
-def _length(value: ArrayLike, name: str) -> int:
-    """Number of entries of a vector, of rows of a matrix [-]."""
-    array = checked_numbers(value, name)
-    return len(array) if array.ndim else 1
+def _lengths(values: Mapping[str, ArrayLike]) -> list[int]:
+    """Numbers of entries of vectors, of rows of matrices [-]."""
+    arrays = [checked_numbers(value, name) for name, value in values.items()]
+    return [len(array) if array.ndim else 1 for array in arrays]
 
 
 KIND: dict[str, Callable[[StepData], ArrayLike]] = {
@@ -348,15 +346,16 @@ KIND: dict[str, Callable[[StepData], ArrayLike]] = {
 
 def differences(template: StepData, step: StepData, names: Iterable[str] = KIND) -> list[str]:
     """In what of those `names` of ``KIND`` a step is not like another."""
-    every = ((name, KIND[name](template), KIND[name](step)) for name in names)
-    return [name for name, one, other in every if not _equal(one, other)]
-
-
-def _equal(one: ArrayLike, other: ArrayLike) -> bool:
-    """Whether two words, numbers or vectors are equal."""
-    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
-        return one.shape == other.shape and bool((one == other).all())
-    return one == other
+    unlike = []
+    for name in names:
+        one, other = KIND[name](template), KIND[name](step)
+        if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+            alike = one.shape == other.shape and bool((one == other).all())
+        else:
+            alike = one == other
+        if not alike:
+            unlike.append(name)
+    return unlike
 
 
 def hessian(h: float, K_q: Array, M_u: Array) -> Array:
