@@ -34,19 +34,20 @@ _HOMES = {
     "simulate.recorder": "Recorder",
     "simulate.observer": "Observer",
     "simulate.finding": "Finding",
-    "simulate.trajectory": "Trajectory trajectory_read",
+    "simulate.trajectory": "Trajectory load_trajectory save_trajectory",
     "scenario.scenario": "Scenario load_scenario",
     "optional.scans.body": "scanned_body",
     # One step and its answer.
     "step.data": "StepData Contacts Extra",
-    "step.files": "step_read step_written",
+    "step.files": "load_step save_step",
     "solve.step_problem": "StepProblem",
     "step.standard_form": "standard_form",
     "optional.extensions.extension": "Extension Symbols",
     "certify.solution": "StepSolution SolverStatistics",
+    "certify.solution_files": "SolutionFile load_solution save_solution",
     "solve.solve": "solve_step",
     "optional.guests.mujoco": "mujoco_step",
-    "optional.guests.mujoco_opinion": "second_opinion",
+    "optional.guests.mujoco_opinion": "mujoco_opinion",
     "optional.guests.scene": "mujoco_scenario",
     "optional.coulomb.fixed_point": "coulomb_step CoulombSolution",
     "certify.certificate": "Certificate",
@@ -61,7 +62,7 @@ _HOMES = {
     "optional.show.figures.draw": "draw_scene draw_scenes",
     "optional.show.figures.friction_cone": "cone_with_load",
     "optional.show.figures.moments": "moment",
-    "optional.show.figures.viewer": "view_written",
+    "optional.show.figures.viewer": "save_view",
     "simulate.motions": "relative_turn",
     # What can go wrong.
     "errors": "QuasistaticError InputError MissingKey StepDataError ModelError ContactError "
@@ -89,6 +90,11 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.certify.solution import (
         SolverStatistics as SolverStatistics,
         StepSolution as StepSolution,
+    )
+    from quasistatic_ref.certify.solution_files import (
+        SolutionFile as SolutionFile,
+        load_solution as load_solution,
+        save_solution as save_solution,
     )
     from quasistatic_ref.certify.verdict import Verdict as Verdict
     from quasistatic_ref.certify.verification import verify as verify
@@ -123,7 +129,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.optional.fast.simulator import FastSimulator as FastSimulator
     from quasistatic_ref.optional.forces.forces import contact_forces as contact_forces
     from quasistatic_ref.optional.guests.mujoco import mujoco_step as mujoco_step
-    from quasistatic_ref.optional.guests.mujoco_opinion import second_opinion as second_opinion
+    from quasistatic_ref.optional.guests.mujoco_opinion import mujoco_opinion as mujoco_opinion
     from quasistatic_ref.optional.guests.scene import mujoco_scenario as mujoco_scenario
     from quasistatic_ref.optional.scans.body import scanned_body as scanned_body
     from quasistatic_ref.optional.show.figures.animation import animate as animate
@@ -136,7 +142,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     )
     from quasistatic_ref.optional.show.figures.friction_cone import cone_with_load as cone_with_load
     from quasistatic_ref.optional.show.figures.moments import moment as moment
-    from quasistatic_ref.optional.show.figures.viewer import view_written as view_written
+    from quasistatic_ref.optional.show.figures.viewer import save_view as save_view
     from quasistatic_ref.scenario.scenario import (
         Scenario as Scenario,
         load_scenario as load_scenario,
@@ -168,12 +174,13 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.simulate.simulator import Simulator as Simulator
     from quasistatic_ref.simulate.trajectory import (
         Trajectory as Trajectory,
-        trajectory_read as trajectory_read,
+        load_trajectory as load_trajectory,
+        save_trajectory as save_trajectory,
     )
     from quasistatic_ref.solve.solve import solve_step as solve_step
-    from quasistatic_ref.step.data import Contacts as Contacts, Extra as Extra, StepData as StepData
-    from quasistatic_ref.step.files import step_read as step_read, step_written as step_written
     from quasistatic_ref.solve.step_problem import StepProblem as StepProblem
+    from quasistatic_ref.step.data import Contacts as Contacts, Extra as Extra, StepData as StepData
+    from quasistatic_ref.step.files import load_step as load_step, save_step as save_step
     from quasistatic_ref.step.standard_form import standard_form as standard_form
 else:
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from quasistatic_ref import Contacts, InputError, standard_form, step_read
+from quasistatic_ref import Contacts, InputError, load_step, standard_form
 from quasistatic_ref.certify.residuals import optimality_residuals
-from quasistatic_ref.cli.solution_files import solution_read
+from quasistatic_ref.certify.solution_files import load_solution
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.lab.scenes import at_random
 from quasistatic_ref.lab.scenes.at_random import random_contacts
@@ -152,8 +152,8 @@ def verify_refusal(folder, step, solution):
     for path, text in zip(paths, (step, solution), strict=True):
         path.write_text(text)
     try:
-        posed = step_read(paths[0])
-        return refutation(posed, solution_read(paths[1], posed))
+        posed = load_step(paths[0])
+        return refutation(posed, load_solution(paths[1], posed))
     except InputError as error:
         return str(error)
 

@@ -21,7 +21,7 @@ PACKAGE = Path(qr.__file__).parent
 NAMES = [name for name in qr.__all__ if name != "__version__"]
 JAX = "smoothed_jax", "step_jax"
 """What takes steps in JAX, their examples too."""
-VIEW = {"view_written": "view"}
+VIEW = {"save_view": "view"}
 ASKED = (
     "System Body Sphere Box Capsule Cylinder HalfSpace PointCloud ContactPair PlacedShape "
     "Simulator rollout solve_step verify standard_form StepProblem StepData Contacts Extra "

@@ -18,7 +18,7 @@ from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.parts import is_there, needing
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Cylinder
-from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.simulate.trajectory import load_trajectory
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 from tests.helpers import random_step
@@ -150,7 +150,7 @@ def test_a_run_without_doctor_is_recorded_and_written(without, tmp_path, cli):
     assert run.header == {**header, **dict.fromkeys(unknown), "findings": []}
     assert run.arrays.keys() == whole.arrays.keys()
     cli("run", "sphere_spin", "--set", "steps=2", "--out", tmp_path, "--quiet")
-    assert trajectory_read(tmp_path / "sphere_spin.npz").steps == 2
+    assert load_trajectory(tmp_path / "sphere_spin.npz").steps == 2
 
 
 def test_without_pages_data_show_their_fields(without):

@@ -7,7 +7,7 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import about_file
 from quasistatic_ref.formats.files import bytes_written
 from quasistatic_ref.parts import needing
-from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.simulate.trajectory import load_trajectory
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -23,7 +23,7 @@ def run(options: argparse.Namespace) -> int:
     """Print the account, and write what was asked for."""
     with needing("account"):
         from quasistatic_ref.optional.doctor import telling
-    trajectory = trajectory_read(options.trajectory)
+    trajectory = load_trajectory(options.trajectory)
     with about_file(options.trajectory):
         account = trajectory.account()
     if options.figure is not None:

@@ -5,8 +5,8 @@ import sys
 from pathlib import Path
 
 from quasistatic_ref.errors import about_file
-from quasistatic_ref.simulate.trajectory import trajectory_read
-from quasistatic_ref.step.files import step_text, step_written
+from quasistatic_ref.simulate.trajectory import load_trajectory
+from quasistatic_ref.step.files import save_step, step_text
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -20,11 +20,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write the step, bit for bit as it was solved."""
-    trajectory = trajectory_read(options.trajectory)
+    trajectory = load_trajectory(options.trajectory)
     with about_file(options.trajectory):
         step = trajectory.step_data(options.step)
     if options.output is None:
         sys.stdout.write(step_text(step))
     else:
-        print(f"wrote {step_written(options.output, step)}")
+        print(f"wrote {save_step(options.output, step)}")
     return 0

@@ -42,14 +42,14 @@ def run(options: argparse.Namespace) -> int:
     """Print both answers, and what is found."""
     with needing("opinion"):
         from quasistatic_ref.optional.guests.compiler import compiled_model
-        from quasistatic_ref.optional.guests.mujoco_opinion import second_opinion
+        from quasistatic_ref.optional.guests.mujoco_opinion import mujoco_opinion
         from quasistatic_ref.optional.guests.settled import settled
     control = controls(options.control)
     with about_file(options.scene):
         model = compiled_model(options.scene, options.roots)
         data = settled(model, options.settle, options.keyframe, control)
         start = settled(model, 0.0, options.keyframe, control)
-        opinion = second_opinion(model, data, options.tolerance, start)
+        opinion = mujoco_opinion(model, data, options.tolerance, start)
     if options.json:
         shared.print_json(opinion.record)
     else:

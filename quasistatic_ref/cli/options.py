@@ -15,7 +15,7 @@ from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.files import step_read, step_written
+from quasistatic_ref.step.files import load_step, save_step
 
 OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "--out": {"type": Path, "metavar": "FOLDER", "help": "folder for the results"},
@@ -97,7 +97,7 @@ def scenario_settings(options: argparse.Namespace) -> list[str]:
 
 def step_of(options: argparse.Namespace) -> StepData:
     """The step file of a command, in the cone of ``--cone`` where that is given."""
-    step = step_read(options.step)
+    step = load_step(options.step)
     return step if options.cone is None else step.replace(cone=options.cone)
 
 
@@ -139,11 +139,13 @@ def failed_run(failure: RunFailed, path: Path) -> int:
 
     A trajectory that is there stays.
     """
+    from quasistatic_ref.simulate.trajectory import save_trajectory  # which needs coal
+
     trajectory: Trajectory = failure.trajectory
     file = path.with_name(f"{path.stem}_failed.npz") if path.exists() else path
-    kept = f"the first {trajectory.steps} steps are in {trajectory.save(file)}"
+    kept = f"the first {trajectory.steps} steps are in {save_trajectory(file, trajectory)}"
     if failure.step is not None:
-        step = step_written(path.with_name(f"{path.stem}_failed_step.json"), failure.step)
+        step = save_step(path.with_name(f"{path.stem}_failed_step.json"), failure.step)
         kept += f", the failing step in {step}"
     print(f"quasistatic-ref: {failure.reason}; {kept}", file=sys.stderr)
     return 130 if isinstance(failure.__cause__, KeyboardInterrupt) else 3

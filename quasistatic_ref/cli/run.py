@@ -26,6 +26,7 @@ from quasistatic_ref.simulate.trajectory import (
     WHAT,
     Trajectory,
     certified,
+    save_trajectory,
 )
 from quasistatic_ref.step.cones import cone
 
@@ -106,7 +107,7 @@ def run(options: argparse.Namespace) -> int:
             print(f"quasistatic-ref: {finding}", file=sys.stderr)
     if failure is not None:
         return shared.failed_run(failure, path)
-    trajectory.save(path)
+    save_trajectory(path, trajectory)
     written = [path]
     for option, file in tables.items():
         with needing(option):
@@ -116,8 +117,8 @@ def run(options: argparse.Namespace) -> int:
     summary = summary_record(scenario, trajectory, path)
     if options.view:
         with needing("--view"):
-            from quasistatic_ref.optional.show.figures.viewer import view_written
-        view = view_written(scenario, path.with_suffix(".html"), trajectory)
+            from quasistatic_ref.optional.show.figures.viewer import save_view
+        view = save_view(path.with_suffix(".html"), scenario, trajectory)
         summary["view"] = str(view)
         written.append(view)
     account = None

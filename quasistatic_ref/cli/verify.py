@@ -4,11 +4,11 @@ import argparse
 from pathlib import Path
 
 from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.solution_files import SolutionFile, load_solution, rounded_wrenches
 from quasistatic_ref.certify.verdict import wrong_bits
 from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words
-from quasistatic_ref.cli.solution_files import SolutionFile, rounded_wrenches, solution_read
 from quasistatic_ref.step.data import StepData
 
 UNPROVED = ("residual", "none")
@@ -25,7 +25,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Exit status 0 if all that is claimed holds, 1 if it does not."""
     step = shared.step_of(options)
-    solution = solution_read(options.solution, step)
+    solution = load_solution(options.solution, step)
     reason = refutation(step, solution)
     if options.json:
         shared.print_json({"verified": reason is None, "reason": reason})

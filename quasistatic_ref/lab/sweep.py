@@ -31,7 +31,7 @@ from quasistatic_ref.scenario.overrides import parsed
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar
-from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
+from quasistatic_ref.simulate.trajectory import Trajectory, load_trajectory, save_trajectory
 from quasistatic_ref.tolerances import LARGE
 
 TABLE = "runs.csv"
@@ -129,7 +129,7 @@ def simulate_many(
                 ]
                 try:
                     for file, trajectory, row in results(pool, run_of, todo):
-                        trajectory.save(folder / file)
+                        save_trajectory(folder / file, trajectory)
                         done[file] = row
                         bar.update()
                 finally:  # what is done so far, if it is interrupted
@@ -218,7 +218,7 @@ def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Traje
 def row_of_kept(file: str, folder: Path) -> tuple[str, Row | None]:
     """The name of a file, and the row of the run in it; None if it is spoilt."""
     try:
-        return file, _row(trajectory_read(folder / file))
+        return file, _row(load_trajectory(folder / file))
     except InputError:
         return file, None
 

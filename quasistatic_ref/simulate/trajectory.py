@@ -367,13 +367,8 @@ class Trajectory(Plain, HasPage):
         """
         return parts.contact_table(self)
 
-    def save(self, path: str | Path) -> Path:
-        """Write the file, whole or not at all."""
-        arrays: dict[str, Any] = {"header": json_array(self.header), **self.arrays}
-        return written_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
-
-def trajectory_read(path: str | Path) -> Trajectory:
+def load_trajectory(path: str | Path) -> Trajectory:
     """Read a trajectory file.
 
     Raises
@@ -387,8 +382,8 @@ def trajectory_read(path: str | Path) -> Trajectory:
     >>> import tempfile
     >>> from pathlib import Path
     >>> run = qr.load_scenario("sphere_spin", steps=3).run(progress=False)
-    >>> path = run.save(Path(tempfile.mkdtemp()) / "spin.npz")
-    >>> qr.trajectory_read(path).phi.shape
+    >>> path = qr.save_trajectory(Path(tempfile.mkdtemp()) / "spin.npz", run)
+    >>> qr.load_trajectory(path).phi.shape
     (3, 1)
     """
     header, arrays = npz_record(path, WHAT)
@@ -397,6 +392,21 @@ def trajectory_read(path: str | Path) -> Trajectory:
         top.check_format(FORMAT, VERSION)
         check_arrays(top, arrays)
     return Trajectory(header, arrays)
+
+
+def save_trajectory(path: str | Path, trajectory: Trajectory) -> Path:
+    """Write a trajectory file, whole or not at all.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> run = qr.load_scenario("sphere_spin", steps=3).run(progress=False)
+    >>> qr.save_trajectory(Path(tempfile.mkdtemp()) / "spin.npz", run).name
+    'spin.npz'
+    """
+    arrays: dict[str, Any] = {"header": json_array(trajectory.header), **trajectory.arrays}
+    return written_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
 
 def certified(trajectory: Trajectory) -> str:

@@ -74,7 +74,7 @@ def step_from_record(record: Any) -> StepData:
     return step
 
 
-def step_read(path: str | Path) -> StepData:
+def load_step(path: str | Path) -> StepData:
     """Read a step file.
 
     Examples
@@ -82,15 +82,15 @@ def step_read(path: str | Path) -> StepData:
     >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
     >>> import tempfile
     >>> from pathlib import Path
-    >>> path = qr.step_written(Path(tempfile.mkdtemp()) / "step.json", step)
-    >>> qr.step_read(path) == step
+    >>> path = qr.save_step(Path(tempfile.mkdtemp()) / "step.json", step)
+    >>> qr.load_step(path) == step
     True
     """
     with about_file(path):
         return step_from_record(json_read(path))
 
 
-def step_written(path: str | Path, step: StepData) -> Path:
+def save_step(path: str | Path, step: StepData) -> Path:
     """Write a step file, whole or not at all.
 
     Examples
@@ -98,7 +98,7 @@ def step_written(path: str | Path, step: StepData) -> Path:
     >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
     >>> import tempfile
     >>> from pathlib import Path
-    >>> qr.step_written(Path(tempfile.mkdtemp()) / "step.json", step).name
+    >>> qr.save_step(Path(tempfile.mkdtemp()) / "step.json", step).name
     'step.json'
     """
     return text_written(path, step_text(step))

@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from quasistatic_ref import load_scenario, trajectory_read
+from quasistatic_ref import load_scenario, load_trajectory
 from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.optional.doctor.time_step import SLOW
 from quasistatic_ref.simulate.motions import rotation_angle
@@ -32,7 +32,7 @@ def scenario():
 @pytest.fixture(scope="module")
 def runs(demo):
     assert demo.status == 0, demo.errors
-    return {case: trajectory_read(demo.folder / f"bunny_grasp_{case}.npz") for case in CASES}
+    return {case: load_trajectory(demo.folder / f"bunny_grasp_{case}.npz") for case in CASES}
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ from quasistatic_ref import Extra, StepDataError, solve_step, verify
 from quasistatic_ref.certify.certificate import exact_certificate
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
-from quasistatic_ref.cli.solution_files import solution_text
+from quasistatic_ref.certify.solution_files import solution_text
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from tests.certify.test_exact import resting_point
 from tests.helpers import point_on_floor

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, StepInfeasible, solve_step
-from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
+from quasistatic_ref.certify.solution_files import infeasible_text, solution_text
 from quasistatic_ref.lab.vectors.files import inputs_read
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.step.files import step_sha256, step_text

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from quasistatic_ref import step_written
+from quasistatic_ref import save_step
 from quasistatic_ref.cli import solve as solve_command
 from quasistatic_ref.cli.main import COMMANDS, main
 from tests.helpers import one_sentence, point_on_floor
@@ -19,7 +19,7 @@ def test_any_command_can_be_interrupted(tmp_path, cli, monkeypatch):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(solve_command, "solve_step", interrupted)
-    path = step_written(tmp_path / "step.json", point_on_floor())
+    path = save_step(tmp_path / "step.json", point_on_floor())
     assert one_sentence(cli("solve", path, status=130).err) == "interrupted"
 
 

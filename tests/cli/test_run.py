@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from quasistatic_ref import solve_step, step_read, trajectory_read
+from quasistatic_ref import load_step, load_trajectory, solve_step
 from quasistatic_ref.simulate import simulator
 from tests.model.urdf.urdf_texts import joint, urdf_of_text
 from tests.scenes import RAIL, SWING, written_scenario
@@ -25,7 +25,7 @@ def test_run_writes_the_trajectory_and_tells_of_it(scene, out, cli):
         "5 steps of 8 variables x 10 rows\n5 of 5 steps exact; backend clarabel, plain path, "
     )
     assert printed.endswith(f"wrote {out / 'scene.npz'}\n")
-    assert trajectory_read(out / "scene.npz").steps == 5
+    assert load_trajectory(out / "scene.npz").steps == 5
 
 
 def test_run_says_once_what_of_a_file_means_nothing_to_the_model(tmp_path, out, cli):
@@ -61,7 +61,7 @@ def test_options_change_the_scenario(scene, out, cli):
     options = ["--backend", "osqp", "--certify", "off", "--set", "steps=2", "--set", "h=0.02"]
     printed = json.loads(cli("run", scene, "--out", out, "--json", *options).out)
     assert (printed["backend"], printed["steps"], printed["worst_residual"]) == ("osqp", 2, None)
-    np.testing.assert_array_equal(trajectory_read(out / "scene.npz")["t"], [0.02, 0.04])
+    np.testing.assert_array_equal(load_trajectory(out / "scene.npz")["t"], [0.02, 0.04])
 
 
 def test_an_interrupted_run_leaves_its_steps(scene, out, cli, monkeypatch):
@@ -77,7 +77,7 @@ def test_an_interrupted_run_leaves_its_steps(scene, out, cli, monkeypatch):
     monkeypatch.setattr(simulator.Simulator, "step", interrupted)
     *_, last = cli("run", scene, "--out", out, status=130).err.splitlines()
     assert last.startswith("quasistatic-ref: step 2: interrupted; the first 2 steps")
-    assert trajectory_read(out / "scene.npz").steps == 2
+    assert load_trajectory(out / "scene.npz").steps == 2
 
 
 def test_quiet_leaves_nothing_on_a_terminal_s_standard_error(scene, tmp_path, monkeypatch, cli):
@@ -105,7 +105,7 @@ NAMES = ("product", "facets-6", "frictionless", "ellipsoid")
 @pytest.mark.parametrize("name", NAMES)
 def test_a_run_in_another_cone_can_be_replayed_from_its_file(name, scene, tmp_path, cli):
     said = json.loads(cli("run", scene, "--cone", name, "--out", tmp_path, "--json").out)
-    trajectory = trajectory_read(tmp_path / "scene.npz")
+    trajectory = load_trajectory(tmp_path / "scene.npz")
     assert trajectory.header["cone"] == name
     step = trajectory.step_data(3)
     assert step.cone == name
@@ -114,4 +114,4 @@ def test_a_run_in_another_cone_can_be_replayed_from_its_file(name, scene, tmp_pa
     np.testing.assert_array_equal(again.delta_q, trajectory["delta_q"][3])
     out = tmp_path / "step.json"
     cli("extract", tmp_path / "scene.npz", "--step", "3", "-o", out)
-    assert step_read(out) == step
+    assert load_step(out) == step

@@ -6,14 +6,14 @@ from fractions import Fraction
 
 import pytest
 
-from quasistatic_ref import step_written
+from quasistatic_ref import save_step
 from tests.helpers import point_on_floor
 
 
 @pytest.fixture
 def falling(tmp_path):
     """A point mass of 0.3 kg in the air: delta_q = h^2 force / m."""
-    return step_written(tmp_path / "step.json", point_on_floor(phi=1.0, force=(1.0, -0.7, 0.0)))
+    return save_step(tmp_path / "step.json", point_on_floor(phi=1.0, force=(1.0, -0.7, 0.0)))
 
 
 def decimals_of(text):

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from quasistatic_ref import step_written
+from quasistatic_ref import save_step
 from quasistatic_ref.cli.main import main
 from tests.helpers import one_sentence, pinch, point_on_floor
 
@@ -12,7 +12,7 @@ from tests.helpers import one_sentence, pinch, point_on_floor
 def test_verify_says_that_an_answer_is_false_and_names_a_file_that_is_missing(
     tmp_path, capsys, cli
 ):
-    step = str(step_written(tmp_path / "step.json", point_on_floor(force=(0.5, 0.0, -3.0))))
+    step = str(save_step(tmp_path / "step.json", point_on_floor(force=(0.5, 0.0, -3.0))))
     false = tmp_path / "false.json"
     assert main(["solve", step, "-o", str(false)]) == 0
     false.write_text(false.read_text().replace('"delta_q": [', '"delta_q": [1'))
@@ -31,7 +31,7 @@ NAMES = ("product", "facets-6", "frictionless", "ellipsoid")
 def test_a_solution_in_another_cone_is_verified_in_that_cone_only(name, tmp_path, cli):
     step = tmp_path / "step.json"
     solution = tmp_path / "solution.json"
-    step_written(step, pinch(grip=5.0, offset=0.2))
+    save_step(step, pinch(grip=5.0, offset=0.2))
     cli("solve", step, "--cone", name, "-o", solution)
     assert "verified" in cli("verify", step, solution, "--cone", name).out
     assert (

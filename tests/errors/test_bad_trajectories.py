@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario
+from quasistatic_ref.simulate.trajectory import save_trajectory
 from tests.errors.scene import scene_written
 
 NOT_ONE = "is not a trajectory written by this program"
@@ -27,7 +28,7 @@ def run(tmp_path_factory):
     """The bytes of a good trajectory of three steps."""
     folder = tmp_path_factory.mktemp("run")
     scenario = load_scenario(scene_written(folder))
-    return scenario.run(progress=False).save(folder / "run.npz").read_bytes()
+    return save_trajectory(folder / "run.npz", scenario.run(progress=False)).read_bytes()
 
 
 def npy(array, shape=None, pickled=False):

@@ -7,7 +7,7 @@ import threading
 import numpy as np
 import pytest
 
-from quasistatic_ref import RunFailed, load_scenario, step_read, trajectory_read
+from quasistatic_ref import RunFailed, load_scenario, load_step, load_trajectory
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.limits import Limits
@@ -53,13 +53,13 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(tmp_path, cli
     *warned, said = captured.err.splitlines()
     assert said.startswith(f"quasistatic-ref: step {steps}: ")
     assert all(word in captured.err for word in words)
-    trajectory = trajectory_read(out / "scene.npz")
+    trajectory = load_trajectory(out / "scene.npz")
     assert trajectory.steps == steps
     assert trajectory.failed is not None
     assert trajectory.failed in captured.err
     assert warned == [f"quasistatic-ref: {finding}" for finding in trajectory.findings]
     assert trajectory["q"].shape[0] == steps + 1
-    failed = step_read(out / "scene_failed_step.json")
+    failed = load_step(out / "scene_failed_step.json")
     assert f"the failing step in {out / 'scene_failed_step.json'}" in captured.err
     # It is the step that starts where the trajectory ends.
     scenario = load_scenario(path, fast=True)

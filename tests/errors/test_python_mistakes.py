@@ -123,7 +123,10 @@ MISTAKES = {
         (lambda: SYSTEM.pose(Q, "blok"), "did you mean 'block'"),
     ],
     "runs and files": [
-        (lambda: RUN.save(Path(__file__).parent), "cannot be written: Is a directory"),
+        (
+            lambda: qr.save_trajectory(Path(__file__).parent, RUN),
+            "cannot be written: Is a directory",
+        ),
         (lambda: RUN["qpos"], "qpos: is not an array of this trajectory"),
         (lambda: RUN.forces_on("blok"), "did you mean 'block'"),
         (lambda: RUN.step_data(10), "step: must be 0 to 1"),

@@ -14,16 +14,17 @@ from quasistatic_ref import (
     QuasistaticError,
     System,
     load_scenario,
+    load_step,
+    load_trajectory,
     solve_step,
-    step_read,
-    trajectory_read,
 )
-from quasistatic_ref.cli.solution_files import solution_read, solution_text
+from quasistatic_ref.certify.solution_files import load_solution, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.model.readers.clouds import point_cloud
+from quasistatic_ref.simulate.trajectory import save_trajectory
 from quasistatic_ref.step.files import step_text
 from tests.errors.scene import SCENE, scene_written
 from tests.model.readers.test_clouds import PCD_BODY, pcd
@@ -65,7 +66,7 @@ def mesh_read(path):
 
 def step_solved(path):
     """A step."""
-    solve_step(step_read(path), "none")
+    solve_step(load_step(path), "none")
 
 
 def good_files(folder):
@@ -74,7 +75,9 @@ def good_files(folder):
     step = load_scenario("sphere_spin", ["steps=1"]).run(progress=False).step_data(0)
     for name, save in (("c.npy", np.save), ("c.npz", np.savez)):
         save(folder / name, POINTS)
-    run = load_scenario("sphere_spin", ["steps=1"]).run(progress=False).save(folder / "run.npz")
+    run = save_trajectory(
+        folder / "run.npz", load_scenario("sphere_spin", ["steps=1"]).run(progress=False)
+    )
     ply = f"{PLY}property float z\nend_header\n0 0 0\n1 0 0\n"
     answers = answers_written(folder, "rows", "mine", {"one": {"A": [[1.0]], "b": [1.0]}})
     return {
@@ -91,9 +94,9 @@ def good_files(folder):
         "step.json": (step_text(step).encode(), step_solved),
         "solution.json": (
             solution_text(solve_step(step, "none")).encode(),
-            lambda path: refutation(step, solution_read(path, step)),
+            lambda path: refutation(step, load_solution(path, step)),
         ),
-        "run.npz": (run.read_bytes(), lambda path: trajectory_read(path).step_data(0)),
+        "run.npz": (run.read_bytes(), lambda path: load_trajectory(path).step_data(0)),
         "rows.json": (
             answers.read_bytes(),
             lambda path: answers_read(path.parent, "rows"),

@@ -9,7 +9,7 @@ import sys
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, trajectory_read
+from quasistatic_ref import InputError, load_trajectory
 from quasistatic_ref.formats.files import json_read, json_text, text_of, text_written, toml_read
 from quasistatic_ref.formats.files import written_whole as whole
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
@@ -131,7 +131,7 @@ READERS = {
     "TOML": toml_read,
     "JSON": json_read,
     "XML": loaded_urdf,
-    "ZIP": trajectory_read,
+    "ZIP": load_trajectory,
 }
 SPOILERS = {
     "missing": (lambda path: None, "no such file"),
@@ -167,7 +167,7 @@ CONTENTS = {
     "a field twice in TOML": (toml_read, b"h = 1\nh = 2\n", "is not TOML: Cannot overwrite"),
     "a field twice in JSON": (json_read, b'{"h": 1, "h": 2}', r"h: is given twice \(got 2\)"),
     "half a character": (json_read, b'{"format": "\\ud800"}', "holds half of a character"),
-    "no trajectory": (trajectory_read, b"", "is not a trajectory written by this program"),
+    "no trajectory": (load_trajectory, b"", "is not a trajectory written by this program"),
 }
 
 

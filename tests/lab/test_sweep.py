@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, Scenario, load_scenario, trajectory_read
+from quasistatic_ref import InputError, Scenario, load_scenario, load_trajectory
 from quasistatic_ref.lab import run_settings
 from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.processes import descendants
@@ -41,7 +41,7 @@ def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, cli):
         assert float(line["steps_taken"]) == steps
         settings = [sideways, f"contacts.rough.mu_v={mu}", f"steps={steps}"]
         alone = load_scenario("block_incline", settings).run(progress=False)
-        np.testing.assert_array_equal(trajectory_read(tmp_path / line["run"])["q"], alone["q"])
+        np.testing.assert_array_equal(load_trajectory(tmp_path / line["run"])["q"], alone["q"])
     kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").iterdir()}
     printed = json.loads(cli(*argv, "--json").out)
     assert (printed["runs"], printed["fast"]) == (4, True)

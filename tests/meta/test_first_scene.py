@@ -8,7 +8,7 @@ import pytest
 from matplotlib import image
 from PIL import Image
 
-from quasistatic_ref import trajectory_read
+from quasistatic_ref import load_trajectory
 from quasistatic_ref.cli.main import main
 from tests.pages import ROOT, SHELL, named_files
 from tests.tolerances import CLOSED_FORM
@@ -36,7 +36,7 @@ def folder(tmp_path_factory):
 
 
 def test_the_can_rises_with_the_lift_less_the_stretch_of_the_spring(folder):
-    run = trajectory_read(folder / "results" / "scene.npz")
+    run = load_trajectory(folder / "results" / "scene.npz")
     assert run.header["findings"] == []
     assert set(run["certificate"]) == {"exact"}
     mass = 0.2

@@ -8,7 +8,8 @@ import inspect
 from pathlib import Path
 
 import quasistatic_ref as qr
-from quasistatic_ref.cli import main, solution_files
+from quasistatic_ref.certify import solution_files
+from quasistatic_ref.cli import main
 from quasistatic_ref.cli.main import _actions as leaves
 from quasistatic_ref.cli.main import command_parser
 from quasistatic_ref.lab.vectors import versions

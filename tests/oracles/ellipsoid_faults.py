@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from quasistatic_ref import Extra
-from quasistatic_ref.cli.solution_files import infeasible_text
+from quasistatic_ref.certify.solution_files import infeasible_text
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import point_step
 from quasistatic_ref.step.files import step_sha256, step_text

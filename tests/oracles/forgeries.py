@@ -17,8 +17,8 @@ import json
 import math
 
 from quasistatic_ref import InputError, StepInfeasible, solve_step
-from quasistatic_ref.cli.solution_files import infeasible_text, solution_read
-from quasistatic_ref.cli.solution_files import solution_text as text_of
+from quasistatic_ref.certify.solution_files import infeasible_text, load_solution
+from quasistatic_ref.certify.solution_files import solution_text as text_of
 from quasistatic_ref.cli.verify import refutation
 from tests.oracles.records import places, value_at, with_value
 from tests.oracles.solution_truth import truth_of, wrenches
@@ -86,7 +86,7 @@ def is_refused(step, record, path):
     """Whether a record is refused, by its reader or by what `verify` does with it."""
     path.write_text(json.dumps(record))
     try:
-        return refutation(step, solution_read(path, step)) is not None
+        return refutation(step, load_solution(path, step)) is not None
     except InputError:
         return True
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import QuasistaticError, StepInfeasible, solve_step
-from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
+from quasistatic_ref.certify.solution_files import infeasible_text, solution_text
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.solve.choice import solver_for

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Certificate, solve_step
-from quasistatic_ref.cli.solution_files import solution_read, solution_text
+from quasistatic_ref.certify.solution_files import load_solution, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
 from tests.oracles.forged_scenes import between_walls, scenes
@@ -82,7 +82,7 @@ def faults_of_forgeries(step, path, **changes):
     for name, value in changes.items():
         (certificate if name in certificate else record)[name] = value
     path.write_text(json.dumps(record))
-    return refutation(step, solution_read(path, step))
+    return refutation(step, load_solution(path, step))
 
 
 def test_a_force_between_walls_that_nothing_touches_is_refused(path):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, load_scenario, trajectory_read
+from quasistatic_ref import InputError, load_scenario, load_trajectory, save_trajectory
 from quasistatic_ref.certify import solution
 from quasistatic_ref.cli.run import worst_residual
 from quasistatic_ref.simulate.finding import finding_table
@@ -56,7 +56,7 @@ def test_a_recorded_step_is_the_one_that_was_solved(scenario, run):
 
 
 def test_a_file_read_back_is_the_same_bits(tmp_path, run):
-    back = trajectory_read(run.save(tmp_path / "run.npz"))
+    back = load_trajectory(save_trajectory(tmp_path / "run.npz", run))
     assert back == run
     assert set(back.arrays) == SHAPES.keys()
     for name, array in run.arrays.items():
@@ -114,13 +114,13 @@ def test_wall_times_are_kept_in_memory_only(tmp_path, run):
     of_steps = {"distances", "rows", "solve", "proof", "integrate"}
     assert set(run.seconds) == {*of_steps, "record", "findings"}
     assert all(s.shape == (5,) and (s >= 0).all() for s in run.seconds.values())
-    assert trajectory_read(run.save(tmp_path / "run.npz")).seconds == {}
+    assert load_trajectory(save_trajectory(tmp_path / "run.npz", run)).seconds == {}
 
 
 def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
     light = load_scenario(folder / "scene.toml", ["record=light"], fast=True).run(progress=False)
     assert set(light.arrays) == SHAPES.keys() - PROGRAMS
-    back = trajectory_read(light.save(tmp_path / "run.npz"))
+    back = load_trajectory(save_trajectory(tmp_path / "run.npz", light))
     np.testing.assert_array_equal(back["q"], run["q"])
     with pytest.raises(InputError, match="a light record has no quadratic programs"):
         back.step_data(0)
@@ -128,7 +128,7 @@ def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
 
 def test_a_run_of_no_steps_is_a_trajectory(tmp_path, folder):
     empty = load_scenario(folder / "scene.toml", ["steps=0"], fast=True).run(progress=False)
-    back = trajectory_read(empty.save(tmp_path / "run.npz"))
+    back = load_trajectory(save_trajectory(tmp_path / "run.npz", empty))
     assert (back.steps, back.failed, back["q"].shape) == (0, None, (1, 10))
     assert worst_residual(back) is None
 
@@ -145,7 +145,7 @@ def test_a_record_of_forces_is_kept_where_those_of_one_step_are_not_found(tmp_pa
     torque = load_scenario("sphere_spin", steps=4).run(progress=False)["tau_u"][2, 5]
     monkeypatch.setattr(solution, "contact_forces", fails)
     scene = load_scenario("sphere_spin", {"record": "forces"}, steps=4)
-    run = trajectory_read(scene.run(progress=False).save(tmp_path / "run.npz"))
+    run = load_trajectory(save_trajectory(tmp_path / "run.npz", scene.run(progress=False)))
     assert np.isnan(run.forces).any(axis=(1, 2)).tolist() == [False, False, True, False]
     assert np.isnan(run.imbalance).tolist() == [False, False, True, False]
     assert "the forces are not known in 1 steps, first in 2" in run.account(forces=True).missing

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, ModelError, load_scenario, trajectory_read
+from quasistatic_ref import InputError, ModelError, load_scenario, load_trajectory, save_trajectory
 from quasistatic_ref.simulate.scene import Scene
 from tests.closeness import assert_close, assert_relative
 from tests.scenes import SWING, written_scenario
@@ -66,7 +66,7 @@ def test_forces_of_pairs_add_up_to_those_of_the_body(scenario, run):
 def test_a_record_of_forces_has_those_of_the_steps(scenario, run, tmp_path):
     kept = load_scenario(scenario.path, steps=40, fast=True, record="forces").run(progress=False)
     np.testing.assert_array_equal(kept["forces"], run.forces)
-    read = trajectory_read(kept.save(tmp_path / "forces.npz"))
+    read = load_trajectory(save_trajectory(tmp_path / "forces.npz", kept))
     np.testing.assert_array_equal(read.forces, kept.forces)
     assert "A" not in read.arrays
     np.testing.assert_array_equal(read.step_forces(3), run.forces[3])
@@ -80,7 +80,7 @@ def test_a_full_record_holds_no_forces_and_files_that_do_are_read(scenario, run,
     assert "forces" not in full.arrays
     np.testing.assert_array_equal(full.forces, run.forces)
     stored = replace(full, arrays={**full.arrays, "forces": full.forces + 1.0})
-    read = trajectory_read(stored.save(tmp_path / "stored.npz"))
+    read = load_trajectory(save_trajectory(tmp_path / "stored.npz", stored))
     np.testing.assert_array_equal(read.forces, full.forces + 1.0)
 
 
@@ -105,7 +105,10 @@ def test_a_result_has_the_forces_by_contact_pair_and_body(scenario, run, fast):
 
 
 def test_a_trajectory_from_a_file_or_a_pickle_is_given_its_scene(scenario, run, tmp_path):
-    for other in (trajectory_read(run.save(tmp_path / "run.npz")), pickle.loads(pickle.dumps(run))):
+    for other in (
+        load_trajectory(save_trajectory(tmp_path / "run.npz", run)),
+        pickle.loads(pickle.dumps(run)),
+    ):
         with pytest.raises(InputError, match=r"^scene: is not known: .* is from a file"):
             other.wrench_on("ball")
         scenes = (scenario, scenario.simulator(), Scene(scenario.system, scenario.pairs))

@@ -77,14 +77,14 @@ def test_a_function_solves_steps_as_a_backend_does():
 
 @pytest.mark.parametrize("name", ["mine:solve", "mine.py:solve"])
 def test_a_function_has_a_name_on_the_command_line(name, mine, cli):
-    qr.step_written(mine / "step.json", STEP)
+    qr.save_step(mine / "step.json", STEP)
     assert "correct digits" in cli("solve", "step.json", "--backend", name, "-o", "s.json").err
     run = qr.load_scenario("sphere_spin", {"solver.backend": name}, steps=2).run(progress=False)
     assert set(run.certificate) == {"exact"}
 
 
 def test_what_a_function_prints_comes_not_among_the_answers(mine, capfd):
-    qr.step_written(mine / "step.json", STEP)
+    qr.save_step(mine / "step.json", STEP)
     (mine / "loud.py").write_text(f"print('noise of the module')\n{MINE}")
     assert main(["solve", "step.json", "--backend", "loud.py:prints"]) == 0
     said = capfd.readouterr()
@@ -94,7 +94,7 @@ def test_what_a_function_prints_comes_not_among_the_answers(mine, capfd):
 
 
 def test_a_module_that_ends_its_process_is_a_sentence(mine, cli):
-    qr.step_written(mine / "step.json", STEP)
+    qr.save_step(mine / "step.json", STEP)
     (mine / "ends.py").write_text("raise SystemExit(0)")
     said = cli("solve", "step.json", "--backend", "ends.py:solve", status=2).err
     assert "cannot be imported: RuntimeError: SystemExit: 0" in said
@@ -141,7 +141,7 @@ def test_what_a_function_returns_is_not_believed(wrong):
     "name", ["missing:solve", "mine:missing", "mine:number", "none.py:solve", "mine.py:number"]
 )
 def test_a_function_that_is_not_there_is_named(name, mine, cli):
-    qr.step_written(mine / "step.json", STEP)
+    qr.save_step(mine / "step.json", STEP)
     assert name in one_sentence(cli("solve", "step.json", "--backend", name, status=2).err)
 
 

@@ -88,7 +88,7 @@ def test_a_backend_without_an_answer_has_no_digits(monkeypatch, cli, tmp_path):
     said = qr.solve_step(pinch(), DEFAULT).statistics
     assert (said.digits, said.unanswered) == (None, True)
     path = tmp_path / "pinch.step.json"
-    qr.step_written(path, pinch())
+    qr.save_step(path, pinch())
     told = cli("solve", path).err
     assert "correct digits" not in told
 

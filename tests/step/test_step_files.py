@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, InputError, StepDataError, step_read, step_written
+from quasistatic_ref import Extra, InputError, StepDataError, load_step, save_step
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.step.files import step_from_record, step_sha256, step_text
 from tests.errors.scene import changed
@@ -30,8 +30,8 @@ def record_of(step):
 
 @pytest.mark.parametrize("step", STEPS.values(), ids=STEPS)
 def test_a_step_read_back_is_the_same_bits(tmp_path, step):
-    path = step_written(tmp_path / "step.json", step)
-    back = step_read(path)
+    path = save_step(tmp_path / "step.json", step)
+    back = load_step(path)
     assert back == step
     assert step_text(back) == step_text(step) == path.read_text()
     assert step_sha256(back) == step_sha256(step)
@@ -67,5 +67,5 @@ def test_an_error_in_a_file_names_the_file(tmp_path):
     path = tmp_path / "step.json"
     path.write_text(json.dumps(changed(record_of(PLAIN), ("h", -1.0))))
     with pytest.raises(InputError) as caught:
-        step_read(path)
+        load_step(path)
     assert str(caught.value) == f"{path}: h: must be greater than 0 (got -1.0)"

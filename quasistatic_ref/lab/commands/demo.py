@@ -17,7 +17,7 @@ from quasistatic_ref.lab.grasp import (
 )
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.failures import RunFailed
-from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.trajectory import Trajectory, save_trajectory
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -38,8 +38,8 @@ def run(options: argparse.Namespace) -> int:
         try:
             runs[case] = scenario.run(progress=not options.quiet)
         except RunFailed as failure:
-            return shared.failed_run(failure, failure.trajectory.save(path))
-        runs[case].save(path)
+            return shared.failed_run(failure, save_trajectory(path, failure.trajectory))
+        save_trajectory(path, runs[case])
         report[case] = grasp_report(scenario, runs[case])
     written = _figures(scenarios["with torsion"], runs, options)
     if options.json:

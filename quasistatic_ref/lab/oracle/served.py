@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from quasistatic_ref.cli.solution_files import solution_text
+from quasistatic_ref.certify.solution_files import solution_text
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.resources import models_folder, scenario_path

@@ -28,7 +28,7 @@ SHORT = 0.01
 DRAG = "dampers: their forces at the present velocity are loads"
 
 
-def second_opinion(
+def mujoco_opinion(
     model: MjModel, data: MjData, tolerance: float = CREEP, start: MjData | None = None
 ) -> Opinion:
     """What MuJoCo says of the contacts of a state, and what rigid bodies with that friction do.
@@ -65,7 +65,7 @@ def second_opinion(
     >>> floor = '<geom name="floor" type="plane" size="1 1 1"/>'
     >>> text = f"<mujoco><worldbody>{floor}{box}</body></worldbody></mujoco>"
     >>> model = mujoco.MjModel.from_xml_string(text)
-    >>> opinion = qr.second_opinion(model, mujoco.MjData(model))
+    >>> opinion = qr.mujoco_opinion(model, mujoco.MjData(model))
     >>> opinion.findings, round(opinion.contacts[0].exact.normal, 4)  # a quarter of 1 kg [N]
     ((), 2.4525)
     """

@@ -18,11 +18,12 @@ from quasistatic_ref import (
     System,
     derivatives,
     load_scenario,
+    load_trajectory,
     rollout,
-    trajectory_read,
     verify,
 )
 from quasistatic_ref.optional.doctor.checks import scene_findings
+from quasistatic_ref.simulate.trajectory import save_trajectory
 from tests.closeness import assert_relative
 from tests.scenes import written_scenario
 from tests.tolerances import ROUNDING
@@ -50,7 +51,7 @@ def test_a_run_under_coulombs_law_lifts_nothing_off(plain):
 
 
 def test_a_recorded_step_is_the_one_that_was_certified(plain, tmp_path):
-    run = trajectory_read(plain.save(tmp_path / "run.npz"))
+    run = load_trajectory(save_trajectory(tmp_path / "run.npz", plain))
     k = int(run["s_iterations"].argmax())
     step = run.step_data(k)
     np.testing.assert_array_equal(step.contacts.phi, run["phi"][k] + run["s"][k])
@@ -70,7 +71,7 @@ def test_the_command_says_how_many_iterations_there_were(tmp_path, cli):
         "Coulomb's law: " in cli("run", path, "--law", "coulomb", "--out", tmp_path, "--quiet").out
     )
     said = json.loads(cli("run", path, "--law", "coulomb", "--out", tmp_path, "--json").out)
-    run = trajectory_read(tmp_path / "scene.npz")
+    run = load_trajectory(tmp_path / "scene.npz")
     assert said["law"] == "coulomb"
     assert said["s_iterations"] == run["s_iterations"].tolist()
     assert said["largest_s_residual"] == run["s_residual"].max()

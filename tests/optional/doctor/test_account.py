@@ -6,7 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, Trajectory, load_scenario, relative_turn, trajectory_read
+from quasistatic_ref import (
+    InputError,
+    Trajectory,
+    load_scenario,
+    load_trajectory,
+    relative_turn,
+    save_trajectory,
+)
 from quasistatic_ref.optional.doctor.telling import lines, measures
 from quasistatic_ref.tolerances import SLIDES, SPINS, TOUCHES
 from tests.closeness import assert_relative
@@ -20,8 +27,8 @@ RUNS = {"bunny_grasp": 110, "door": 120}
 def run(request, tmp_path_factory):
     """A run from its file, which holds forces."""
     scenario = load_scenario(request.param, steps=RUNS[request.param], fast=True, record="forces")
-    path = scenario.run(progress=False).save(tmp_path_factory.mktemp("run") / "run.npz")
-    return trajectory_read(path)
+    path = save_trajectory(tmp_path_factory.mktemp("run") / "run.npz", scenario.run(progress=False))
+    return load_trajectory(path)
 
 
 def test_numbers_of_pairs_are_those_of_the_arrays(run):
@@ -154,7 +161,7 @@ def test_the_commands_print_the_table_and_draw_it(tmp_path, cli):
     path = tmp_path / "block_push.npz"
     png = tmp_path / "figure.png"
     whole = cli("account", path, "--figure", png).out
-    run = trajectory_read(path)
+    run = load_trajectory(path)
     x = run["q"][:, 1]  # of the block, which does not turn
     for printed in (short, whole):
         assert f"ends_from_start_m {x[-1] - x[0]:.4g}" in printed

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from quasistatic_ref import solve_step, trajectory_read
+from quasistatic_ref import load_trajectory, solve_step
 from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.optional.doctor.artifacts import (
@@ -115,7 +115,7 @@ def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, cli):
     assert f"{expected}largest boundary layer 0 um" in printed.out
     assert printed.err == ""
     cli(*arguments)
-    header = trajectory_read(tmp_path / "sphere_spin.npz").header
+    header = load_trajectory(tmp_path / "sphere_spin.npz").header
     expected = 0.01 * H**2 * 4 * 0.01 * 0.3 * G / 8e-5
     assert_relative(header["largest_boundary_layer"], expected, 3e-3)
     assert 0 < header["quasi_dynamic_number"] < SLOW

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from quasistatic_ref import load_scenario, trajectory_read
+from quasistatic_ref import load_scenario, load_trajectory
 from quasistatic_ref.optional.doctor import start
 from quasistatic_ref.simulate.finding import finding_table
 from tests.extras import SCENARIOS
@@ -95,7 +95,7 @@ def test_findings_are_those_of_the_page_and_strict_fails_on_grave_ones(tmp_path,
     hostile = urdf_of_text(tmp_path, HOSTILE, "hostile.toml")
     arguments = ["run", hostile, "--out", tmp_path, "--set", "steps=40"]
     printed = cli(*arguments).err.splitlines()
-    run = trajectory_read(tmp_path / "hostile.npz")
+    run = load_trajectory(tmp_path / "hostile.npz")
     assert printed == [f"quasistatic-ref: {found}" for found in run.findings]
     (said,) = [str(found) for found in run.findings if found.name == "sunk contact"]
     assert f"quasistatic-ref: {said}\n" in GUIDE.read_text()
@@ -139,7 +139,7 @@ def test_what_is_not_looked_at_in_a_large_scene_is_said(tmp_path, cli, monkeypat
     of_scene = "guides, points of faces"
     line = f"{of_scene}, {OF_RUN}: the scene is large"
     assert f"not looked at: {line}" in cli("run", *arguments, "--out", tmp_path).err
-    assert trajectory_read(tmp_path / "block_push.npz").header["not_looked_at"] == line
+    assert load_trajectory(tmp_path / "block_push.npz").header["not_looked_at"] == line
     printed = cli("inspect", *arguments).out
     assert f"not looked at: {of_scene}: the scene is large" in printed
 

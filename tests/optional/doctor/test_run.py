@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from quasistatic_ref import Trajectory, load_scenario, trajectory_read
+from quasistatic_ref import Trajectory, load_scenario, load_trajectory, save_trajectory
 from quasistatic_ref.optional.doctor.steps import sunk
 from quasistatic_ref.tolerances import SUNK
 from tests.scenes import written_scenario
@@ -20,8 +20,9 @@ def scene(tmp_path_factory):
 def test_a_file_from_before_there_were_findings_has_none(scene, tmp_path):
     run = load_scenario(scene, fast=True).run(progress=False)
     header = {key: value for key, value in run.header.items() if key != "findings"}
-    path = Trajectory(header | {"warnings": ["a sentence"]}, run.arrays).save(tmp_path / "old.npz")
-    assert trajectory_read(path).findings == ()
+    old = Trajectory(header | {"warnings": ["a sentence"]}, run.arrays)
+    path = save_trajectory(tmp_path / "old.npz", old)
+    assert load_trajectory(path).findings == ()
 
 
 class Made:

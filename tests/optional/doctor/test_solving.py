@@ -63,7 +63,7 @@ def test_the_remedy_names_what_solves_the_step_and_never_the_accused(
 def test_failures_are_in_the_summary_and_in_a_finding_that_is_grave(failing, tmp_path, cli):
     printed = cli("run", *SCENE, "--out", tmp_path, "--strict", status=1)
     assert f"{STEPS} of {STEPS} steps exact (the backend failed in 3 of them)" in printed.out
-    (finding,) = qr.trajectory_read(tmp_path / "block_push.npz").findings
+    (finding,) = qr.load_trajectory(tmp_path / "block_push.npz").findings
     assert finding.name == "failing backend"
     assert finding.numbers == {"failed": 3, "short": 0, "step": 1}
     sentence = (

@@ -11,10 +11,11 @@ from quasistatic_ref import (
     Extension,
     InputError,
     load_scenario,
+    load_trajectory,
     rollout,
     solve_step,
-    trajectory_read,
 )
+from quasistatic_ref.simulate.trajectory import save_trajectory
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import changed, error, pinch, random_step
 from tests.tolerances import OPTIMUM, ROUNDING
@@ -125,7 +126,7 @@ def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
     trajectory = rollout(simulator, scenario.system.q_start, scenario.targets, 8, progress=False)
     assert set(trajectory["certificate"].tolist()) == {"exact"}
     np.testing.assert_array_less(np.abs(trajectory["delta_q"][:, :n_a]), 1e-3 * h * (1 + ROUNDING))
-    read = trajectory_read(trajectory.save(tmp_path / "run.npz"))
+    read = load_trajectory(save_trajectory(tmp_path / "run.npz", trajectory))
     step = read.step_data(7)
     assert len(step.extra.names) == 2 * n_a
     answer = solve_step(step, "osqp")

@@ -18,11 +18,11 @@ from quasistatic_ref import (
     StepDataError,
     solve_step,
 )
-from quasistatic_ref.cli.solution_files import solution_text
+from quasistatic_ref.certify.solution_files import solution_text
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.optional.extensions.extended import posed
 from quasistatic_ref.simulate.rollout import rollout
-from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.simulate.trajectory import load_trajectory, save_trajectory
 from quasistatic_ref.solve.backends import REQUIRED
 from quasistatic_ref.step.files import step_from_record, step_text
 from quasistatic_ref.step.groups import groups
@@ -216,7 +216,7 @@ def test_a_file_may_leave_out_h_or_g():
         step = step_from_record(record)
         assert step.extra.H.shape == (3, 3)
         assert step.extra.g.shape == (3,)
-        assert checker.step_read(record) == json.loads(step_text(step))
+        assert checker.load_step(record) == json.loads(step_text(step))
 
 
 REFUSED = {
@@ -254,7 +254,7 @@ def test_a_run_with_a_cost_is_recorded_and_replayed(tmp_path, settings):
     scenario = qr.load_scenario("sphere_spin", ["steps=3", *settings])
     simulator = scenario.simulator(spring)
     run = rollout(simulator, scenario.system.q_start, scenario.targets, 3, progress=False)
-    back = trajectory_read(run.save(tmp_path / "run.npz"))
+    back = load_trajectory(save_trajectory(tmp_path / "run.npz", run))
     assert back == run
     step = back.step_data(2)
     assert step.extra.H[2, 2] == 80.0

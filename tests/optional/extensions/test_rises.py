@@ -12,14 +12,15 @@ from quasistatic_ref import (
     StepDataError,
     derivatives,
     load_scenario,
+    load_trajectory,
     solve_step,
-    trajectory_read,
 )
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.optional.extensions.extension import Rises
 from quasistatic_ref.optional.extensions.rises import with_rises
+from quasistatic_ref.simulate.trajectory import save_trajectory
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import random_step
@@ -164,7 +165,7 @@ def test_an_l_is_pushed_along_a_wall_on_its_support(tmp_path):
     assert_relative(run["wrench"][:, -1, 2], m * G, 1e-6)
     # Nothing of the rise is in the records but the programs, which can be solved again.
     assert run["delta_q"].shape == (4, 3)
-    read = trajectory_read(run.save(tmp_path / "run.npz"))
+    read = load_trajectory(save_trajectory(tmp_path / "run.npz", run))
     answer = solve_step(read.step_data(3), "daqp")
     assert answer.delta_q[:3].tolist() == read["delta_q"][3].tolist()
     assert run.header["largest_boundary_layer"] < 2 * w * x  # of the wall, not of the rise

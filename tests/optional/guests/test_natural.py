@@ -213,6 +213,6 @@ def test_a_model_in_which_nothing_can_move_is_refused(bodies, words):
     model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{bodies}</worldbody>{tie}</mujoco>")
     data = mujoco.MjData(model)
     for take in (lambda: mujoco_step(model, data, H), lambda: qr.mujoco_scenario(model),
-                 lambda: qr.second_opinion(model, data)):  # fmt: skip
+                 lambda: qr.mujoco_opinion(model, data)):  # fmt: skip
         with pytest.raises(ModelError, match=words):
             take()

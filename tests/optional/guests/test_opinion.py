@@ -34,7 +34,7 @@ def opinion(text, seconds=2.0, keyframe=None, control=None):
     """The opinion on a scene that has settled, which knows where it started."""
     model = mujoco.MjModel.from_xml_string(text)
     start = settled(model, 0.0, keyframe, control)
-    return qr.second_opinion(model, settled(model, seconds, keyframe, control), start=start)
+    return qr.mujoco_opinion(model, settled(model, seconds, keyframe, control), start=start)
 
 
 def torsional_fingers(text):
@@ -371,7 +371,7 @@ def test_a_rod_through_a_box_that_mujoco_lists_no_contact_of_is_found():
     )
     model = mujoco.MjModel.from_xml_string(scene(bodies))
     data = settled(model, 0.0)
-    answer = qr.second_opinion(model, data)
+    answer = qr.mujoco_opinion(model, data)
     assert answer.contacts == ()
     (finding,) = answer.findings
     mujoco.mj_forward(model, data)
@@ -407,6 +407,6 @@ def test_a_state_that_is_not_finite_is_named(field):
     model = mujoco.MjModel.from_xml_string(scene(f"<body>{UP}/>{BOX}</body>", motor))
     data = mujoco.MjData(model)
     getattr(data, field).flat[-1] = np.nan
-    for ask in (qr.second_opinion, lambda *of: qr.mujoco_step(*of, h=0.01)):
+    for ask in (qr.mujoco_opinion, lambda *of: qr.mujoco_step(*of, h=0.01)):
         with pytest.raises(qr.ModelError, match=rf"data\.{field}: must contain finite numbers"):
             ask(model, data)

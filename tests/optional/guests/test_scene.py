@@ -12,7 +12,7 @@ from quasistatic_ref.model.mechanism import StepSystem
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.optional.guests.scene import mujoco_scenario
-from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.simulate.trajectory import load_trajectory
 from tests.closeness import assert_close
 from tests.tolerances import ROUNDING
 
@@ -207,7 +207,7 @@ def test_numbers_that_no_step_can_take_are_refused_by_name(spoilt, number, field
         getattr(owner, name).flat[0] = number
     else:
         setattr(owner, name, number)
-    ask = mujoco_scenario if asked == "scene" else qr.second_opinion
+    ask = mujoco_scenario if asked == "scene" else qr.mujoco_opinion
     with pytest.raises(ModelError, match=f"^{field}: must "):
         ask(bad, mujoco.MjData(bad))
 
@@ -236,7 +236,7 @@ def test_the_command_runs_a_scene(tmp_path, cli):
         in cli("run", path, "--targets", "open,closed,raised", "--view", *out).out
     )
     assert (tmp_path / "scene.html").stat().st_size > 1000
-    run = trajectory_read(tmp_path / "scene.npz")
+    run = load_trajectory(tmp_path / "scene.npz")
     # Halfway the controls are those of "closed".
     assert run.q_bar_a[1, 0] == pytest.approx(0.0, abs=1e-12)
     assert run.q_bar_a[3, 0] == pytest.approx(0.05, abs=1e-12)

@@ -8,7 +8,7 @@ import numpy as np
 import pandas
 import pytest
 
-from quasistatic_ref import InputError, Trajectory, load_scenario, trajectory_read
+from quasistatic_ref import InputError, Trajectory, load_scenario, load_trajectory
 from quasistatic_ref.optional.show.table import table_written
 from tests.scenes import BALL, written_scenario
 
@@ -66,7 +66,7 @@ def test_run_writes_both_tables_as_csv_or_parquet(tmp_path, scene, cli):
     tidy = tmp_path / "contacts.csv"
     options = ["--out", tmp_path, "--table", wide, "--contacts-table", tidy]
     assert f"and {wide} and {tidy}" in cli("run", scene, "--fast", *options).out
-    run = trajectory_read(tmp_path / f"{scene.stem}.npz")
+    run = load_trajectory(tmp_path / f"{scene.stem}.npz")
     table = pandas.read_parquet(wide)
     np.testing.assert_array_equal(table["ball.z [m]"], run.to_pandas()["ball.z [m]"])
     contacts = exact_csv(tidy)

@@ -11,8 +11,8 @@ from quasistatic_ref import (
     RunFailed,
     Trajectory,
     load_scenario,
+    load_trajectory,
     solve_step,
-    trajectory_read,
 )
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.optional.show.show import (
@@ -22,6 +22,7 @@ from quasistatic_ref.optional.show.show import (
     html_page,
     text_page,
 )
+from quasistatic_ref.simulate.trajectory import save_trajectory
 from tests.helpers import (
     changed,
     point_on_floor,
@@ -128,7 +129,7 @@ STRANGE = {
 def test_a_strange_trajectory_that_can_be_read_can_be_shown(header, tmp_path):
     run = load_scenario("block_push", steps=3, fast=True).run(progress=False)
     strange = Trajectory({**run.header, **header}, run.arrays)
-    check(strange, trajectory_read(strange.save(tmp_path / "run.npz")))
+    check(strange, load_trajectory(save_trajectory(tmp_path / "run.npz", strange)))
 
 
 def test_words_and_numbers_are_cut_where_they_must():

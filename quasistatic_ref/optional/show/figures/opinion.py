@@ -19,7 +19,7 @@ def opinion_figure(opinion: Any) -> Figure:
     Parameters
     ----------
     opinion : Opinion
-        Of ``second_opinion``.
+        Of ``mujoco_opinion``.
     """
     contacts = sorted(opinion.contacts, key=lambda c: -c.theirs.normal)[:MOST]
     bodies = sorted(opinion.bodies, key=lambda b: -b.fastest(b.theirs))[:MOST]

@@ -68,8 +68,8 @@ CAPTION: Final = (
 )
 
 
-def view_written(
-    shown: HasScene | Trajectory, path: str | Path, run: Trajectory | None = None
+def save_view(
+    path: str | Path, shown: HasScene | Trajectory, run: Trajectory | None = None
 ) -> Path:
     """Write a scene, or a run of it, as one HTML file for a browser, without network.
 
@@ -80,9 +80,9 @@ def view_written(
 
     Parameters
     ----------
+    path : str or Path
     shown : Scenario, Simulator or Trajectory
         A trajectory knows its scene where it was run in this process.
-    path : str or Path
     run : Trajectory, optional
         That of the scenario or simulator; without one, the scene as it starts.
 
@@ -100,7 +100,7 @@ def view_written(
     >>> import tempfile
     >>> from pathlib import Path
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     qr.view_written(qr.load_scenario("sphere_spin"), Path(folder) / "spin.html").name
+    ...     qr.save_view(Path(folder) / "spin.html", qr.load_scenario("sphere_spin")).name
     'spin.html'
     """
     meshcat = viewer_package()

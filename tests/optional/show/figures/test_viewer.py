@@ -14,8 +14,8 @@ from quasistatic_ref.optional.show.figures.moments import frames
 from quasistatic_ref.optional.show.figures.viewer import (
     FRAMES_PER_SECOND,
     LONGEST,
+    save_view,
     scene_drawn,
-    view_written,
     viewer_package,
 )
 from quasistatic_ref.optional.show.figures.visuals import visuals
@@ -100,11 +100,11 @@ def test_one_state_of_a_contact_is_visible_at_a_time(commands):
 
 def test_a_page_says_what_it_shows(pushed, tmp_path, capfd):
     scenario, run = pushed
-    page = view_written(scenario, tmp_path / "run.html", run).read_text()
+    page = save_view(tmp_path / "run.html", scenario, run).read_text()
     assert "<title>block_push</title>" in page
     assert "1 N is 10 mm" in page
     assert capfd.readouterr() == ("", "")
-    still = view_written(scenario.simulator(), tmp_path / "scene.html").read_text()
+    still = save_view(tmp_path / "scene.html", scenario.simulator()).read_text()
     assert "<title>scene</title>" in still
     assert "1 N is" not in still  # nothing is known of forces
     assert len(still) < len(page)
@@ -114,10 +114,10 @@ def test_what_cannot_be_shown_is_refused(pushed, tmp_path):
     scenario, run = pushed
     from_file = pickle.loads(pickle.dumps(run))
     with pytest.raises(InputError, match=r"is from a file; give its scenario or simulator first"):
-        view_written(from_file, tmp_path / "other.html")
+        save_view(tmp_path / "other.html", from_file)
     empty = type(run)(run.header, {**run.arrays, "t": run["t"][:0]})
     with pytest.raises(InputError, match="has no steps"):
-        view_written(scenario, tmp_path / "other.html", empty)
+        save_view(tmp_path / "other.html", scenario, empty)
 
 
 LOOKS = robot(

@@ -17,7 +17,7 @@ from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.rounding import nearest
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import StepDataError, about_file
-from quasistatic_ref.formats.files import json_read, json_text
+from quasistatic_ref.formats.files import json_read, json_text, text_written
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import PYRAMID, cone
@@ -49,6 +49,11 @@ class SolutionFile:
     certificate : Certificate or None
     farkas : tuple of str or None
         For an infeasible step: the proof, as fractions ``"p/q"``.
+
+    Examples
+    --------
+    >>> qr.SolutionFile(farkas=("1", "1/2")).delta_q is None
+    True
     """
 
     delta_q: Array | None = None
@@ -75,18 +80,42 @@ def solution_text(solution: StepSolution) -> str:
     return json_text(record) + "\n"
 
 
+def save_solution(path: str | Path, solution: StepSolution) -> Path:
+    """Write a solution file, whole or not at all.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.save_solution(Path(tempfile.mkdtemp()) / "solution.json", qr.solve_step(step)).name
+    'solution.json'
+    """
+    return text_written(path, solution_text(solution))
+
+
 def infeasible_text(step: StepData, farkas: Sequence[str]) -> str:
     """The proof that a step has no solution, as one line of JSON."""
     return json_text(_head(step, "infeasible") | {"farkas": list(farkas)}) + "\n"
 
 
-def solution_read(path: str | Path, step: StepData) -> SolutionFile:
+def load_solution(path: str | Path, step: StepData) -> SolutionFile:
     """Read a solution file, whatever program wrote it.
 
     Raises
     ------
     InputError
         Naming the file, the field and the value.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> solution = qr.solve_step(step)
+    >>> path = qr.save_solution(Path(tempfile.mkdtemp()) / "solution.json", solution)
+    >>> bool((qr.load_solution(path, step).delta_q == solution.delta_q).all())
+    True
     """
     with about_file(path):
         return _solution(TableReader(json_read(path), error=StepDataError), step)

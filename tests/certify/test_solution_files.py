@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, InputError, solve_step
-from quasistatic_ref.cli.solution_files import (
+from quasistatic_ref.certify.solution_files import (
     infeasible_text,
+    load_solution,
     rounded_wrenches,
-    solution_read,
     solution_text,
 )
 from quasistatic_ref.step.files import (
@@ -55,7 +55,7 @@ def test_a_solution_read_back_is_the_same_bits(tmp_path, certify, kind):
     solution = solve_step(step, certify=certify)
     path = tmp_path / "solution.json"
     path.write_text(solution_text(solution))
-    back = solution_read(path, step)
+    back = load_solution(path, step)
     assert back.certificate == replace(solution.certificate, residuals={})
     assert back.certificate.kind == kind
     np.testing.assert_array_equal(back.delta_q, solution.delta_q)
@@ -88,7 +88,7 @@ def test_a_solution_with_a_wrong_field_is_refused(tmp_path, path, value, says):
     file = tmp_path / "solution.json"
     file.write_text(json.dumps(changed(record, (path, value))))
     with pytest.raises(InputError) as caught:
-        solution_read(file, PLAIN)
+        load_solution(file, PLAIN)
     assert str(caught.value).startswith(f"{file}: {says}")
 
 
@@ -99,7 +99,7 @@ def test_an_infeasible_step_s_file_has_the_proof_in_place_of_an_answer(tmp_path)
     ]  # fmt: skip
     path = tmp_path / "solution.json"
     path.write_text(text)
-    back = solution_read(path, PLAIN)
+    back = load_solution(path, PLAIN)
     assert back.farkas == ("1/3", "0")
     assert back.delta_q is None
     assert back.certificate is None
@@ -128,6 +128,6 @@ def test_a_file_with_a_bound_of_an_older_version_is_read_and_proves_nothing(tmp_
     step.write_text(step_text(PLAIN))
     path = tmp_path / "solution.json"
     path.write_text(json.dumps(record))
-    assert solution_read(path, PLAIN).certificate.error_bound is None
+    assert load_solution(path, PLAIN).certificate.error_bound is None
     refuted = "refuted: a certificate of kind 'residual' proves nothing; solve with full\n"
     assert cli("verify", step, path, status=1).out == refuted
