@@ -12,7 +12,7 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 
 PACKAGE = str(Path(quasistatic_ref.__file__).parent)
-CALLS = 640
+CALLS = 450
 KINDS = 25
 MAKERS = {"__init__", "<lambda>", "unchecked"}  # a lambda makes what inherits from NamedTuple
 
