@@ -52,7 +52,7 @@ _HOMES = {
     "optional.coulomb.fixed_point": "coulomb_step CoulombSolution",
     "certify.certificate": "Certificate",
     "certify.residuals": "Residuals optimality_residuals",
-    "certify.verification": "verify",
+    "certify.verification": "verify verify_answer",
     "certify.verdict": "Verdict",
     "certify.contact_forces": "ContactForces",
     "optional.forces.forces": "contact_forces",
@@ -97,7 +97,10 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         save_solution as save_solution,
     )
     from quasistatic_ref.certify.verdict import Verdict as Verdict
-    from quasistatic_ref.certify.verification import verify as verify
+    from quasistatic_ref.certify.verification import (
+        verify as verify,
+        verify_answer as verify_answer,
+    )
     from quasistatic_ref.contact.pairs import ContactPair as ContactPair
     from quasistatic_ref.errors import (
         BackendError as BackendError,

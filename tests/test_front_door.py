@@ -83,6 +83,8 @@ lost: float = qr.optimality_residuals(qr.standard_form(step), delta_q, solution.
 slide: Array = qr.derivatives(simulator, [0.0] * 8, [0.1]).along(q_bar_a=[1.0])
 contacts = qr.Contacts(["a"], [0.0], [[0, 0, 1]], [[1, 0, 0]], [[0, 1, 0]], [], [0.5], [0], [4])
 names: list[str] = [finding.name.upper() for finding in run.findings]
+if not (verdict := qr.verify(solution)):
+    print(verdict.reason.upper())
 solution.delta_qq  # type: ignore[attr-defined]
 qr.solve_stepp  # type: ignore[attr-defined]
 """

@@ -48,7 +48,7 @@ step = run.step_data(150)
 solution = qr.solve_step(step, "clarabel")
 print(solution.certificate.kind, "with", len(solution.certificate.active), "active rows")
 print(f"correct digits of Clarabel itself: {solution.statistics.digits:.1f}")
-qr.verify(step, solution.delta_q, solution.certificate.active)
+qr.verify(solution)
 
 # %% [markdown]
 # Which contacts stick (black) and which slide (orange):

@@ -22,7 +22,7 @@ class Verdict:
     Examples
     --------
     >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> qr.verify(step, np.zeros(6), []).reason
+    >>> qr.verify_answer(step, np.zeros(6), []).reason
     'row +d1 of floor(floor, sphere/sphere#0)/0 is violated by the minimiser on the working set'
     """
 

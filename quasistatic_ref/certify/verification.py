@@ -1,6 +1,7 @@
 """The verification of a certificate without any solver.
 
-No step calls :func:`verify`, which is for whoever wants to check an answer afterwards.
+No step calls :func:`verify` or :func:`verify_answer`, which are for whoever wants to check an
+answer afterwards.
 
 A certificate names a working set of independent rows. Solving one linear system without rounding
 gives the minimiser on it; if its multipliers are > 0 and its slacks >= 0, it is the optimum, which
@@ -28,6 +29,7 @@ from quasistatic_ref.certify.minimiser import (
     rounded_quotients,
 )
 from quasistatic_ref.certify.rows import flat_rows, row_owners
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.numbers.precision import working_precision
@@ -35,7 +37,37 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.groups import Group, group_steps
 
 
-def verify(
+def verify(solution: StepSolution) -> Verdict:
+    """Whether all that a solution claims is so, checked without a solver.
+
+    Its delta_q and multipliers, and all fields of its certificate, but its residuals. The kinds
+    ``"residual"`` and ``"none"``, which prove nothing, are refused.
+
+    Parameters
+    ----------
+    solution : StepSolution
+
+    Returns
+    -------
+    Verdict
+
+    Raises
+    ------
+    InputError
+        As :func:`verify_answer`.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> bool(qr.verify(qr.solve_step(step)))
+    True
+    """
+    lam = np.concatenate([solution.lam, solution.lam_extra])
+    claims = solution.certificate
+    return verify_answer(solution.step, solution.delta_q, claims.active, lam, claims)
+
+
+def verify_answer(
     step: StepData,
     delta_q: ArrayLike,
     active: Sequence[tuple[int, int]],
@@ -74,7 +106,7 @@ def verify(
     --------
     >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
     >>> solution = qr.solve_step(step)
-    >>> bool(qr.verify(step, solution.delta_q, solution.certificate.active))
+    >>> bool(qr.verify_answer(step, solution.delta_q, solution.certificate.active))
     True
     """
     if claims is not None and claims.kind != "none" and not claims.is_of(step):

@@ -6,7 +6,7 @@ from pathlib import Path
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.solution_files import SolutionFile, load_solution, rounded_wrenches
 from quasistatic_ref.certify.verdict import wrong_bits
-from quasistatic_ref.certify.verification import verify
+from quasistatic_ref.certify.verification import verify_answer
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.step.data import StepData
@@ -57,5 +57,5 @@ def refutation(step: StepData, solution: SolutionFile) -> str | None:
     for j, (wrench_row, wrench) in enumerate(zip(solution.wrench, right, strict=True)):
         if wrong := wrong_bits(f"wrench[{j}]", wrench_row, wrench):
             return wrong
-    verdict = verify(step, delta_q, certificate.active, lam, certificate)
+    verdict = verify_answer(step, delta_q, certificate.active, lam, certificate)
     return None if verdict else verdict.reason

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, StepDataError, solve_step, verify
+from quasistatic_ref import Extra, StepDataError, solve_step, verify, verify_answer
 from quasistatic_ref.certify.certificate import exact_certificate
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
@@ -59,7 +59,7 @@ def test_rows_have_a_contact_and_a_number_in_it(step):
 )
 def test_false_claims_are_refused(step, optimum, field, value):
     claims = replace(exact_certificate(step, optimum), **{field: value})
-    verdict = verify(step, optimum.delta_q, claims.active, optimum.lam, claims)
+    verdict = verify_answer(step, optimum.delta_q, claims.active, optimum.lam, claims)
     assert field in verdict.reason
 
 
@@ -77,11 +77,13 @@ def test_a_row_without_multiplier_is_in_no_working_set(touching):
     claims = exact_certificate(step, optimum)
     assert claims.active == ()
     assert not claims.differentiable
-    assert verify(step, optimum.delta_q, (), optimum.lam, claims)
+    assert verify_answer(step, optimum.delta_q, (), optimum.lam, claims)
     smooth = replace(claims, differentiable=True)
-    assert "differentiable" in verify(step, optimum.delta_q, (), optimum.lam, smooth).reason
+    assert "differentiable" in verify_answer(step, optimum.delta_q, (), optimum.lam, smooth).reason
     wider = replace(claims, active=((0, 0),), smallest_active_multiplier=0.0)
-    assert "is zero" in verify(step, optimum.delta_q, wider.active, optimum.lam, wider).reason
+    assert (
+        "is zero" in verify_answer(step, optimum.delta_q, wider.active, optimum.lam, wider).reason
+    )
 
 
 def test_claims_of_a_sticking_body_are_checked():
@@ -90,10 +92,12 @@ def test_claims_of_a_sticking_body_are_checked():
     optimum = step_optimum(step)
     claims = exact_certificate(step, optimum)
     assert (claims.multipliers_unique, claims.differentiable) == (False, True)
-    assert verify(step, optimum.delta_q, claims.active, optimum.lam, claims)
+    assert verify_answer(step, optimum.delta_q, claims.active, optimum.lam, claims)
     for name in ("multipliers_unique", "differentiable"):
         false = replace(claims, **{name: not getattr(claims, name)})
-        assert name in verify(step, optimum.delta_q, claims.active, optimum.lam, false).reason
+        assert (
+            name in verify_answer(step, optimum.delta_q, claims.active, optimum.lam, false).reason
+        )
 
 
 @pytest.mark.parametrize("certify", ["full", "residual"])
@@ -106,7 +110,7 @@ def test_a_certificate_says_which_step_it_is_about(cone, certify):
     assert claims.step_sha256 == json.loads(solution_text(solution))["step_sha256"]
     for same in (step, step.replace(), pickle.loads(pickle.dumps(step))):
         assert pickle.loads(pickle.dumps(claims)).is_of(same)
-    verdict = verify(other, solution.delta_q, claims.active, solution.lam, claims)
+    verdict = verify_answer(other, solution.delta_q, claims.active, solution.lam, claims)
     assert verdict.reason == "the certificate is of another step"
 
 
@@ -116,6 +120,9 @@ def test_lists_are_verified_as_arrays_are(cone):
     solution = solve_step(step)
     certificate = solution.certificate
     lists = solution.delta_q.tolist(), certificate.active, solution.lam.tolist(), certificate
-    assert verify(step, *lists)
+    assert verify_answer(step, *lists)
+    assert verify(solution)
+    moved = verify(replace(solution, delta_q=np.nextafter(solution.delta_q, 1)))
+    assert "delta_q" in moved.reason
     with pytest.raises(StepDataError, match=r"^delta_q: "):
-        verify(step, "12", certificate.active)
+        verify_answer(step, "12", certificate.active)

@@ -12,7 +12,7 @@ from quasistatic_ref import (
     StepNotSolved,
     load_scenario,
     solve_step,
-    verify,
+    verify_answer,
 )
 from quasistatic_ref.certify.exact import ILL_POSED, relative_length, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
@@ -150,7 +150,7 @@ def test_a_row_of_zeros_is_to_be_left_out():
 def test_an_answer_of_another_length_is_called_that(active):
     step = load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
     solution = solve_step(step)
-    short = verify(step, solution.delta_q[:-1], active)
+    short = verify_answer(step, solution.delta_q[:-1], active)
     assert short.reason == "delta_q has shape (5,); the step wants (6,)"
-    long = verify(step, solution.delta_q, active, np.zeros(step.m + 1))
+    long = verify_answer(step, solution.delta_q, active, np.zeros(step.m + 1))
     assert long.reason == f"lam has shape ({step.m + 1},); the step wants ({step.m},)"

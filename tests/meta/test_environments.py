@@ -13,7 +13,13 @@ from functools import partial
 
 import pytest
 
-from quasistatic_ref import InputError, QuasistaticError, load_scenario, solve_step, verify
+from quasistatic_ref import (
+    InputError,
+    QuasistaticError,
+    load_scenario,
+    solve_step,
+    verify_answer,
+)
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.solve.backends import NONE
@@ -102,7 +108,7 @@ def proofs():
     return [
         partial(solve_step, STEP, NONE),
         *(partial(solve_step, STEP, kept, certify=certify) for certify in ("full", "residual")),
-        partial(verify, STEP, said.delta_q, claims.active, claims=claims),
+        partial(verify_answer, STEP, said.delta_q, claims.active, claims=claims),
     ]
 
 

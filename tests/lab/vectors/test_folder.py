@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
-from quasistatic_ref import InputError, verify
+from quasistatic_ref import InputError, verify_answer
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.files import line
@@ -99,7 +99,7 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
         claims = claimed_certificate(case.input, output, step)
         lam = np.array(output["lam"])
         delta_q = np.array(output["delta_q"])
-        refused[case.id] = verify(step, delta_q, claims.active, lam, claims).reason
+        refused[case.id] = verify_answer(step, delta_q, claims.active, lam, claims).reason
     assert {name: reason for name, reason in refused.items() if reason} == {}
 
 

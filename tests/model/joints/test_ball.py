@@ -13,7 +13,7 @@ from quasistatic_ref import (
     System,
     derivatives,
     load_scenario,
-    verify,
+    verify_answer,
 )
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
@@ -94,7 +94,7 @@ def test_runs_are_exact_and_have_the_same_bits_at_both_speeds(base):
     assert np.abs(np.diff(run["q"], axis=0)).max() > 1e-4  # it moves
     step = simulator.step(simulator.system.q_start, np.zeros(0))
     assert simulator.by_c
-    assert verify(step.step, step.solution.delta_q, step.solution.certificate.active)
+    assert verify_answer(step.step, step.solution.delta_q, step.solution.certificate.active)
     assert (run.forces[:, 0, 2] > 0).all()  # the floor carries a part of the weight
     (motion,) = run.account().motions
     assert motion.of.name == ("arm/base" if base else "arm/ball")

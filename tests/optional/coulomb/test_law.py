@@ -20,7 +20,7 @@ from quasistatic_ref import (
     load_scenario,
     load_trajectory,
     rollout,
-    verify,
+    verify_answer,
 )
 from quasistatic_ref.optional.doctor.checks import scene_findings
 from quasistatic_ref.simulate.trajectory import save_trajectory
@@ -62,7 +62,7 @@ def test_a_recorded_step_is_the_one_that_was_certified(plain, tmp_path):
     assert result.solution.converged
     assert (result.points.phi == run["phi"][k]).all()
     certificate = result.solution.certificate
-    assert verify(step, run["delta_q"][k], certificate.active, run["lam"][k], certificate)
+    assert verify_answer(step, run["delta_q"][k], certificate.active, run["lam"][k], certificate)
 
 
 def test_the_command_says_how_many_iterations_there_were(tmp_path, cli):

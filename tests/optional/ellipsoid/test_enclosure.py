@@ -14,7 +14,7 @@ from quasistatic_ref import (
     StepNotSolved,
     contact_forces,
     solve_step,
-    verify,
+    verify_answer,
 )
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
@@ -47,7 +47,7 @@ def multipliers(answer):
 
 def verdict_of(step, answer):
     claims = answer.certificate
-    return verify(step, answer.delta_q, claims.active, multipliers(answer), claims)
+    return verify_answer(step, answer.delta_q, claims.active, multipliers(answer), claims)
 
 
 @pytest.mark.parametrize("angle", [0.0, 2.0])
@@ -102,14 +102,17 @@ def test_a_wrong_answer_is_refuted():
     answer = solve_step(step)
     claims = answer.certificate
     moved = answer.delta_q * (1 + 1e-12)
-    assert "error_bound" in verify(step, moved, (), multipliers(answer), claims).reason
+    assert "error_bound" in verify_answer(step, moved, (), multipliers(answer), claims).reason
     lam = multipliers(answer)
-    assert "balance" in verify(step, answer.delta_q, (), 1.001 * lam, claims).reason
+    assert "balance" in verify_answer(step, answer.delta_q, (), 1.001 * lam, claims).reason
     exact = replace(claims, kind="exact", error_bound=0.0)
-    assert not verify(step, answer.delta_q, (), lam, exact)
+    assert not verify_answer(step, answer.delta_q, (), lam, exact)
     weak = replace(claims, kind="residual")
-    assert "proves nothing" in verify(step, answer.delta_q, (), lam, weak).reason
-    assert "nothing is proved without lam" in verify(step, answer.delta_q, (), None, claims).reason
+    assert "proves nothing" in verify_answer(step, answer.delta_q, (), lam, weak).reason
+    assert (
+        "nothing is proved without lam"
+        in verify_answer(step, answer.delta_q, (), None, claims).reason
+    )
 
 
 def test_an_exact_claim_is_checked_to_the_last_bit():
@@ -120,9 +123,12 @@ def test_an_exact_claim_is_checked_to_the_last_bit():
     assert verdict_of(step, answer)
     moved = answer.delta_q.copy()
     moved[4] = 5e-324
-    assert "delta_q[4]" in verify(step, moved, claims.active, multipliers(answer), claims).reason
+    assert (
+        "delta_q[4]"
+        in verify_answer(step, moved, claims.active, multipliers(answer), claims).reason
+    )
     slipping = round_step(pinch(grip=5.0, offset=0.2))
-    assert not verify(slipping, answer.delta_q, claims.active, multipliers(answer), claims)
+    assert not verify_answer(slipping, answer.delta_q, claims.active, multipliers(answer), claims)
 
 
 def test_a_set_without_interior_is_reported_as_uncertified():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import Certificate, solve_step, verify
+from quasistatic_ref import Certificate, solve_step, verify_answer
 from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.lab.scenes.contacts import NUMBERS
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
@@ -48,7 +48,7 @@ def test_what_a_push_claims_is_proved_by_the_interior_point():
         pair = checked_pair(step)
         size = scaled_blocks(step, StepForm(step)).size
         assert pair.gap < RESERVE / 4 * size * size
-        assert verify(step, answer.delta_q, answer.certificate.active, answer.lam,
+        assert verify_answer(step, answer.delta_q, answer.certificate.active, answer.lam,
                       answer.certificate)  # fmt: skip
     assert answer.certificate.kind == "enclosure"
     assert RESERVE > 4 * GAP
@@ -68,7 +68,7 @@ def test_contacts_stick_by_dependent_rows_while_another_slides():
     lam = found.lam.reshape(4, 4)
     assert (lam[1:, 0] > 0).all()
     claims = Certificate("enclosure", error_bound=found.error, gap=found.gap, step=step)
-    assert verify(step, found.delta_q, (), found.lam, claims)
+    assert verify_answer(step, found.delta_q, (), found.lam, claims)
 
 
 def test_a_contact_without_friction_and_rows_of_zero_do_not_stop_it():

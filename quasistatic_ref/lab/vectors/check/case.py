@@ -211,7 +211,7 @@ def certificate_problem(case: Json, answer: Json) -> str | None:
     answer : dict
         ``delta_q``, ``lam`` and ``certificate``; it claims the correctly rounded optimum.
     """
-    from quasistatic_ref.certify.verification import verify
+    from quasistatic_ref.certify.verification import verify_answer
     from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, step_of
 
     if "second_order" in case:
@@ -220,7 +220,7 @@ def certificate_problem(case: Json, answer: Json) -> str | None:
         step = step_of(case)
         certificate = claimed_certificate(case, answer, step)
         delta_q, lam = (np.array(answer[name], dtype=np.float64) for name in ("delta_q", "lam"))
-        verdict = verify(step, delta_q, certificate.active, lam, certificate)
+        verdict = verify_answer(step, delta_q, certificate.active, lam, certificate)
     except (InputError, KeyError, TypeError, ValueError, IndexError) as error:
         return f"it cannot be read: {error}"
     return None if verdict else str(verdict.reason)
