@@ -97,8 +97,9 @@ func hull(points []Vec) (faces [][]int, normals []Vec) {
 	for i := range points {
 		for j := range points {
 			for k := range points {
-				m := cross(sub(points[j], points[i]), sub(points[k], points[i]))
-				if i >= j || i >= k || norm(m) < 1e-9*extent*extent {
+				u, v := sub(points[j], points[i]), sub(points[k], points[i])
+				m := cross(u, v)
+				if i >= j || i >= k || norm(m) <= 1e-9*norm(u)*norm(v) {
 					continue
 				}
 				m = unit(m)

@@ -1,7 +1,8 @@
 """Random scenes of the layer `step`: mechanisms of every kind that nearly touch something.
 
 A ball on a body and a plane, or another ball, are put where the gap between them is small; centres
-of mass are not at origins, wrenches act on any body, and gravity is along any direction. Of a brick
+of mass are not at origins, wrenches act on any body, gravity is along any direction, and targets
+are near or far. Of a brick
 on a box or a ball, and of a box or a cloud on a plane, several points nearly touch.
 """
 
@@ -57,7 +58,7 @@ def random_scene(rng: Rng, hard: bool) -> Json:
         q,
         pairs=[],
         K_q=_stiffness(rng, n_a),
-        q_bar_a=few_digits(np.array(q[:n_q_a]) + rng.uniform(-0.02, 0.02, n_q_a)),
+        q_bar_a=_target(rng, bodies, np.array(q[:n_q_a])),
         cone=str(rng.choice(CONES)),
         gravity=GRAVITY if rng.integers(2) else few_digits(rng.uniform(-10, 10, 3), 1),
     )
@@ -73,6 +74,19 @@ def random_scene(rng: Rng, hard: bool) -> Json:
         ]
     _touch(rng, case, tree[-1]["name"], hard)
     return case
+
+
+def _target(rng: Rng, bodies: Json, q_a: Array) -> list[float]:
+    """A target next to q_a, or far from it: across pi, and by quaternions of either sign."""
+    if rng.integers(2):
+        return few_digits(q_a + rng.uniform(-0.02, 0.02, len(q_a)))
+    far = np.array(random_q(rng, bodies)[: len(q_a)]) * rng.choice([-1, 1], len(q_a))
+    joints = {body["name"]: body["joint"] for body in bodies["bodies"]}
+    for name, (place, _) in slices(bodies)[0].items():
+        if joints[name] in ("continuous", "planar") and place.stop <= len(q_a):
+            cosine_sine = slice(place.stop - 2, place.stop)
+            far[cosine_sine] = np.abs(far[cosine_sine]) * [-1.0, -0.125]
+    return few_digits(far)
 
 
 def _stiffness(rng: Rng, n_a: int) -> Json:
