@@ -11,6 +11,7 @@ import cvxpy as cp
 from quasistatic_ref.solve.backends import Options
 
 if TYPE_CHECKING:
+    from cvxpy.reductions.solution import Solution
     from cvxpy.reductions.solvers.solving_chain import SolvingChain
 
 CANON = cp.CPP_CANON_BACKEND
@@ -61,3 +62,12 @@ def problem_data(problem: cp.Problem, name: str, options: Options) -> ProblemDat
 def is_large(problem: cp.Problem) -> bool:
     """Whether a problem has more entries of parameters than are compiled."""
     return bool(sum(parameter.size for parameter in problem.parameters()) > MOST_ENTRIES)
+
+
+def saved(problem: cp.Problem, solution: Solution) -> None:
+    """Save what was found in the problem, as `unpack_results`, which evaluates the cost, too."""
+    for variable in problem.variables():
+        variable.save_value(solution.primal_vars[variable.id])
+    for row in problem.constraints:
+        if row.id in solution.dual_vars:
+            row.save_dual_value(solution.dual_vars[row.id])

@@ -1,5 +1,7 @@
 """Through CVXPY: the step as the paper's program (13)."""
 
+from __future__ import annotations
+
 from functools import cached_property
 from time import perf_counter
 from typing import TYPE_CHECKING, Protocol
@@ -8,17 +10,19 @@ import cvxpy as cp
 import cvxpy.settings as words
 
 from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import DEFAULT, Options
-from quasistatic_ref.solve.problem_data import ProblemData, is_large, problem_data
+from quasistatic_ref.solve.problem_data import ProblemData, is_large, problem_data, saved
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
 from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.units import StepInBothUnits, within_reach
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import KIND, StepData
 
 if TYPE_CHECKING:
-    from quasistatic_ref.solve.compiled import CompiledMap
+    from quasistatic_ref.solve.compiled import ClarabelCall, CompiledMap
 
 MOST_CONTACTS = 2000
 """Most contacts that are compiled: 6 s, in a time that grows with their square."""
@@ -53,6 +57,7 @@ class CvxpySolver(BackendSolver):
     def __init__(self, template: StepData, name: str = DEFAULT) -> None:
         super().__init__(template, name)
         self.problem = StepProblem(template)
+        self._compared = False
 
     def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:
         """The backend's answer, unless CVXPY would compile the step for minutes: StepNotSolved."""
@@ -76,22 +81,43 @@ class CvxpySolver(BackendSolver):
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY
         raises TypeError on a second warm start anyway.)
         """
-        data = None if self._map is None else self._map.data(options)
-        return cvxpy_reply(self.problem, self.name, options, False, data)
+        compiled, call = self._compiled
+        found = None
+        if call is not None:
+            try:
+                found = call.reply(options)
+            except Exception:  # CVXPY's own call says what is wrong, if anything is
+                self._compiled = compiled, None
+        if found is not None and self._compared:
+            return found
+        data = None if compiled is None else compiled.data(options)
+        reply = cvxpy_reply(self.problem, self.name, options, False, data)
+        if found is not None:  # the first one: each bit has to be CVXPY's
+            self._compared = bits((found.x, found.lam)) == bits((reply.x, reply.lam))
+            if not self._compared:
+                self._compiled = compiled, None
+        return reply
 
     @cached_property
-    def _map(self) -> "CompiledMap | None":
-        """The compiled map from parameters to data, where it serves; the problem is filled."""
-        problem = self.problem.problem
-        if is_large(problem):
-            return None
-        template = problem_data(problem, self.name, {})
-        try:
-            from quasistatic_ref.solve.compiled import CompiledMap
+    def _compiled(self) -> tuple[CompiledMap | None, ClarabelCall | None]:
+        """The compiled map from parameters to data, and the call; the problem is filled.
 
-            return CompiledMap(problem, template) if CompiledMap.serves(template) else None
-        except (ImportError, AttributeError):  # a name that is private to CVXPY has moved
-            return None
+        None where they do not serve, or where CVXPY has moved what is private to it.
+        """
+        page = self.problem
+        if is_large(page.problem):
+            return None, None
+        template = problem_data(page.problem, self.name, {})
+        try:
+            from quasistatic_ref.solve.compiled import ClarabelCall, CompiledMap
+
+            if not CompiledMap.serves(template):
+                return None, None
+            compiled = CompiledMap(page.problem, template)
+            called = self.name == DEFAULT and cone(page.template.cone).polyhedral
+            return compiled, ClarabelCall(page, compiled) if called else None
+        except Exception:
+            return None, None
 
 
 def cvxpy_reply(
@@ -128,11 +154,7 @@ def cvxpy_reply(
         raise cp.error.SolverError(f"Solver '{name.upper()}' failed")
     known = status in words.SOLUTION_PRESENT
     if known:  # as `unpack_results` does, which evaluates the cost of it, too
-        for variable in problem.variables():
-            variable.save_value(solution.primal_vars[variable.id])
-        for row in problem.constraints:
-            if row.id in solution.dual_vars:
-                row.save_dual_value(solution.dual_vars[row.id])
+        saved(problem, solution)
     solve_time = solution.attr.get(words.SOLVE_TIME)
     setup = solution.attr.get(words.SETUP_TIME)
     iterations = solution.attr.get(words.NUM_ITERS)

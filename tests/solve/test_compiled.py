@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from quasistatic_ref import Extra
+from quasistatic_ref import Extra, solve_step
+from quasistatic_ref.solve import compiled as of_compiled
 from quasistatic_ref.solve.compiled import CompiledMap
 from quasistatic_ref.solve.problem_data import problem_data
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.solve.units import StepInBothUnits
@@ -69,7 +71,7 @@ def test_answers_have_the_bits_of_the_problem_s_own_solve(moved, rng, monkeypatc
     solver = CvxpySolver(step, "clarabel")
     both = StepInBothUnits(step)
     solver.write(both)
-    assert (solver._map is None) == (moved is not None)
+    assert (solver._compiled == (None, None)) == (moved is not None)
     _, options = solver.option_sets(1e-12)[0]
     reply = solver.reply(options, both)
     problem = solver.problem
@@ -86,3 +88,37 @@ def test_a_cost_that_a_backend_does_not_take_is_said_in_our_words():
     with pytest.warns(UserWarning, match="^clarabel takes no quadratic cost") as said:
         problem_data(problem, "clarabel", {})
     assert len(said) == 1
+
+
+@pytest.mark.parametrize("cone", ["pyramid", "product", "facets-8"])
+def test_clarabel_is_called_as_by_cvxpy(cone, rng, monkeypatch):
+    """From the second step on without CVXPY's own call, to the same bits."""
+    steps = [planted_step(rng, 3, 4, (6, 4, 6))[0].replace(cone=cone) for _ in range(4)]
+    steps = [step.replace(contacts=steps[0].contacts) for step in steps]
+    solver = CvxpySolver(steps[0])
+    solve_step(steps[0], solver)
+    plain = [solve_step(step, CvxpySolver(step), certify="off") for step in steps]
+    monkeypatch.setattr("quasistatic_ref.solve.through_cvxpy.cvxpy_reply", None)
+    for step, expected in zip(steps, plain, strict=True):
+        found = solve_step(step, solver, certify="off")
+        assert bits(found.delta_q) == bits(expected.delta_q)
+        assert bits(found.lam) == bits(expected.lam)
+        assert found.statistics.iterations == expected.statistics.iterations
+
+
+@pytest.mark.parametrize("moved", ["dims_to_solver_cones", "CLARABEL"])
+def test_a_cvxpy_that_moves_what_is_private_costs_no_answer(moved, rng, monkeypatch):
+    step, _, _ = planted_step(rng, 3, 4, (6, 4, 6))
+    expected = solve_step(step, CvxpySolver(step), certify="off")
+    monkeypatch.delattr(of_compiled, moved)
+    found = [solve_step(step, solver, certify="off") for solver in 2 * [CvxpySolver(step)]]
+    assert {bits(one.delta_q) for one in found} == {bits(expected.delta_q)}
+
+
+def test_a_call_that_answers_otherwise_is_not_taken(rng, monkeypatch):
+    step, _, _ = planted_step(rng, 3, 4, (6, 4, 6))
+    expected = solve_step(step, CvxpySolver(step), certify="off")
+    wrong = Reply(np.zeros(7), np.zeros(16), True, "optimal")
+    monkeypatch.setattr(of_compiled.ClarabelCall, "reply", lambda *_: wrong)
+    found = [solve_step(step, solver, certify="off") for solver in 2 * [CvxpySolver(step)]]
+    assert {bits(one.delta_q) for one in found} == {bits(expected.delta_q)}
