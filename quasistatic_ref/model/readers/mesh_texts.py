@@ -241,13 +241,18 @@ def _ply(content: bytes) -> Mesh:
     order, elements = _ply_header(_lines(head[0])[1:-2])
     body = _PlyBody(content[head.end() :], order == "")
     read = {element.name: body.rows(element) for element in elements}
+    if order == "":  # each entry has a line
+        filled = sum(1 for line in _lines(content[head.end() :]) if line.strip())
+        check_equal("lines", filled, sum(element.count for element in elements))
     if bytes(body.left).strip():
         raise ModelError("holds more than its header says")
     vertices = read.get("vertex", {"x": (), "y": (), "z": ()})
     points = np.stack([np.asarray(vertices[axis], dtype=np.float64) for axis in "xyz"], axis=1)
     faces = read.get("face", {"vertex_indices": ()})
-    named = [name for name in ("vertex_indices", "vertex_index") if name in faces]
-    if len(named) != 1 or "tristrips" in read:
+    lists = ("vertex_indices", "vertex_index")
+    named = [name for name in lists if name in faces]
+    others = [name for name, columns in read.items() if name != "face" and {*lists} & {*columns}]
+    if len(named) != 1 or others:
         raise ModelError("must be faces with a list vertex_indices", field="face")
     corners = [_face([int(c) for c in face], number) for number, face in enumerate(faces[named[0]])]
     return Mesh(points, fans(corners))

@@ -12,7 +12,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 from urllib.parse import unquote
-from xml.etree.ElementTree import Element
+from xml.etree.ElementTree import Element, tostring
 from zipfile import ZipFile
 
 import numpy as np
@@ -30,7 +30,7 @@ from quasistatic_ref.model.readers.text import (
 from quasistatic_ref.model.readers.xml_text import DEEPEST, xml_root
 from quasistatic_ref.parts import needed_package
 
-MOST_PLACED = 2_000_000
+MOST_PLACED = 5_000_000
 """Most vertices and triangles of a file, each counted as often as it is placed."""
 PART = 100
 """A part takes the memory of so many vertices."""
@@ -42,6 +42,11 @@ COMPONENTS = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 STRIP, FAN = 5, 6
 """Modes of a glTF's triangles that follow one another."""
+LOOKS = (
+    *("library_images", "library_effects", "library_materials", "bind_material"),
+    *("library_cameras", "instance_camera", "library_lights", "instance_light"),
+)
+"""Elements of COLLADA that place nothing; one that is broken costs pycollada the geometry."""
 UNITS = ("micron", "millimeter", "centimeter", "inch", "foot", "meter")
 """Units of 3MF."""
 
@@ -89,7 +94,7 @@ def _placed_triangles(parts: Mapping[Hashable, _Part], top: Sequence[Hashable]) 
     Raises
     ------
     ModelError
-        If a part is missing or contains itself, or there are more than MOST_PLACED.
+        If a part is missing or contains itself, none is placed, or there are more than MOST_PLACED.
     """
     totals: dict[Hashable, tuple[int, int]] = {}
 
@@ -108,7 +113,10 @@ def _placed_triangles(parts: Mapping[Hashable, _Part], top: Sequence[Hashable]) 
     size = sum(size for size, _ in sizes)
     if size > MOST_PLACED:
         raise ModelError(f"places more than {MOST_PLACED} vertices and triangles", value=size)
-    return sum(count for _, count in sizes)
+    count = sum(count for _, count in sizes)
+    if not count and any(part.triangles for part in parts.values()):
+        raise ModelError("places none of the triangles that it holds")
+    return count
 
 
 def _gltf(path: Path, content: bytes) -> _Stated:
@@ -222,8 +230,13 @@ def _collada(_: Path, content: bytes) -> _Stated:
     pycollada = needed_package("collada", "dae", "a .dae mesh")
     text = text_of_mesh(content)
     root = xml_root(text)
+    if prefix := root.tag.rpartition(":")[0]:
+        root.set("xmlns", root.get(f"xmlns:{prefix}", ""))
     for element in root.iter():
-        element.tag = element.tag.rpartition("}")[2]
+        element.tag = element.tag.rpartition(":")[2]
+    for element in [root, *root.iter("node"), *root.iter("instance_geometry")]:
+        for looks in [one for one in element if one.tag in LOOKS]:
+            element.remove(looks)
     unit = root.find("asset/unit")
     if unit is not None and not decimal(unit.get("meter", "1")) > 0:
         raise ModelError("must be greater than 0", field="unit", value=unit.get("meter"))
@@ -233,7 +246,7 @@ def _collada(_: Path, content: bytes) -> _Stated:
         with about_field(f"geometry[{geometry.get('id')}]"):
             triangles = sum(map(_collada_triangles, geometry.findall("mesh/*")))
             size = sum(_float_count(array) for array in geometry.iter("source"))
-            parts[geometry] = _Part(size + 3 * triangles, triangles, ())
+            parts[geometry] = _Part(size // 3 + 3 * triangles, triangles, ())
     for node in root.iter("node"):
         placed = [_target(one) for one in node if one.tag in ("instance_geometry", "instance_node")]
         below = [named.get(target, target) for target in placed]
@@ -242,7 +255,7 @@ def _collada(_: Path, content: bytes) -> _Stated:
     shown = named[_target(scene)].findall("node") if scene is not None else []
     with about_field("scene"):
         count = _placed_triangles(parts, shown)
-    content = text.partition("?>")[2].encode() if text.lstrip().startswith("<?xml") else content
+    content = tostring(root)
     ignored = [pycollada.common.DaeUnsupportedError, pycollada.common.DaeBrokenRefError]
     pycollada.Collada(BytesIO(content), ignore=ignored)  # what trimesh leaves out is an error here
     up = root.findtext("asset/up_axis") == "Y_UP"
@@ -302,8 +315,6 @@ def _threemf(path: Path, content: bytes) -> _Stated:
     top: list[Hashable] = []
     for name, model in models.items():
         root = xml_root(text_of(model, path, ModelError))
-        for element in root.iter():
-            element.tag = element.tag.rpartition("}")[2]
         for one in root.iter("object"):
             vertices, triangles = _checked_3mf(one)
             below = [_named_3mf(part, name) for part in one.iter("component")]

@@ -19,6 +19,10 @@ from quasistatic_ref.parts import needed_package
 
 LARGEST_HEADER = 2**20
 """Bytes in which the header of a PCD ends."""
+VLRS, EVLRS = 100, 243
+"""Where a LAS states how many records of variable length it has, and how many extended ones."""
+LEAST_RECORD = 54
+"""Bytes of the shortest."""
 PCD_LINES = ("FIELDS", "SIZE", "COUNT", "WIDTH", "HEIGHT", "POINTS", "TYPE", "DATA")
 """What it must have."""
 
@@ -95,6 +99,11 @@ def _check_pcd(content: bytes) -> None:
 def _las(path: Path) -> Array:
     laspy = needed_package("laspy", "las", "a .las cloud")
     content = bytes_read(path, ModelError)
+    (records,) = np.frombuffer(content[VLRS : VLRS + 4].ljust(4, b"\0"), "<u4").tolist()
+    (extended,) = np.frombuffer(content[EVLRS : EVLRS + 4].ljust(4, b"\0"), "<u4").tolist()
+    has_extended = content[24:26] >= b"\x01\x04"  # version 1.4
+    if LEAST_RECORD * max(records, has_extended and extended) > len(content):
+        raise ModelError("is cut off: it has no room for its records", value=records)
     with laspy.open(io.BytesIO(content)) as reader:
         header = reader.header
         check_points(header.point_count)

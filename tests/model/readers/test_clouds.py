@@ -301,10 +301,11 @@ def test_las_is_read_in_metres_and_a_broken_one_is_refused(tmp_path):
     las.write(file)
     assert np.abs(point_cloud(file).points - points).max() < 1e-12
     content = file.read_bytes()
-    for spoilt in (b"", content[:100], content[:-5], b"LASF" + bytes(300)):
+    many = content[:100] + b"\xff\x00\x01\x00" + content[104:]
+    for spoilt in (b"", content[:100], content[:-5], b"LASF" + bytes(300), many):
         file.write_bytes(spoilt)
-        short = "points: must be 3 .got 2" if spoilt == content[:-5] else "cannot be read as LAS"
-        with pytest.raises(ModelError, match=short):
+        others = {content[:-5]: "points: must be 3 .got 2", many: "has no room for its records"}
+        with pytest.raises(ModelError, match=others.get(spoilt, "cannot be read as LAS")):
             point_cloud(file)
 
 

@@ -328,6 +328,18 @@ def of_ten(text):
 STL = exported("stl_ascii")
 OFF = exported("off")
 PLY = exported("ply")
+PLY_TEXT = b"""ply
+format ascii 1.0
+element vertex 4
+property float x
+property float y
+property float z
+end_header
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+"""
 LIES = {
     "text for JSON": ("a.gltf", b"", "cannot be read as a mesh: it is malformed"),
     "a pipe": ("a.gltf", plain_gltf(buffers=[{"uri": "pipe", "byteLength": 72}]), "a pipe, not"),
@@ -354,6 +366,9 @@ LIES = {
     "a corner too many": ("a.obj", TETRAHEDRON + "f 1 2 9\n", "triangles: must be numbers of ver"),
     "a line that is none": ("a.obj", TETRAHEDRON + "x 1 2\n", "line 9: is a line of an OBJ that"),
     "a binary PLY cut off": ("a.ply", PLY[:-1], r"face\[11\].vertex_indices: must be 3.*got 2"),
+    "faces of another name": ("a.ply", PLY.replace(b"t face", b"t fate"), "must be faces with"),
+    "two lines for a point": ("a.ply", PLY_TEXT.replace(b"0 0 1", b"0 0\n1"), "lines: must be 4"),
+    "nothing placed": ("a.gltf", plain_gltf(nodes=[{}]), "places none of the triangles that it"),
     "a longer PLY": ("a.ply", PLY + b"x", "holds more than its header says"),
     "ten parts": ("a.dae", of_ten(COLLADA.encode()), "places more than 150 vertices and triangles"),
     "ten items": ("a.3mf", of_3mf(of_ten), "places more than 150 vertices and triangles"),
@@ -389,6 +404,10 @@ SAME = {
     "a Latin-1 name in COLLADA": ("a.dae", COLLADA.replace('id="sc"', 'id="sc" name="\xf6"')
                                   .encode("latin-1")),
     "a header that begins with solid": ("a.stl", b"solid".ljust(80) + exported("stl")[80:]),
+    "a material that is not there": ("a.dae", COLLADA.replace(
+        '<instance_geometry url="#g"/>', '<instance_geometry url="#g"><bind_material>'
+        '<technique_common><instance_material symbol="m" target="#none"/></technique_common>'
+        "</bind_material></instance_geometry>")),
     "glTF": ("a.gltf", plain_gltf()),
     "GLB of several bodies": ("a.glb", exported("glb")),
     "3MF": ("a.3mf", of_3mf()),
