@@ -29,6 +29,7 @@ from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.problem_data import ProblemData
 from quasistatic_ref.solve.units import coordinate_units
+from quasistatic_ref.tolerances import UNMOVED
 
 
 def solve_scaled(problem: cp.Problem, data: ProblemData, options: Options) -> None:
@@ -112,8 +113,8 @@ class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
         far = E[of] * b
         kinds = np.repeat([type(constraint) for constraint in constraints], heights)
         violated = np.where(kinds == Zero, np.abs(far), np.where(kinds == NonNeg, -far, 0.0))
-        size = max(float(np.linalg.norm(S * numbers[q])), violated.max(initial=0.0))
-        rho = float(powers_of_two(np.array(size))) if size > 0 else 1.0
+        size = max(np.linalg.norm(S * numbers[q]), violated.max(initial=0.0))
+        rho = float(powers_of_two(size or UNMOVED / S.max()))
 
         self.columns = rho * S
         self.rows = {one.id: rho * E[i] for i, one in enumerate(constraints)}
@@ -166,6 +167,6 @@ def row_scales(A: sp.csr_array, of: Indices) -> Array:
     return scales
 
 
-def powers_of_two(x: Array) -> Array:
+def powers_of_two(x: Array | float) -> Array:
     """The power of two next to each of positive numbers, in their shape."""
     return np.exp2(np.round(np.log2(x)))

@@ -160,7 +160,10 @@ class StepProblem:
         Raises
         ------
         BackendError
-            If the solver is unknown or not installed, or not one that CVXPY calls.
+            If the solver is unknown or not installed, or not one that CVXPY calls, or does not take
+            the problem's cones.
+        InputError
+            If an unknown of the problem is a whole number.
         StepNotSolved
             If it claims anything but a full solution.
         """
@@ -170,6 +173,9 @@ class StepProblem:
         name = solver.lower()
         if name == NONE or name.startswith(QPSOLVERS) or is_function(name):
             raise BackendError("is not called through CVXPY", field="backend", value=solver)
+        if self.problem.is_mixed_integer():
+            problem = "has unknowns that are whole numbers: call problem.solve(), which sees metres"
+            raise InputError(problem, field="StepProblem")
         entry = backend(name)
         if name == "highs":
             greeting_silenced()

@@ -21,6 +21,7 @@ STEPS = {
     "four and six rows": lambda: random_step(np.random.default_rng(0)),
     "a user's row and cost": lambda: random_step(np.random.default_rng(0)).replace(extra=COSTLY),
     "facets": lambda: random_step(np.random.default_rng(0)).replace(cone="facets-8"),
+    "nothing drives": lambda: sphere_on_floor(),
     "nothing actuated": lambda: random_step(np.random.default_rng(1), n_a=0),
     "all actuated": lambda: random_step(np.random.default_rng(1), n_u=0),
     "no rows": lambda: random_step(np.random.default_rng(1), rows=()),
@@ -133,8 +134,13 @@ def test_metres_lose_what_natural_units_keep():
     assert np.abs(page.solve() - exact).max() < 1e-9 * size
 
 
-def test_a_solver_that_cvxpy_does_not_call_is_refused():
+def test_a_solver_that_cvxpy_does_not_call_and_whole_numbers_are_refused():
     page = qr.StepProblem(pinch())
+    page.problem = cp.Problem(
+        page.problem.objective, [cp.Variable(boolean=True) <= page.delta_q[0]]
+    )
+    with pytest.raises(qr.InputError, match="unknowns that are whole numbers"):
+        page.solve("highs")
     with pytest.raises(qr.BackendError, match="is not a backend"):
         page.solve("clarabell")
     with pytest.raises(qr.BackendError, match="is not called through CVXPY"):
