@@ -219,8 +219,10 @@ def _public(app, env, node, contnode):
     name = path.rpartition(".")[2]
     if not path.startswith("quasistatic_ref."):
         return None
-    if name in quasistatic_ref.__all__:
-        place = env.get_domain("py").objects[f"quasistatic_ref.{name}"]
+    figures = quasistatic_ref.figures.__all__
+    if name != "figures" and name in {*quasistatic_ref.__all__, *figures}:
+        home = "quasistatic_ref.figures" if name in figures else "quasistatic_ref"
+        place = env.get_domain("py").objects[f"{home}.{name}"]
         return make_refnode(app.builder, node["refdoc"], place.docname, place.node_id, contnode)
     return contnode if _exists(path) else None
 

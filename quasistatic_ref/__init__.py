@@ -6,7 +6,8 @@ docs/contributing.md, "Read the code", names the files of a step in the order of
 
 The names below are loaded on first use, so that ``import quasistatic_ref as qr`` is cheap and
 ``step``, ``certify`` and ``solve`` work where pinocchio and coal are not installed. None of them
-is the name of a sub-package, which Python would put in its place once that is imported.
+is the name of a sub-package, which Python would put in its place once that is imported, but
+``figures``, which is that module.
 """
 
 from importlib import import_module
@@ -58,10 +59,7 @@ _HOMES = {
     "optional.forces.forces": "contact_forces",
     # A run in pictures and numbers.
     "optional.show.figures.animation": "animate",
-    "optional.show.figures.contact_pictures": "stick_slip_map",
     "optional.show.figures.draw": "draw_scene draw_scenes",
-    "optional.show.figures.friction_cone": "cone_with_load",
-    "optional.show.figures.moments": "moment",
     "optional.show.figures.viewer": "save_view",
     "simulate.motions": "relative_turn",
     # What can go wrong.
@@ -72,10 +70,11 @@ _HOMES = {
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 
-__all__ = ["__version__", *sorted(_HOME)]
+__all__ = ["__version__", "figures", *sorted(_HOME)]
 
 
 if TYPE_CHECKING:  # what editors and type checkers see: the same names, with their types
+    from quasistatic_ref import figures as figures
     from quasistatic_ref.certify.certificate import Certificate as Certificate
     from quasistatic_ref.certify.contact_forces import ContactForces as ContactForces
     from quasistatic_ref.certify.failures import (
@@ -136,15 +135,10 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.optional.guests.scene import mujoco_scenario as mujoco_scenario
     from quasistatic_ref.optional.scans.body import scanned_body as scanned_body
     from quasistatic_ref.optional.show.figures.animation import animate as animate
-    from quasistatic_ref.optional.show.figures.contact_pictures import (
-        stick_slip_map as stick_slip_map,
-    )
     from quasistatic_ref.optional.show.figures.draw import (
         draw_scene as draw_scene,
         draw_scenes as draw_scenes,
     )
-    from quasistatic_ref.optional.show.figures.friction_cone import cone_with_load as cone_with_load
-    from quasistatic_ref.optional.show.figures.moments import moment as moment
     from quasistatic_ref.optional.show.figures.viewer import save_view as save_view
     from quasistatic_ref.scenario.scenario import (
         Scenario as Scenario,
@@ -188,6 +182,8 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
 else:
 
     def __getattr__(name: str) -> object:
+        if name == "figures":
+            return import_module(f"{__name__}.figures")
         if name not in _HOME:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         home = _HOME[name]

@@ -15,10 +15,12 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
+from quasistatic_ref import figures
 from tests.extras import marked_parameters
 
 PACKAGE = Path(qr.__file__).parent
-NAMES = [name for name in qr.__all__ if name != "__version__"]
+NAMES = [name for name in qr.__all__ if name not in {"__version__", "figures"}]
+FIGURES = [f"figures.{name}" for name in figures.__all__]
 JAX = "smoothed_jax", "step_jax"
 """What takes steps in JAX, their examples too."""
 VIEW = {"save_view": "view"}
@@ -39,7 +41,7 @@ for folder in ("simulate", "solve", "cli.main"):  # each before and after the na
             del sys.modules[module]
         qr = importlib.import_module("quasistatic_ref")
         if first: importlib.import_module(f"quasistatic_ref.{first}")
-        names = [name for name in qr.__all__ if name != "__version__"]
+        names = [name for name in qr.__all__ if name not in ("__version__", "figures")]
         values = {name: getattr(qr, name) for name in names}
         if then: importlib.import_module(f"quasistatic_ref.{then}")
         for name, value in values.items():
@@ -109,14 +111,18 @@ def typed_only(block):
     return isinstance(block, ast.If) and getattr(block.test, "id", "") == "TYPE_CHECKING"
 
 
-def test_type_checkers_see_the_names_of_the_table_of_homes():
-    (block,) = filter(typed_only, ast.parse(inspect.getsource(qr)).body)
+def test_type_checkers_see_the_names_of_the_tables_of_homes():
     seen = {
-        (name.name, name.asname, home.module.removeprefix("quasistatic_ref."))
+        (name.name, name.asname, home.module)
+        for door in (qr, figures)
+        for block in filter(typed_only, ast.parse(inspect.getsource(door)).body)
         for home in block.body
         for name in home.names
     }
-    assert seen == {(name, name, home) for name, home in qr._HOME.items()}
+    homes = {(name, name, f"quasistatic_ref.{home}") for name, home in qr._HOME.items()}
+    drawn = "quasistatic_ref.optional.show.figures."
+    homes |= {(name, name, drawn + home) for name, home in figures._HOME.items()}
+    assert seen == homes | {("figures", "figures", "quasistatic_ref")}
 
 
 def test_arguments_that_type_checkers_see_are_those_that_there_are():
@@ -157,10 +163,12 @@ def test_a_user_s_file_has_types(tmp_path):
     assert done.returncode == 0, done.stdout
 
 
-@pytest.mark.parametrize("name", marked_parameters(NAMES, dict.fromkeys(JAX, "jax") | VIEW))
+@pytest.mark.parametrize(
+    "name", marked_parameters([*NAMES, *FIGURES], dict.fromkeys(JAX, "jax") | VIEW)
+)
 def test_every_name_says_what_it_is_with_an_example_that_runs(name, tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))  # some examples write a file
-    said = getattr(qr, name).__doc__
+    said = attrgetter(name)(qr).__doc__
     example = doctest.DocTestParser().get_doctest(said, {"qr": qr, "np": np}, name, None, None)
     assert example.examples
     assert doctest.DocTestRunner().run(example).failed == 0

@@ -47,7 +47,7 @@ expected = goal - mu_v * m * 9.81 / (0.2 * K_q)
 assert abs(x[-1] - expected) < 1e-5
 
 figure, (scene, curve) = plt.subplots(1, 2, figsize=(8, 3.2), layout="constrained")
-qr.draw_scene(scene, qr.moment(scenario, run, -1))
+qr.draw_scene(scene, qr.figures.moment(scenario, run, -1))
 curve.plot(np.append(0, run.t), 1e3 * x, color="black", label=f"ends at {1e3 * x[-1]:.2f} mm")
 curve.axhline(1e3 * expected, color="0.6", linewidth=3, zorder=0, label="expected end")
 curve.axhline(1e3 * goal, color="black", linestyle=":", label="goal")

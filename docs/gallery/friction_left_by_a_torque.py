@@ -42,6 +42,8 @@ for axes, (cone, friction) in zip(panels, left.items(), strict=True):
     limit = friction * mu_v * m * gravity
     assert motion(0.97 * limit, cone) < 1e-12
     assert motion(1.03 * limit, cone) > 1e-6
-    qr.cone_with_load(axes, [0.97 * limit, 0, m * gravity, torque], mu_v, mu_omega, cone=cone)
+    qr.figures.cone_with_load(
+        axes, [0.97 * limit, 0, m * gravity, torque], mu_v, mu_omega, cone=cone
+    )
     axes.set_xlabel(f"$f_{{d_1}}$ [N]\n{cone}: {friction:.0%} of friction left")
 plt.show()

@@ -19,7 +19,7 @@ for case, mu_omega in {"with torsion": None, "without torsion": 0}.items():
     changes = {} if mu_omega is None else {"contacts.grip.mu_omega": mu_omega}
     scenario = qr.load_scenario("bunny_grasp", changes, steps=290, fast=True)
     run = scenario.run(progress=False)
-    moments.append(qr.moment(scenario, run, -1))
+    moments.append(qr.figures.moment(scenario, run, -1))
     turn = np.degrees(qr.relative_turn(scenario.system, run, "bunny", "gripper", since=closed))
     time = np.append(0, run.t)
     lift = (time >= closed) & (time <= top)

@@ -28,7 +28,7 @@ assert np.abs(paths["rough"]).max() < 1e-12
 assert abs(np.diff(paths["smooth"])[-1] / formula - 1) < 1e-6
 
 figure, (scene, states) = plt.subplots(1, 2, figsize=(8, 3.4), layout="constrained")
-qr.draw_scene(scene, qr.moment(scenario, run, -1), view="xy")  # from above
-qr.stick_slip_map(states, run)
+qr.draw_scene(scene, qr.figures.moment(scenario, run, -1), view="xy")  # from above
+qr.figures.stick_slip_map(states, run)
 figure.suptitle(f"the smooth block goes {1e6 * formula:.1f} um in each step")
 plt.show()

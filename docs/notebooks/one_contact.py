@@ -44,7 +44,7 @@ def cone(mu_v, push):
     """The section of the cone at the normal force, with what the table bears."""
     solution = qr.solve_step(block(push, mu_v))
     _, axes = plt.subplots(figsize=(4, 3.4), layout="constrained")
-    qr.cone_with_load(axes, solution.wrench[0], mu_v, 0.02)
+    qr.figures.cone_with_load(axes, solution.wrench[0], mu_v, 0.02)
     axes.set_title(f"slip {1e6 * solution.delta_q[0]:.1f} um")
     plt.show()
 
@@ -61,7 +61,7 @@ sliders = interact(
 figure, both = plt.subplots(1, 2, figsize=(8, 3.6), layout="constrained")
 for axes, push in zip(both, (3.0, 6.0), strict=True):
     solution = qr.solve_step(block(push))
-    qr.cone_with_load(axes, solution.wrench[0], 0.5, 0.02)
+    qr.figures.cone_with_load(axes, solution.wrench[0], 0.5, 0.02)
     axes.set_title(f"push {push:g} N: slip {1e6 * solution.delta_q[0]:.0f} um")
 plt.show()
 

@@ -27,7 +27,9 @@ turning = without.run(progress=False)
 
 # %%
 page, both = plt.subplots(1, 2, figsize=(8, 3.6), layout="constrained")
-qr.draw_scenes(both, [qr.moment(scenario, run, -1), qr.moment(without, turning, -1)])
+qr.draw_scenes(
+    both, [qr.figures.moment(scenario, run, -1), qr.figures.moment(without, turning, -1)]
+)
 for axes, title in zip(both, ("with torsional friction", "without"), strict=True):
     axes.set_title(title)
 plt.show()
@@ -55,5 +57,5 @@ qr.verify(solution)
 
 # %%
 page, axes = plt.subplots(figsize=(7, 3), layout="constrained")
-qr.stick_slip_map(axes, run)
+qr.figures.stick_slip_map(axes, run)
 plt.show()

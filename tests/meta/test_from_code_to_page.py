@@ -121,8 +121,9 @@ def test_every_backend_is_in_its_extras_and_its_table():
 
 def test_every_public_name_is_in_the_api():
     assert_alike(
-        {*qr.__all__} - {"__version__"},
-        re.findall(r"~quasistatic_ref\.(\w+)", text("docs/api/index.md")),
+        {*qr.__all__, *(f"figures.{name}" for name in qr.figures.__all__)}
+        - {"__version__", "figures"},
+        re.findall(r"~quasistatic_ref\.([\w.]+)", text("docs/api/index.md")),
         "{} is public and on no page: add ~quasistatic_ref.{} to docs/api/index.md",
         "docs/api/index.md shows {}, which is not public: remove it",
     )

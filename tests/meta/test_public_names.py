@@ -5,6 +5,7 @@ tests.meta.test_public_names`` writes again.
 """
 
 import inspect
+from operator import attrgetter
 from pathlib import Path
 
 import quasistatic_ref as qr
@@ -30,9 +31,10 @@ LIST = Path(__file__).parents[1] / "public_names.txt"
 
 def frozen_lines():
     """A line for each name, format, table of a file, and command with its options."""
-    for name in sorted({*qr.__all__} - {"__version__"}):
+    of_figures = {f"figures.{name}" for name in qr.figures.__all__}
+    for name in sorted({*qr.__all__, *of_figures} - {"__version__", "figures"}):
         try:
-            parameters = inspect.signature(getattr(qr, name)).parameters
+            parameters = inspect.signature(attrgetter(name)(qr)).parameters
         except ValueError:  # an error that is given a sentence
             parameters = ()
         yield f"qr.{name}({', '.join(parameters)})"

@@ -37,7 +37,7 @@ def stick_slip_map(axes: Axes, run: Trajectory) -> None:
     >>> from matplotlib.figure import Figure
     >>> axes = Figure().subplots()
     >>> scenario = qr.load_scenario("block_incline", ["record=full"], steps=3)
-    >>> qr.stick_slip_map(axes, scenario.run(progress=False))
+    >>> qr.figures.stick_slip_map(axes, scenario.run(progress=False))
     >>> axes.get_xlabel()
     'time t [s]'
     """

@@ -88,7 +88,7 @@ def draw_scene(
     >>> from matplotlib.figure import Figure
     >>> axes = Figure().subplots()
     >>> scenario = qr.load_scenario("block_push", steps=1)
-    >>> qr.draw_scene(axes, qr.moment(scenario, scenario.run(progress=False), 0))
+    >>> qr.draw_scene(axes, qr.figures.moment(scenario, scenario.run(progress=False), 0))
     >>> axes.get_xlabel()
     'x [mm]'
     """
@@ -139,7 +139,7 @@ def draw_scenes(
     >>> panels = Figure().subplots(1, 2)
     >>> scenario = qr.load_scenario("block_push", steps=2)
     >>> run = scenario.run(progress=False)
-    >>> qr.draw_scenes(panels, [qr.moment(scenario, run, k) for k in (0, 1)])
+    >>> qr.draw_scenes(panels, [qr.figures.moment(scenario, run, k) for k in (0, 1)])
     >>> panels[0].get_xlim() == panels[1].get_xlim()
     True
     """

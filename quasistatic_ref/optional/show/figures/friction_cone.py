@@ -52,7 +52,7 @@ def cone_with_load(
     --------
     >>> from matplotlib.figure import Figure
     >>> axes = Figure().subplots()
-    >>> qr.cone_with_load(axes, [0.2, 0.1, 1.0, 0.0], mu_v=0.5, mu_omega=0.01)
+    >>> qr.figures.cone_with_load(axes, [0.2, 0.1, 1.0, 0.0], mu_v=0.5, mu_omega=0.01)
     >>> axes.get_xlim()[1]
     np.float64(0.575)
     """

@@ -118,7 +118,7 @@ def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
     Examples
     --------
     >>> scenario = qr.load_scenario("sphere_spin", steps=2)
-    >>> len(qr.moment(scenario, scenario.run(progress=False), -1).contacts)
+    >>> len(qr.figures.moment(scenario, scenario.run(progress=False), -1).contacts)
     1
     """
     if not -run.steps <= k < run.steps:

@@ -23,20 +23,20 @@ def test_what_a_torque_leaves_of_a_cone(cone, area):
 
 def test_a_load_is_drawn_in_newtons():
     _, (axes,) = panels(4, 4)
-    qr.cone_with_load(axes, [1.0, 0.5, 4.0, 0.02], mu_v=0.5, mu_omega=0.01)
+    qr.figures.cone_with_load(axes, [1.0, 0.5, 4.0, 0.02], mu_v=0.5, mu_omega=0.01)
     dashed, left = (p.get_xy() for p in axes.patches if isinstance(p, Polygon))
     assert_relative(dashed.max(), 2.0, ROUNDING)
     assert_relative(left.max(), 1.0, ROUNDING)
     (arrow,) = axes.texts
     assert_relative(arrow.xy, (1.0, 0.5), ROUNDING)
     with pytest.raises(qr.InputError, match="needs a normal force"):
-        qr.cone_with_load(axes, [0, 0, 0, 0], mu_v=0.5, mu_omega=0.0)
+        qr.figures.cone_with_load(axes, [0, 0, 0, 0], mu_v=0.5, mu_omega=0.0)
 
 
 def test_a_map_shows_that_one_block_sticks_and_the_other_slides():
     run = qr.load_scenario("block_incline", ["steps=5"], fast=True).run(progress=False)
     _, (axes,) = panels(4, 4)
-    qr.stick_slip_map(axes, run)
+    qr.figures.stick_slip_map(axes, run)
     (image,) = axes.images
     shown = np.array(["apart", "sticking", "sliding"])[np.asarray(image.get_array())]
     states = {name: set(shown[j]) - {"apart"} for j, name in enumerate(run.pair_names)}
@@ -46,4 +46,4 @@ def test_a_map_shows_that_one_block_sticks_and_the_other_slides():
 def test_a_map_of_a_light_record_is_refused():
     light = qr.load_scenario("block_incline", steps=2, fast=True, record="light")
     with pytest.raises(qr.InputError, match="does not know what slides"):
-        qr.stick_slip_map(panels()[1][0], light.run(progress=False))
+        qr.figures.stick_slip_map(panels()[1][0], light.run(progress=False))
