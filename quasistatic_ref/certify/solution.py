@@ -69,13 +69,11 @@ class StepSolution(Plain, Shown):
     delta_q : ndarray, shape (n_v,)
         Displacement [m, rad] in the paper's order.
     lam : ndarray, shape (m,)
-        Multipliers of the contact rows, contact-major: impulses [N s]. In the ellipsoid, each
-        contact's impulse (n, d1, d2, spin) [N s, N s, N s, N m s].
-    lam_extra : ndarray, shape (extra rows,)
-        Multipliers of the user's own rows [N s, for rows in m].
+        Multipliers of all rows, contact-major: impulses [N s]. In the ellipsoid, each contact's
+        impulse (n, d1, d2, spin) [N s, N s, N s, N m s]. Those of the user's own rows come last
+        [N s, for rows in m].
     step : StepData
         The step whose optimum this is.
-    backend : str
     certificate : Certificate
     statistics : SolverStatistics
         Not compared by ``==``, because it holds wall times.
@@ -100,16 +98,14 @@ class StepSolution(Plain, Shown):
 
     delta_q: Array
     lam: Array
-    lam_extra: Array
     step: StepData
-    backend: str
     certificate: Certificate
     statistics: SolverStatistics = field(compare=False)
     net_impulse: Array | None = None
     alone: bool = True
 
     def __post_init__(self) -> None:
-        for array in (self.delta_q, self.lam, self.lam_extra, self.net_impulse):
+        for array in (self.delta_q, self.lam, self.net_impulse):
             if array is not None:
                 array.setflags(write=False)
 
@@ -150,8 +146,19 @@ class StepSolution(Plain, Shown):
         It is the proof's: one of several where multipliers are not unique.
         """
         step = self.step
-        wrench = without_warnings(contact_wrenches, step.contacts, self.lam, step.h, step.cone)
+        lam = self.lam[: step.offsets[-1]]
+        wrench = without_warnings(contact_wrenches, step.contacts, lam, step.h, step.cone)
         return read_only(wrench)
+
+    @property
+    def lam_extra(self) -> Array:
+        """Multipliers of the user's own rows, the last of lam, shape (extra rows,) [N s]."""
+        return self.lam[self.step.offsets[-1] :]
+
+    @property
+    def backend(self) -> str:
+        """The backend that was asked."""
+        return self.statistics.backend
 
     @property
     def cone(self) -> str:
@@ -162,30 +169,3 @@ class StepSolution(Plain, Shown):
     def status(self) -> str:
         """Always ``"optimal"``: a step without an accepted answer raises ``StepNotSolved``."""
         return "optimal"
-
-
-def step_solution(
-    step: StepData,
-    delta_q: Array,
-    lam: Array,
-    certificate: Certificate,
-    statistics: SolverStatistics,
-    net_impulse: Array | None = None,
-    alone: bool = True,
-) -> StepSolution:
-    """The solution of a step from delta_q (n_v,) and lam (m,), in which own rows come last.
-
-    `net_impulse`, shape (n_v,) [N s, N m s], is A'lam where it is proved.
-    """
-    m = int(step.offsets[-1])
-    return StepSolution(
-        delta_q,
-        lam=lam[:m],
-        lam_extra=lam[m:],
-        step=step,
-        backend=statistics.backend,
-        certificate=certificate,
-        statistics=statistics,
-        net_impulse=net_impulse,
-        alone=alone,
-    )

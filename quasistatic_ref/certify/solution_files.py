@@ -67,7 +67,7 @@ def solution_text(solution: StepSolution) -> str:
     """The solution of a step as one line of JSON."""
     step = solution.step
     certificate = solution.certificate
-    lam = solution.lam
+    lam = solution.lam[: step.offsets[-1]]
     kind = certificate.kind
     record = _head(step, "optimal") | {
         "delta_q": solution.delta_q,

@@ -62,9 +62,8 @@ def verify(solution: StepSolution) -> Verdict:
     >>> bool(qr.verify(qr.solve_step(step)))
     True
     """
-    lam = np.concatenate([solution.lam, solution.lam_extra])
     claims = solution.certificate
-    return verify_answer(solution.step, solution.delta_q, claims.active, lam, claims)
+    return verify_answer(solution.step, solution.delta_q, claims.active, solution.lam, claims)
 
 
 def verify_answer(

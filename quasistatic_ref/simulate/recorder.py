@@ -329,7 +329,7 @@ def arrays_of(results: Sequence[StepResult], n_v: int) -> StepArrays:
         "delta_q": np.array([solution.delta_q[:n_v] for solution in solutions]),
         **{name: _of_all([r.points for r in results], name) for name in POINTS},
         **{name: _of_all([step.contacts for step in steps], name) for name in ("d1", "d2")},
-        "lam": _of_all(solutions, "lam"),
+        "lam": _of_all(solutions, "lam")[:, : steps[0].offsets[-1]],
         "certificate": np.array([one.kind for one in certificates]),
         "worst_residual": np.array(
             [max(one.residuals.values(), default=np.nan) for one in certificates]

@@ -15,7 +15,7 @@ from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.exact import ExactOptimum, check_length, step_optimum
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.norm import correct_digits
-from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
+from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import finite, without_warnings
@@ -158,9 +158,9 @@ def solved(
             raise StepNotSolved(solver.name, reply.status, both.si_step, reply.accuracy)
         solution = judged(both, solver, reply, certify)
     residuals = solution.certificate.residuals.values()
-    good = all(map(finite, (solution.delta_q, solution.lam, solution.lam_extra)))
+    good = all(map(finite, (solution.delta_q, solution.lam)))
     good = good and all(map(math.isfinite, residuals))
-    if certify != "off" or solution.lam_extra.size:
+    if certify != "off" or solution.step.extra.names:
         good = good and (_far_from_largest(solution) or finite(solution.wrench.ravel()))
     if not good:
         raise out_of_range()
@@ -261,7 +261,7 @@ def proved(
         certificate = exact_certificate(step, optimum, residuals)
     else:
         certificate = optimum.certificate(step, residuals)
-    return step_solution(step, delta_q, lam, certificate, statistics, optimum.net)
+    return StepSolution(delta_q, lam, step, certificate, statistics, optimum.net)
 
 
 def judged(both: StepInBothUnits, solver: Solver, reply: Reply, certify: str) -> StepSolution:
@@ -286,7 +286,7 @@ def judged(both: StepInBothUnits, solver: Solver, reply: Reply, certify: str) ->
     delta_q, lam = in_si(*reply.answer, both.units)
     statistics = said(solver, reply)
     if certify == "off":
-        return step_solution(step, delta_q, lam, NOTHING_CLAIMED, statistics)
+        return StepSolution(delta_q, lam, step, NOTHING_CLAIMED, statistics)
     begin = time.perf_counter()
     check_arithmetic()
     # SI units may have rounded the answer: subnormals.
@@ -297,4 +297,4 @@ def judged(both: StepInBothUnits, solver: Solver, reply: Reply, certify: str) ->
         raise StepNotSolved(solver.name, status, step, reply.accuracy, residuals)
     certificate = Certificate("residual", dict(vars(residuals)), step=step)
     statistics = statistics._replace(proof_time=time.perf_counter() - begin)
-    return step_solution(step, delta_q, lam, certificate, statistics)
+    return StepSolution(delta_q, lam, step, certificate, statistics)

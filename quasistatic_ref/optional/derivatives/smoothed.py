@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.certificate import Certificate
-from quasistatic_ref.certify.solution import SolverStatistics, step_solution
+from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import checked_numbers
 from quasistatic_ref.optional.derivatives.derivatives import check_derivable
@@ -87,8 +87,8 @@ def smoothed(
             "is so large that it pushes bodies out of range", field="kappa", value=kappa
         )
     statistics = SolverStatistics("barrier", "solved", None, None, kappa, interface="none")
-    solution = step_solution(
-        step, barrier.x, barrier.lam, Certificate("none"), statistics, alone=False
+    solution = StepSolution(
+        barrier.x, barrier.lam, step, Certificate("none"), statistics, alone=False
     )
     q_next = simulator.system.integrate(q, barrier.x)
     result = StepResult(q_next, step, solution, points, {})

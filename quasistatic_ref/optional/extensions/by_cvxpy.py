@@ -10,7 +10,7 @@ import numpy as np
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
+from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.extensions.conic import conic_program, conic_residuals
@@ -129,7 +129,7 @@ def extended_solution(
                 continue
             delta_q, lam = in_si(problem.primal(), problem.dual(), units)
             claimed = Certificate("none") if certify == "off" else certificate
-            return step_solution(step, delta_q, lam, claimed, statistics, alone=False)
+            return StepSolution(delta_q, lam, step, claimed, statistics, alone=False)
     assert failure is not None  # a backend has at least one set of options
     raise failure
 

@@ -44,7 +44,7 @@ def outcome(step, solver):
     first = 0 if certificate.multipliers_unique else 1
     unique = [solution.delta_q, solution.net_impulse]
     if certificate.multipliers_unique:
-        unique += [solution.lam, solution.lam_extra]
+        unique.append(solution.lam)
     claims = [bits(getattr(certificate, name)) for name in CLAIMS[first:]]
     return solution, bits(tuple(unique)), claims
 
@@ -69,7 +69,7 @@ def check(step, solver=None):
     if not in_fractions:
         return
     solution = fast[0]
-    lam = [*solution.lam, *solution.lam_extra]
+    lam = solution.lam
     working = [i for i, value in enumerate(lam) if value > 0]
     of = program(step)
     x, lam_w, _ = proved_optimum(of, working)

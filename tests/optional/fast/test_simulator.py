@@ -131,7 +131,7 @@ def all_of(result):
         found |= {"q": result.q, "delta_q": solution.delta_q, "A'lam": solution.net_impulse}
         unique = {"multipliers_unique", "differentiable", "smallest_inactive_slack", "error_bound"}
         if certificate.multipliers_unique:
-            found |= {"lam": solution.lam, "lam_extra": solution.lam_extra}
+            found |= {"lam": solution.lam}
             unique |= {"active", "smallest_active_multiplier"}
         found |= {name: getattr(certificate, name) for name in unique}
     return {name: bits(value) for name, value in found.items()}

@@ -78,12 +78,11 @@ def own(case_input: Json) -> Json:
     x = solution.delta_q
     if conic:
         form = standard_form(step)
-        lam = solution.lam
         A, b = form.A, form.b  # of each block F x + f
     else:
         A = step.extra.A
         b = step.extra.b
-        lam = solution.lam_extra
+    lam = solution.lam
     return {
         "delta_q": x.tolist(),
         "lam": lam.tolist(),

@@ -107,11 +107,12 @@ def own_step(case_input: Json) -> Json:
     except StepInfeasible as failure:
         return {**output, "farkas": failure.farkas.y.tolist()}
     after = mine.system.integrate(q, solution.delta_q)
+    lam = solution.lam[: step.offsets[-1]]
     return {
         **output,
         "delta_q": solution.delta_q[mine.v].tolist(),
-        "lam": solution.lam.tolist(),
-        "A_lam": (np.array(output["A"]).reshape(-1, step.n_v).T @ solution.lam).tolist(),
+        "lam": lam.tolist(),
+        "A_lam": (np.array(output["A"]).reshape(-1, step.n_v).T @ lam).tolist(),
         "wrench": solution.wrench.tolist(),
         **_forces(case_input, simulator, solution),
         "q_next": (after[mine.q] + 0.0).tolist(),

@@ -116,7 +116,7 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
     parts = np.stack(frame_jacobian(contacts, contacts.J), axis=1)
     generators = parts * scaled_by(contacts)[:, :, None]
     x = solution.delta_q
-    lam = solution.lam
+    lam = solution.lam[: step.offsets[-1]]
     moved = generators @ x
     moved[:, 0] += contacts.phi
     slack = (moved @ table.T)[step.mask]
