@@ -13,7 +13,6 @@ from quasistatic_ref.contact.batches.spheres import Spheres
 from quasistatic_ref.contact.distance import ClosestPoints, check_finite, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.numbers.arrays import Indices
 from quasistatic_ref.numbers.ordered import norm
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, HalfSpace, Shape, Sphere
@@ -34,7 +33,7 @@ class AllPairs:
     Parameters
     ----------
     pairs : sequence of ContactPair
-    start : ndarray of int, shape (P,), optional
+    start : sequence of int, optional
         Of each pair the place of its first contact, among those of which it is written; by default
         they stand one after the other.
 
@@ -47,8 +46,8 @@ class AllPairs:
     def __init__(self, pairs: Sequence[ContactPair], start: Sequence[int] | None = None) -> None:
         counts = [pair.n_c for pair in pairs]
         self.n_c = sum(counts)
-        first = np.cumsum([0, *counts])[:-1] if start is None else np.asarray(start)
-        self._rows = [np.arange(i, i + count) for i, count in zip(first, counts, strict=True)]
+        starts = np.cumsum([0, *counts])[:-1].tolist() if start is None else start
+        self._rows = [slice(i, i + count) for i, count in zip(starts, counts, strict=True)]
         self._pairs = tuple(pairs)
         self._singly: list[int] = []
         kinds: dict[Kind, list[int]] = defaultdict(list)
@@ -59,7 +58,7 @@ class AllPairs:
             (
                 batch([pairs[i] for i in some]),
                 np.array(some),
-                np.array([self._rows[i] for i in some]),
+                np.array([np.arange(starts[i], starts[i] + counts[i]) for i in some]),
             )
             for (batch, _), some in kinds.items()
         ]
@@ -80,17 +79,15 @@ class AllPairs:
         left = [*self._singly]
         for batch, some, rows in self._batches:
             known, found = batch.contacts(R, t)
-            write(contacts, rows, found)
+            for field, values in zip(contacts, found, strict=True):
+                field[rows] = values
             left += some[~known].tolist()
         for i in sorted(left):
-            write(contacts, self._rows[i], pair_closest_points(self._pairs[i], R, t))
-
-
-def write(contacts: ClosestPoints, rows: Indices, found: ClosestPoints) -> None:
-    """Write the contacts of some rows, in which zero is 0.0, never -0.0."""
-    positive = found._replace(phi=found.phi + 0.0, n=found.n + 0.0)
-    for field, values in zip(contacts, positive, strict=True):
-        field[rows] = values
+            found = pair_closest_points(self._pairs[i], R, t)
+            for field, values in zip(contacts, found, strict=True):
+                field[self._rows[i]] = values
+        for field in (contacts.phi, contacts.n):
+            field += 0.0  # zero is 0.0, never -0.0
 
 
 def kind_of(pair: ContactPair) -> Kind | None:
@@ -100,8 +97,10 @@ def kind_of(pair: ContactPair) -> Kind | None:
     ball, other = sides[::-1] if ball_last else sides
     if isinstance(ball, Sphere) and isinstance(other, HalfSpace | Rounded) and pair.n_c == 1:
         return Spheres, (ball_last, isinstance(other, HalfSpace))
-    if all(isinstance(side, Box) for side in sides) and pair.n_c > 1:
-        return Boxes, pair.n_c
+    are_boxes = [isinstance(side, Box) for side in sides]
+    known = any(are_boxes) and all(isinstance(side, Box | Capsule) for side in sides)
+    if known and (all(are_boxes) or pair.n_c == 1):
+        return Boxes, (*are_boxes, pair.n_c)
     plane_first = isinstance(sides[0], HalfSpace)
     plane, solid = sides if plane_first else sides[::-1]
     known = isinstance(plane, HalfSpace) and isinstance(solid, Box | Capsule | ConvexMesh)

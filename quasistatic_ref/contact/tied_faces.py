@@ -95,10 +95,10 @@ def corner_surface(
     if isinstance(shape, HalfSpace):
         return Surface(phi, normal, tie)
     # Another corner is outside, and nearest to a face that faces n: nothing else to choose.
-    within = np.broadcast_to(within, len(x))
-    near = np.broadcast_to(near, len(x))
+    within = within + np.zeros(len(x))
+    near = near + np.zeros(len(x))
     undecided = np.flatnonzero((phi <= near) | (dot(normal, n) < TURNED))
-    reach = np.broadcast_to(shape.support_value(np.atleast_2d(n)), len(x))
+    reach = shape.support_value(np.atleast_2d(n)) + np.zeros(len(x))
     n = np.broadcast_to(n, x.shape)
     phi = phi.copy()
     before = normal

@@ -1,4 +1,4 @@
-"""Boxes on boxes, all at once."""
+"""Boxes on boxes, all at once; the closest pairs alone also of boxes and capsules."""
 
 from collections.abc import Sequence
 
@@ -29,12 +29,12 @@ class BoxOfEach(Box):
 
 
 def boxes_of(shapes: Sequence[Shape]) -> Polytope:
-    """Some boxes, stacked."""
+    """Some boxes or capsules, stacked."""
     return stacked([flat for flat in map(polytope, shapes) if flat is not None])
 
 
 class Boxes(Batch):
-    """Pairs of boxes."""
+    """Pairs of boxes; of boxes and capsules, if only one contact of each is kept."""
 
     def __init__(self, pairs: Sequence[ContactPair]) -> None:
         super().__init__(pairs)
@@ -42,7 +42,10 @@ class Boxes(Batch):
             boxes_of([pair.alpha.shape for pair in pairs]),
             boxes_of([pair.beta.shape for pair in pairs]),
         )
-        self._extents = [2 * one.half_extents.max(axis=1) for one in self._solids]
+        self._extents = (
+            np.array([pair.alpha.shape.extent for pair in pairs]),
+            np.array([pair.beta.shape.extent for pair in pairs]),
+        )
         each = [np.repeat(one.half_extents, one.vertices.shape[1], axis=0) for one in self._solids]
         self._of_corners = [BoxOfEach.unchecked(half_extents=half) for half in each]
         self._corners = pairs[0].corners
@@ -60,7 +63,10 @@ class Boxes(Batch):
         within = TIED_FACES * np.maximum(farthest_places(*poses), extent)
         rivals = np.abs(normals - n[:, None]).max(axis=2) > SAME_NORMAL / 4
         rivals &= gaps >= (phi - within)[:, None]
-        known = (phi > within) | ~rivals.any(axis=1)
+        a, b = self._solids
+        known = (phi + (a.margin + b.margin) > within) | ~rivals.any(axis=1)
+        if self.n_c == 1:
+            return known, self._alone(nearest)
 
         on_b = self._corners_on(1, poses, -n, within).swapped()
         on_a = self._corners_on(0, poses, n, within)
@@ -88,7 +94,7 @@ class Boxes(Batch):
 
     def _alone(self, nearest: Witnesses) -> ClosestPoints:
         """The closest pairs, as candidates."""
-        number = np.full(len(nearest.phi), self._corners)
+        number = np.full(len(nearest.phi), self._corners if self.n_c > 1 else 0)
         points = ClosestPoints(*nearest, number, np.full_like(number, UNIQUE_NORMAL))
         return ClosestPoints._make(field[:, None] for field in points)
 

@@ -47,8 +47,9 @@ class OnHalfSpaces(Batch):
         height = dot(x, self._normal) - self._offset
         rank = np.rint((height - self._radius) / self.resolution[:, None])
         order = rank.argsort(axis=1, kind="stable")[:, : self.n_c]
-        corner = np.take_along_axis(self._corners, order[..., None], axis=1)
-        height = np.take_along_axis(height, order, axis=1)
+        first = np.arange(len(order))[:, None], order
+        corner = self._corners[first]
+        height = height[first]
         n = np.broadcast_to(rotated(plane[0][:, None], self._normal), corner.shape)
         centre = rotated(solid[0][:, None], corner) + solid[1][:, None]
         feet = centre - height[..., None] * n

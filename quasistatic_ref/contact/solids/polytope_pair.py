@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.contact.shape_in_world import Witnesses
 from quasistatic_ref.contact.solids.polytope import Polytope
 from quasistatic_ref.numbers.arrays import Array, Indices
-from quasistatic_ref.numbers.ordered import dot, norm, product, rotated, transposed
+from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated, transposed
 from quasistatic_ref.shapes.placed_shape import Capsule
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
@@ -136,6 +136,8 @@ def padded(values: NDArray[Any], pair: Indices, count: int, filling: float) -> N
     ndarray, shape (P, M, ...)
         M being the largest number of values of a pair.
     """
+    if count == 1:
+        return values[None]
     place = np.arange(len(pair)) - np.searchsorted(pair, pair)
     shape = (count, place.max(initial=-1) + 1, *values.shape[1:])
     together = np.full(shape, filling, values.dtype)
@@ -157,9 +159,11 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Indices, Array, Array]:
     f = transposed(a_on_b[..., a.sides[:, 1]])
     # Each arc has its ends on different sides of the plane of the other ...
     pair, i, j = np.nonzero((c * d < 0) & (e * f < 0))
+    if not len(pair):
+        return pair, np.zeros((0, 3)), np.zeros(0)
     way_a = a.ways[pair, i]
     way_b = b.ways[pair, j]
-    n = np.cross(way_a, way_b)
+    n = crossed(way_a, way_b)
     length = norm(n)
     scale = np.sqrt(dot(way_a, way_a) * dot(way_b, way_b))
     keep = length > ON_SURFACE * scale
@@ -251,11 +255,11 @@ def nearest_on_segments(p: Array, u: Array, q: Array, v: Array) -> tuple[Array, 
     uv = dot(u, v)
     uw = dot(u, w)
     vw = dot(v, w)
-    cross = np.cross(u, v)
+    cross = crossed(u, v)
     det = dot(cross, cross)
     parallel = det <= (ON_SURFACE**2) * uu * vv
     # Of uv vw - vv uw, the same number, nearly parallel segments leave half of the digits.
-    ahead = dot(np.cross(v, w), cross)
+    ahead = dot(crossed(v, w), cross)
     s = np.where(parallel, 0.0, ahead / np.where(parallel, 1.0, det))
     s = np.clip(s, 0.0, 1.0)
     r = np.clip((uv * s + vw) / vv, 0.0, 1.0)
