@@ -27,9 +27,9 @@ Farkas vector of the convex step.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -39,6 +39,7 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, finite, read_only
+from quasistatic_ref.numbers.fixed_point import Iterate, fixed_point
 from quasistatic_ref.simulate.failures import NoFixedPoint
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
@@ -51,19 +52,8 @@ COULOMB_RESIDUAL: Final = 1e-12
 """Largest difference of s from that of the next iterate, relative to the longest motion of a
 contact [-], at which s is its own: each iterate is exact, and s a sum of rounded products."""
 
-GAIN: Final = 0.01
-"""Residual of s over that of the iterate before [-] up to which an extrapolated iterate is kept.
-Kept at 0.5, extrapolation ended at local minima of the residual in 29 of 600 random planar steps of
-one to four contacts; at 0.01 in none of 500."""
-
-EXTRAPOLATED: Final = 1e-10
-"""Least singular value, relative to the largest [-], of the changes of residuals that s is
-extrapolated from: they are right to 1e-16 of s, and what is left of smaller ones is rounding."""
-
 MOST = 200
 """Iterates after which no fixed point is expected."""
-MEMORY = 6
-"""Iterates that are extrapolated from: s then has five directions in which it converges slowly."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -153,99 +143,30 @@ def coulomb_step(
         raise InputError("must be at least 1", field="most", value=most)
     if not isinstance(solver, Solver):
         solver = solver_for(step, solver, fast)
-    iteration = Iteration(step, solver, accuracy)
-    end = iteration.end(s, most)
+    end, count = fixed_point(
+        lambda s: iterate(step, s, lambda raised: solve_step(raised, solver, accuracy=accuracy)),
+        s,
+        most,
+    )
     return CoulombSolution(
-        **field_values(end.solution),
+        **field_values(end.of),
         converged=end.converged,
         s=read_only(end.s),
         s_residual=end.residual,
-        s_iterations=iteration.count,
+        s_iterations=count,
         posed=step,
     )
 
 
-class Iterate(NamedTuple):
-    """A convex step with phi + s.
-
-    Parameters
-    ----------
-    s, slip : ndarray, shape (n_c,)
-        What phi was raised by, and the norm of the slips that came of it [m].
-    residual : float
-        The largest difference of the two [m].
-    converged : bool
-        Whether that is rounding.
-    solution : StepSolution
-    """
-
-    s: Array
-    slip: Array
-    residual: float
-    converged: bool
-    solution: StepSolution
-
-
-class Iteration:
-    """The iteration for s.
-
-    Parameters
-    ----------
-    step : StepData
-    solver : Solver
-    accuracy : float
-        In natural units [-].
-    """
-
-    def __init__(self, step: StepData, solver: Solver, accuracy: float) -> None:
-        self.step = step
-        self.solver = solver
-        self.accuracy = accuracy
-        self.count = 0
-
-    def at(self, s: Array) -> Iterate:
-        """The convex step with phi + s, shape (n_c,) [m]."""
-        self.count += 1
-        raised = self.step.replace(contacts=self.step.contacts.raised(s))
-        solution = solve_step(raised, self.solver, accuracy=self.accuracy)
-        slip = slip_norms(self.step.contacts, solution.delta_q, self.step.cone)
-        residual = largest(np.abs(slip - s))
-        longest = largest(longest_slips(self.step, solution.delta_q))
-        return Iterate(s, slip, residual, residual <= COULOMB_RESIDUAL * longest, solution)
-
-    def end(self, s: Array, most: int) -> Iterate:
-        """The fixed point that `s`, shape (n_c,) [m], leads to, or the last of `most` iterates.
-
-        An extrapolated iterate counts only if its residual is a hundredth of that of the last one.
-        Otherwise the next iterate is the slip's norm of the last one, whatever its residual: a
-        residual may have to grow before it vanishes.
-        """
-        last = self.at(s)
-        kept = [last]
-        while not last.converged and self.count < most:
-            ahead = extrapolated(kept)
-            tried = None if ahead is None else self.at(ahead)
-            if tried is not None and tried.residual <= GAIN * last.residual:
-                last = tried
-            elif self.count < most:
-                last = self.at(last.slip)
-            kept = [*kept[1 - MEMORY :], last]
-        return last
-
-
-def extrapolated(iterates: Sequence[Iterate]) -> Array | None:
-    """Where s would be its own if it depended linearly on what was raised, (n_c,) [m].
-
-    Least squares take the place of an equation; None of one iterate, or if nothing is gained.
-    """
-    off = np.array([x.slip - x.s for x in iterates])
-    slips = np.array([x.slip for x in iterates])
-    if len(iterates) == 1:
-        return None
-    changes = np.diff(off, axis=0).T
-    share = np.linalg.lstsq(changes, off[-1], rcond=EXTRAPOLATED)[0]
-    s = np.maximum(slips[-1] - np.diff(slips, axis=0).T @ share, 0.0)
-    return None if np.array_equal(s, slips[-1]) else s
+def iterate(
+    step: StepData, s: Array, solved: Callable[[StepData], StepSolution]
+) -> Iterate[StepSolution]:
+    """The convex step with phi + s, shape (n_c,) [m], and the norm of its slips."""
+    solution = solved(step.replace(contacts=step.contacts.raised(s)))
+    slip = slip_norms(step.contacts, solution.delta_q, step.cone)
+    residual = largest(np.abs(slip - s))
+    longest = largest(longest_slips(step, solution.delta_q))
+    return Iterate(s, slip, residual, residual <= COULOMB_RESIDUAL * longest, solution)
 
 
 def simulated_solution(step: StepData, solver: Solver, accuracy: float) -> CoulombSolution:
