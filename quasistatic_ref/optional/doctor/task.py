@@ -12,7 +12,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.numbers.arrays import Indices, Mask
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.doctor.account import side
 from quasistatic_ref.optional.doctor.placed import inside
 from quasistatic_ref.optional.doctor.run import Run
@@ -292,6 +292,7 @@ def short(run: Run) -> Iterator[Finding]:
         if track.joint.v.stop == track.joint.v.start + 1 and not _at_a_stop(run, track.joint)
     }
     far = [joint for joint, way in ways.items() if way and abs(lag[joint.v.start]) > LAGS * way]
+    yield from _short_bases(task, lag)
     if not far:
         return
     spring = run.simulator.K_q @ lag
@@ -305,15 +306,64 @@ def short(run: Run) -> Iterator[Finding]:
         unit = joint.coordinates[0].unit
         if stopped and not _stalled(task, int(np.abs(pushes[:, v]).argmax()), error, unit):
             continue
-        needed = abs(float(spring[v])) / (LAGS * ways[joint])
+        needed = _rounded_up(abs(float(spring[v])) / (LAGS * ways[joint]))
         yield Finding(
             "far from target",
             True,
-            f"raise K_q of {joint.name} to {needed:.2g} or more",
+            f"raise K_q of {joint.name} to {needed:.3g} or more",
             f"it ends {amount(error, unit)} from its last target, with "
             f"{abs(spring[v]):.3g} {'N' if unit == 'm' else 'N m'} on its spring",
             {f"error_{unit}": error, "K_q": needed},
         )
+
+
+def _short_bases(task: Task, lag: Array) -> Iterator[Finding]:
+    """Bases on springs that end far from their targets, and not for what they press on.
+
+    What they carry, which has come along by half of their way, does not stop them.
+    """
+    run = task.run
+    k = run.steps - 1
+    forces = run.at(k).forces
+    for track in task.tracks:
+        joint = track.joint
+        if not joint.actuated or joint.lengths < 2:
+            continue
+        way = float(np.linalg.norm(np.ptp(track.values[:, : joint.lengths], axis=0)))
+        error = run["q_bar_a"][-1][joint.q][:3] - run["q"][-1][joint.q][:3]
+        far = float(np.linalg.norm(error))
+        if not way or far <= LAGS * way:
+            continue
+        v = slice(joint.v.start, joint.v.start + joint.lengths)
+        spring = float(np.linalg.norm((run.simulator.K_q @ lag)[v]))
+        stopped = 0.0
+        for i, pair in enumerate(run.pairs):
+            links = [pair.alpha.link, pair.beta.link]
+            moved = [bool(run.moves[link, v].any()) for link in links]
+            if moved[0] == moved[1]:
+                continue
+            other = links[moved[0]]
+            start, end = (run.system.kinematics(run["q"][j]).t[other] for j in (0, -1))
+            if (end - start) @ error > far * way / 2:
+                continue
+            of_pair = run.pair_of == i
+            push = (forces[of_pair, 2:3] * run["n"][k, of_pair]).sum(axis=0)
+            stopped += abs(float(push @ error)) / far
+        if stopped <= spring / 2:
+            needed = _rounded_up(spring / (LAGS * way))
+            yield Finding(
+                "far from target",
+                True,
+                f"raise K_q of {joint.name} to {needed:.3g} or more",
+                f"it ends {length(far)} from its last target, with {spring:.3g} N on its spring",
+                {"error_m": far, "K_q": needed},
+            )
+
+
+def _rounded_up(x: float) -> float:
+    """A number with two digits that is at least x."""
+    digits = 10.0 ** np.floor(np.log10(x) - 1)
+    return float(np.ceil(x / digits) * digits)
 
 
 def _at_a_stop(run: Run, joint: Joint) -> bool:

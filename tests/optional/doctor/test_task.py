@@ -91,3 +91,21 @@ def test_a_mujoco_scene_may_be_run_without_targets():
     assert (found.name, found.grave) == ("no motion", False)
     assert "--targets" in found.remedy
     assert "contacts." not in found.sentence
+
+
+@pytest.mark.parametrize(("K", "far"), [(1000.0, True), (2100.0, False)])
+def test_a_base_on_springs_that_ends_far_from_its_target_is_named(K, far):
+    """A palm that lifts 1 kg by 50 mm ends 9.81 N / K lower; a tenth of its way is 1962 N/m."""
+    palm = qr.Body.of_shape(
+        "p", qr.Box((0.1, 0.1, 0.01)), 0.1, xyz=(0, 0, -0.01), actuated=["base"]
+    )
+    way = [(0, -0.01), (0.5, -0.01), (2, 0.04), (2.5, 0.04)]
+    targets = [{"t": t, "base": {"xyz": [0, 0, z]}} for t, z in way]
+    box = qr.Body.of_shape("b", qr.Box((0.05, 0.05, 0.05)), 1.0, xyz=(0, 0, 0.05))
+    bodies = {"p": {"urdf": palm, "K_q": {"base": [K] * 6}, "targets": targets}, "b": box}
+    contacts = {"c": {"alpha": "p", "beta": "b", "mu_v": 0.5, "rows": 4, "k": 4}}
+    scene = {"h": 0.02, "steps": 130, "fast": True, "bodies": bodies, "contacts": contacts}
+    found = qr.load_scenario(scene).run(progress=False).findings
+    said = [one for one in found if one.name == "far from target"]
+    assert [one.remedy for one in said] == ["raise K_q of p/base to 2e+03 or more"] * far
+    assert all(one.numbers["error_m"] == pytest.approx(9.81 / K, rel=1e-3) for one in said)
