@@ -25,6 +25,14 @@ class MimicJoint:
     offset: float
 
 
+def no_coordinate(of: str) -> str:
+    """What is said where a coordinate is asked of a joint that mimics another."""
+    return (
+        f"mimics {of!r} and has no coordinate of its own: name {of!r}, whose spring moves both "
+        "and whose force K_q e they share"
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class Order:
     """The permutation between the two orders.

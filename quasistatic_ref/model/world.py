@@ -12,7 +12,7 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.body import FIXED, Body
-from quasistatic_ref.model.coordinates import MimicJoint, joint_key
+from quasistatic_ref.model.coordinates import MimicJoint, joint_key, no_coordinate
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import QUATERNION, Joint
@@ -191,7 +191,7 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
             joint = kinds.get(name)
             problem = f"has no such joint{suggestion(str(name), allowed)}"
             if joint is not None and joint.mimic is not None:
-                problem = f"mimics {joint.mimic.of!r} and has no coordinate of its own"
+                problem = no_coordinate(joint.mimic.of)
             elif joint is not None:
                 problem = "has no position that is one number; it starts without a turn"
             elif name == BASE and moves:

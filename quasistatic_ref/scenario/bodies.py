@@ -11,6 +11,7 @@ from quasistatic_ref.errors import ModelError, ScenarioError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.model.coordinates import no_coordinate
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.system import Body, System
@@ -161,6 +162,9 @@ def stiffness(system: System, entry: BodyEntry) -> Array:
     stiffnesses = TableReader(
         {} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError
     )
+    for name, problem in _followers(system, entry).items():
+        if name in stiffnesses:
+            raise stiffnesses.error_about(name, problem)
     stiffnesses.only(entry.short(joint) for joint in joints)
     for joint in joints:
         block = _joint_stiffness(stiffnesses, entry.short(joint), joint)
@@ -178,12 +182,15 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
         If a waypoint names what has no target, or asks for more than half a turn at once.
     """
     joints = {entry.short(joint): joint for joint in entry.actuated(system)}
+    followers = _followers(system, entry)
     times: dict[str, list[float]] = {}
     values: dict[str, list[Any]] = {}
     angles = {name: _start_angles(entry.body, name, joint) for name, joint in joints.items()}
     for i, record in enumerate(entry.targets):
         waypoint = TableReader(record, entry.table.name(f"targets[{i}]"), ScenarioError)
         for name in waypoint.names_left():
+            if name in followers:
+                raise waypoint.error_about(name, followers[name])
             if name != "t" and name not in joints:
                 hint = suggestion(name, joints if "t" in waypoint else ["t", *joints])
                 raise waypoint.error_about(name, f"is not an actuated joint of this body{hint}")
@@ -206,6 +213,16 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
     return [
         JointTrack(joints[name], np.array(times[name]), np.array(values[name])) for name in times
     ]
+
+
+def _followers(system: System, entry: BodyEntry) -> dict[str, str]:
+    """What is said of each joint of a body that mimics another, where a coordinate is asked."""
+    body = f"{entry.body.name}/"
+    return {
+        one.name.removeprefix(body): no_coordinate(one.of.removeprefix(body))
+        for one in system.mimics
+        if one.name.startswith(body)
+    }
 
 
 def _joint_stiffness(stiffnesses: TableReader, name: str, joint: Joint) -> Array:
@@ -243,6 +260,9 @@ def _check_turn(waypoint: TableReader, name: str, before: Array, after: Array) -
 def _placed(waypoint: TableReader, name: str, joint: TwistJoint, body: Body) -> tuple[Array, Array]:
     """Entries of q of a base or ball at a pose, and its roll, pitch, yaw [rad]."""
     start = np.asarray(body.xyz)
+    if not isinstance(waypoint.peek(name), dict):
+        problem = "must be a pose, { xyz = [x, y, z], rpy = [roll, pitch, yaw] }, in m and rad"
+        raise waypoint.error_about(name, problem, waypoint.take(name))
     xyz, rpy = pose(waypoint.table(name), ORIGIN if joint.free else start)
     obstacle = joint.obstacle(xyz, rpy, start)
     if obstacle is not None:

@@ -14,6 +14,7 @@ from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.quoting import known_names, nearest_name
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import System
+from quasistatic_ref.scenario.overrides import NAMED
 from quasistatic_ref.scenario.scenario_table import TABLES
 from quasistatic_ref.tolerances import LARGE
 
@@ -21,9 +22,6 @@ WELDED: Final = 1e-12
 """Largest relative velocity, per unit of any coordinate [-], of two links that count as one.
 
 Chains of rotations leave 1e-15 a link; a joint between them moves one of them by 1."""
-
-NAMED = {"bodies": "urdf", "contacts": "alpha"}
-"""Tables of tables, and a field without which none of theirs can be."""
 
 
 def check_names(table: TableReader, kind: str) -> None:
@@ -38,7 +36,8 @@ def check_names(table: TableReader, kind: str) -> None:
     known = TABLES[kind]
     for name in table.names_left():
         if name not in known:
-            near = nearest_name(name, known) or _inside(name, table) or _elsewhere(name, kind)
+            near = nearest_name(name, known) or _inside(name, table)
+            near = near or _elsewhere(name, kind, table)
             raise table.error_about(
                 name, f"is unknown{near or ';'} {known_names(known)}", table.take(name)
             )
@@ -52,11 +51,23 @@ def _inside(name: str, table: TableReader) -> str:
     return ""
 
 
-def _elsewhere(name: str, kind: str) -> str:
+def _elsewhere(name: str, kind: str, table: TableReader) -> str:
     for other, names in TABLES.items():
         if other != kind and (near := nearest_name(name, names)):
-            return near.replace("?", f" of {other}?")
+            return near.replace("?", f" of {other}{_as_setting(near, other, table)}?")
     return ""
+
+
+def _as_setting(near: str, other: str, table: TableReader) -> str:
+    """How a setting names a field of another table, such as that of ``[contacts.NAME]``."""
+    kind, dot, name = other.strip("[]").partition(".")
+    if not dot or other.startswith("[["):
+        return ""
+    inner = table.fields.get(kind)
+    if name == "NAME" and isinstance(inner, dict) and inner:
+        name = next(iter(inner))
+    _, field, _ = near.split("'")
+    return f', as a setting "{kind}.{name}.{field}"'
 
 
 def check_made(made: Collection[tuple[str, str]], tables: dict[str, Any]) -> None:

@@ -1,5 +1,6 @@
 """Overrides of a scenario's tables before they are read: ``--set`` of a command, or from Python."""
 
+import itertools
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import PurePath
@@ -10,6 +11,9 @@ from quasistatic_ref.formats.files import plain
 from quasistatic_ref.scenario.paths import OwnWord
 
 Changes = Sequence[str] | Mapping[str, Any]
+
+NAMED = {"bodies": "urdf", "contacts": "alpha"}
+"""Tables of tables, and a field without which none of theirs can be."""
 
 
 def apply_settings(
@@ -23,7 +27,7 @@ def apply_settings(
     settings : sequence of str, or mapping of str to object
         ``dotted.key=value``, the value being TOML or else a plain word; or values by dotted key.
     named : mapping of str to object
-        Values by the names of fields at the top, made last.
+        Values by the names of fields at the top, made last; or by dotted keys.
 
     Returns
     -------
@@ -50,10 +54,31 @@ def apply_settings(
                 problem = "must be table.field=value, such as contacts.floor.mu_v=0.5"
                 raise ScenarioError(problem, field="--set", value=setting)
             _put(tables, key, parsed(text), "--set", setting)
+    for key in filter(_is_dotted, named):
+        _put(tables, key, python_value(key, named[key]), "settings", key)
     made = _second_level(tables) - before
-    for key, value in named.items():
-        tables[key] = python_value(key, value)
+    for key in itertools.filterfalse(_is_dotted, named):
+        value = python_value(key, named[key])
+        _check_whole(key, tables.get(key), value)
+        tables[key] = value
     return made & _second_level(tables)
+
+
+def _is_dotted(key: str) -> bool:
+    return "." in key
+
+
+def _check_whole(kind: str, before: Any, after: Any) -> None:
+    """Refuse a table that would replace one of the file, and is only a part of it."""
+    if kind not in NAMED or not (isinstance(before, dict) and isinstance(after, dict)):
+        return
+    for name, table in after.items():
+        if name in before and isinstance(table, dict) and table and NAMED[kind] not in table:
+            problem = (
+                f"would replace the whole table; a single field is the setting "
+                f'"{kind}.{name}.{next(iter(table))}"'
+            )
+            raise ScenarioError(problem, field=f"{kind}.{name}", value=table)
 
 
 def _second_level(tables: Mapping[str, Any]) -> set[tuple[str, str]]:

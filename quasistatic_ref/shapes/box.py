@@ -35,7 +35,7 @@ class Box(Rounded):
         self, half_extents: ArrayLike | None = None, *, size: ArrayLike | None = None
     ) -> None:
         halved(self, "half_extents", half_extents, "size", size)
-        freeze_lengths(self, "half_extents")
+        freeze_lengths(self, "half_extents", "three positive lengths, half of each edge")
 
     @cached_property
     def coal(self) -> CollisionGeometry:

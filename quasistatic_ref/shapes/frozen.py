@@ -45,11 +45,14 @@ def freeze_size(owner: object, key: str) -> None:
     object.__setattr__(owner, key, number)
 
 
-def freeze_lengths(owner: object, key: str) -> None:
-    """Replace a field by three positive lengths, read-only; ModelError if they are not."""
+def freeze_lengths(owner: object, key: str, what: str = "three positive lengths") -> None:
+    """Replace a field by three positive lengths, read-only; ModelError if they are not `what`."""
+    value = getattr(owner, key)
+    if np.shape(checked_numbers(value, key, ModelError)) != (3,):
+        raise ModelError(f"must be {what}", field=key, value=value)
     freeze_array(owner, key, (3,))
     lengths = getattr(owner, key).tolist()
-    _check_lengths(lengths, key, "three positive lengths", lengths)
+    _check_lengths(lengths, key, what, lengths)
 
 
 def _check_lengths(lengths: list[float], key: str, what: str, value: object) -> None:

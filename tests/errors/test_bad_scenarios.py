@@ -23,7 +23,9 @@ CAUSES = {
         ("h", ...), ("dt", 0.01), "dt", "is unknown; did you mean 'h'? known: bodies",
     ),
     "friction at the top": (
-        ("mu_v", 0.5), "mu_v", "is unknown; did you mean 'mu_v' of [contacts.NAME]? known: bodies",
+        ("mu_v", 0.5), "mu_v",
+        "is unknown; did you mean 'mu_v' of [contacts.NAME], as a setting \"contacts.floor.mu_v\"? "
+        "known: bodies",
     ),
     "a contact's field without its table": (
         ("push", {"mu_v": 0.5}), "push", "is unknown; did you mean 'contacts.push'?",

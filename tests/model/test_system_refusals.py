@@ -48,7 +48,11 @@ BAD_BODY = {
     "tilted": ({"base": "planar", "rpy": (0.1, 0, 0)}, "c.rpy: moves or turns by z, rx, ry"),
     "bare string": ({"actuated": "swing"}, 'c.actuated: must be "all" or a list'),
     "unknown joint": ({"actuated": ("swong",)}, "c.actuated: has no such joint; did you mean 'swi"),
-    "mimic joint": ({"actuated": ("swing_mimic",)}, "c.actuated: mimics 'swing' and has no coord"),
+    "mimic joint": (
+        {"actuated": ("swing_mimic",)},
+        "c.actuated: mimics 'swing' and has no coordinate of its own: name 'swing', whose spring "
+        "moves both and whose force K_q e they share",
+    ),
     "fixed base": ({"actuated": ("base",)}, 'c.actuated: is fixed; set base = "floating"'),
     "twice": ({"actuated": ("swing", "swing")}, "c.actuated: names a joint twice"),
     "rpy": ({"rpy": (0, np.nan, 0)}, "c.rpy: must contain finite numbers only"),

@@ -73,6 +73,18 @@ REFUSED = {
         "contacts.flor: is not a table of this file; did you mean",
     ),
     "no key": ({"": 3}, {}, "settings: must be table.field=value, such as contacts.floor.mu_v=0.5"),
+    "a part of a contact": (
+        (),
+        {"contacts": {"floor": {"mu_v": 0.2}}},
+        'contacts.floor: would replace the whole table; a single field is the setting "contacts.'
+        'floor.mu_v" (got',
+    ),
+    "a base's target as a list": (
+        {"bodies.ball.actuated": ["base"], "bodies.ball.K_q": {"base": 100.0}},
+        {"bodies.ball.targets": [{"t": 0, "base": [0, 0, 1]}]},
+        "bodies.ball.targets[0].base: must be a pose, { xyz = [x, y, z], rpy = [roll, pitch, yaw] }"
+        ", in m and rad (got [0, 0, 1])",
+    ),
     "unknown keyword": ((), {"step": 3}, "step: is unknown; did you mean 'steps'"),
     "a function": ({"h": abs}, {}, "h: must be a number"),
 }

@@ -1,5 +1,6 @@
 """Scenes that are written in Python in the words of the files."""
 
+import re
 import tomllib
 
 import numpy as np
@@ -118,3 +119,36 @@ def test_a_solid_is_itself_in_the_words_of_a_table(solid):
     kind, sizes = solid_table(solid, "solid")
     fields = {name: np.array(x) if isinstance(x, list) else x for name, x in sizes.items()}
     assert SOLIDS[kind].made(None, "solid", **fields) == solid
+
+
+FINGER = """<link name="{0}"><inertial><mass value="0.1"/>
+<inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><geometry><box size="0.01 0.02 0.04"/></geometry></collision></link>
+<joint name="{0}_slide" type="prismatic"><parent link="palm"/><child link="{0}"/>
+<origin xyz="{1} 0 0"/><axis xyz="{2} 0 0"/>{3}<limit lower="-1" upper="1" effort="9" velocity="1"/>
+</joint>"""
+LEFT = FINGER.format("left", 0.04, -1, "")
+RIGHT = FINGER.format("right", -0.04, 1, '<mimic joint="left_slide"/>')
+SHARED = "mimics 'left_slide' and has no coordinate of its own: name 'left_slide', whose spring"
+
+
+@pytest.mark.parametrize("wrong", [None, "K_q", "targets[0]"])
+def test_fingers_that_mimic_share_the_force_of_one_spring(wrong):
+    """Its target is 10 mm deep: K_q e = 10 N, of which either finger presses with one half."""
+    names = {"K_q": "left_slide", "targets[0]": "left_slide"} | {wrong: "right_slide"}
+    gripper = {
+        "urdf": f'<robot name="gripper"><link name="palm"/>{LEFT}{RIGHT}</robot>',
+        "actuated": ["left_slide"],
+        "K_q": {names["K_q"]: 1000.0},
+        "targets": [{"t": 0, names["targets[0]"]: 0.01}],
+    }
+    held = qr.Body.of_shape("held", qr.Box((0.035, 0.02, 0.02)), mass=0.2)
+    grip = {"alpha": "gripper/*", "beta": "held", "mu_v": 0.5, "rows": 4, "k": 4}
+    scene = {"h": 0.01, "steps": 1, "gravity": [0, 0, 0], "contacts": {"grip": grip}}
+    scene |= {"bodies": {"gripper": gripper, "held": held}}
+    if wrong is not None:
+        with pytest.raises(InputError, match=rf"bodies.gripper.{re.escape(wrong)}.*: {SHARED}"):
+            qr.load_scenario(scene)
+        return
+    forces = qr.load_scenario(scene).run(progress=False).pair_forces().values()
+    assert [force[-1, 0] for force in forces] == pytest.approx([-5.0, 5.0])
