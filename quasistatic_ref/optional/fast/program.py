@@ -111,6 +111,7 @@ class Workspace:
         self._b = b
         self._cold = np.zeros(len(b), np.int32)
         self._warm = False
+        self._H = H
         if len(b):
             self._model: Any = daqp.Model()
             self._model.settings = options
@@ -128,8 +129,12 @@ class Workspace:
         return reply
 
     def _solved(self, H: Array, *, warm: bool) -> Reply:
-        sense = None if warm else self._cold
-        self._model.update(H=H, f=self._f, A=self._A, blower=self._b, sense=sense)
+        changes: dict[str, Any] = {"f": self._f, "A": self._A, "blower": self._b}
+        if not warm or H is not self._H:  # else DAQP keeps its factor, with the same bits
+            changes["H"] = self._H = H
+        if not warm:
+            changes["sense"] = self._cold
+        self._model.update(**changes)
         x, _, flag, info = self._model.solve()
         lam = 0.0 - info["lam"]  # those of lower bounds are negative
         status = STATUS.get(flag) or str(flag)
