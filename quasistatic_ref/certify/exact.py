@@ -170,7 +170,7 @@ def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
 def optimum_by_groups(
     step: StepData, parts: Sequence[Group], warm: Sequence[int] = ()
 ) -> ExactOptimum:
-    """The same, however long it is, from the groups of the step; StepInfeasible as above."""
+    """The exact optimum, however long it is, by the groups of the step; or StepInfeasible."""
     optima: list[tuple[Group, ExactOptimum]] = []
     for group in parts:
         part = group_step(step, group)

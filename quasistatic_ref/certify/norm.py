@@ -85,7 +85,7 @@ def energy_norm(H: Array) -> EnergyNorm:
 
 @lru_cache(maxsize=4)
 def _energy_norm(entries: bytes, n: int) -> EnergyNorm:
-    """The same: most steps of a run have the same H."""
+    """The norm, which is kept, since most steps of a run have the same H."""
     H = np.frombuffer(entries).reshape(n, n)
     unit = 1 / np.sqrt(np.diag(H))
     try:

@@ -58,7 +58,7 @@ class Order:
 
     @cached_property
     def v_back(self) -> Indices:
-        """The same for delta_q, shape (n_v,)."""
+        """For each entry of pinocchio's delta_q, its index in the paper's, shape (n_v,)."""
         return np.argsort(self.v)
 
     def paper_q(self, q: Array) -> Array:

@@ -31,7 +31,7 @@ def without_warnings(function: Callable[..., Result], *arguments: object) -> Res
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
-    """The same array, of any shape and unit [-], which cannot be written any more."""
+    """An array itself, of any shape and unit [-], which cannot be written any more."""
     array.setflags(write=False)
     return array
 

@@ -100,7 +100,7 @@ def positive_sum(S: Array, terms: Iterable[tuple[Fraction, Array]]) -> bool:
 
 @lru_cache(maxsize=16)
 def _positive_pivots(entries: bytes, shape: tuple[int, ...]) -> bool:
-    """The same as :func:`positive_pivots`: K_q, and mostly M_u, are those of all steps of a run."""
+    """As :func:`positive_pivots`, kept: K_q, and mostly M_u, are those of all steps of a run."""
     return positive_pivots(np.frombuffer(entries).reshape(shape))
 
 

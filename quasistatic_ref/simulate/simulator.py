@@ -53,7 +53,7 @@ S = TypeVar("S", bound="Simulator")
 
 
 def by_one_thread(step: Callable[Concatenate[S, P], R]) -> Callable[Concatenate[S, P], R]:
-    """The same method of a simulator, refused while another thread takes a step of its system.
+    """A method of a simulator that is refused while another thread takes a step of its system.
 
     Raises
     ------
@@ -318,7 +318,7 @@ class Simulator(Settings, Shown):
         return self.step_under(q, q_bar_a, self.generalised_force(q, force), contacts)
 
     def step_under(self, q: Array, q_bar_a: ArrayLike, tau: Array, contacts: Contacts) -> StepData:
-        """The same, from the contacts and all generalised forces, shape (n_v,) [N, N m]."""
+        """The problem of one step from its contacts and all generalised forces, (n_v,) [N, N m]."""
         n_a = self.system.n_a
         return StepData(
             h=self.h,

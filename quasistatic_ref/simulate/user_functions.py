@@ -126,7 +126,7 @@ def checked_force(system: System, force: ArrayLike | None) -> Array:
 
 
 def with_all_arguments(function: Callable[..., Value], name: str) -> OfTimeQAndLast:
-    """The same function with the arguments (t, q, last), of which it may take fewer.
+    """A user's function with the arguments (t, q, last), of which it may take fewer.
 
     The arguments without defaults decide which of these it is; the others keep their defaults.
 
@@ -167,7 +167,7 @@ def needed_arguments(function: Callable[..., Value], name: str) -> int:
 def _returning(
     function: OfTimeQAndLast, unnamed: Callable[[Value], object], shape: tuple[int, ...], name: str
 ) -> Checked:
-    """The same function, its results as arrays of one shape."""
+    """A user's function whose results are arrays of one shape."""
 
     def value(t: float, q: Array, last: "StepResult | None") -> Array:
         returned = unnamed(function(t, q, last))

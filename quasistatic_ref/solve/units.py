@@ -127,29 +127,6 @@ def coordinate_units(diagonal: Array) -> Array:
     return np.exp2(np.round(np.log2(1 / np.sqrt(diagonal))))
 
 
-def driven(step: StepData) -> bool:
-    """Whether a load, or penetration, drives a step; if not, its optimum is zero."""
-    form = standard_form(step)
-    return bool(form.g.any() or (form.b > 0).any())
-
-
-def natural_units(step: StepData) -> Units:
-    """Units in which the diagonal of H, the rows of A and the unconstrained step are about one.
-
-    Parameters
-    ----------
-    step : StepData
-        In SI units.
-
-    Returns
-    -------
-    Units
-        A function of the step alone, so that a step replayed by itself gives the same numbers.
-    """
-    form = standard_form(step)
-    return units_of(form, hessian_in_both_units(form.H))
-
-
 def squared_lengths(form: StandardForm, hessian: HessianInBothUnits) -> Array:
     """Squared lengths of the rows of A S [m^2/(N m s)], shape (m,), ascending; NaN comes last."""
     # Squares and sums are rounded, which is enough to choose a power of two.
@@ -200,7 +177,7 @@ def small_power(y: Array) -> int:
 
 
 def natural_form(form: StandardForm, units: Units, H: Array) -> StandardForm:
-    """The same quadratic program in natural units, bit for bit that of :func:`natural_step`.
+    """A quadratic program in natural units, bit for bit that of :func:`natural_step`.
 
     Parameters
     ----------
@@ -216,7 +193,7 @@ def natural_form(form: StandardForm, units: Units, H: Array) -> StandardForm:
 
 
 def natural_step(step: StepData, units: Units) -> StepData:
-    """The same step in natural units; h, n, d1, d2, mu_v and mu_omega stay as they are.
+    """A step in natural units; h, n, d1, d2, mu_v and mu_omega stay as they are.
 
     Raises
     ------

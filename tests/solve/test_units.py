@@ -13,7 +13,6 @@ from quasistatic_ref.solve.units import (
     StepInBothUnits,
     Units,
     natural_step,
-    natural_units,
     within_reach,
 )
 from tests.closeness import assert_relative
@@ -50,13 +49,13 @@ def inverse(units):
 
 @every_step
 def test_there_and_back_gives_the_same_bits(step):
-    units = natural_units(step)
+    units = StepInBothUnits(step).units
     assert natural_step(natural_step(step, units), inverse(units)) == step
 
 
 @every_step
 def test_units_are_powers_of_two_and_put_everything_near_one(step):
-    units = natural_units(step)
+    units = StepInBothUnits(step).units
     mantissas, _ = np.frexp([*units.coordinate, units.length, units.size])
     np.testing.assert_array_equal(mantissas, 0.5)
     natural = natural_step(step, units)
@@ -72,7 +71,7 @@ def test_units_are_powers_of_two_and_put_everything_near_one(step):
 @every_step
 def test_natural_units_keep_the_form_of_13_and_4(step):
     # H' = S H S, g' = S g / rho, A' = A S / ell, b' = b / (rho ell), all exact.
-    units = natural_units(step)
+    units = StepInBothUnits(step).units
     given = standard_form(step)
     S = units.coordinate
     ell = units.length
@@ -93,8 +92,8 @@ def test_a_power_of_two_in_the_data_moves_the_units_and_nothing_else(power):
         **{name: power * getattr(step, name) for name in loads},
         contacts=dataclasses.replace(step.contacts, phi=power * step.contacts.phi),
     )
-    one = natural_units(step)
-    two = natural_units(other)
+    one = StepInBothUnits(step).units
+    two = StepInBothUnits(other).units
     assert two.size == power * one.size
     assert natural_step(other, two) == natural_step(step, one)
 
@@ -110,32 +109,32 @@ def with_own_rows(rows, b, load=0.0):
 )
 def test_rows_in_which_nothing_moves_have_no_say_in_the_length(rows, length):
     step = with_own_rows(rows, [-1.0] * len(rows))
-    assert natural_units(step).length == length
+    assert StepInBothUnits(step).units.length == length
     assert StepInBothUnits(step).row_ratio == 1.0
 
 
 def test_without_load_and_penetration_the_size_is_a_length_that_counts_as_unmoved():
     """Of the softest coordinate, however far the rows are: one micrometre, to a power of two."""
     step = with_own_rows([[64, 0], [0, 64]], [-0.5, -32.0])
-    coordinate, length, size = natural_units(step)
+    coordinate, length, size = StepInBothUnits(step).units
     assert (coordinate.tolist(), length) == ([1.0, 1.0], 64.0)
     assert size == 2.0**-20
     still = step.replace(extra=Extra((), np.zeros((0, 2)), []))
-    assert natural_units(still).size == size
+    assert StepInBothUnits(still).units.size == size
 
 
 @pytest.mark.parametrize("depth", [1e-3, 1.0])
 def test_a_deep_penetration_sets_the_size_where_the_load_is_small(depth):
     # ||H^-1 g||_H is nearly 0 here: without the push out, b' would be as large as depth / 0.
     natural = sphere_on_floor(phi=-depth, wrench=(0, 0, -1e-9, 0, 0, 0))
-    natural = natural_step(natural, natural_units(natural))
+    natural = natural_step(natural, StepInBothUnits(natural).units)
     assert NATURAL_LOW <= abs(natural.contacts.phi[0]) <= NATURAL_HIGH
 
 
 def test_contacts_and_rows_out_of_reach_are_moved_nearer_and_the_others_are_not():
     walls = Extra(("near", "far"), np.eye(6)[[0, 2]], np.array([-1e-3, -1e-3]))
     step = sphere_on_floor(phi=0.0, wrench=(0, 0, -1.0, 0, 0, 0)).replace(extra=walls)
-    natural = natural_step(step, natural_units(step))
+    natural = natural_step(step, StepInBothUnits(step).units)
     near, out_of_reach = within_reach(natural)
     assert near is natural
     assert not out_of_reach.any()

@@ -22,7 +22,7 @@ from quasistatic_ref.solve.backends import backend, check_takes_cones
 from quasistatic_ref.solve.problem_data import problem_data
 from quasistatic_ref.solve.solver import RELAXED
 from quasistatic_ref.solve.step_problem import StepProblem
-from quasistatic_ref.solve.units import Units, driven, in_si, natural_step, natural_units
+from quasistatic_ref.solve.units import StepInBothUnits, Units, in_si, natural_step
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
@@ -111,8 +111,9 @@ def extended_solution(
         If it does not solve the problem, or its residuals are not small.
     """
     check_takes_cones(name, "an extension with nonlinear constraints or costs")
-    units = natural_units(step)
-    if not driven(step):  # nothing but the extension drives it
+    both = StepInBothUnits(step)
+    units = both.units
+    if not (both.si_form.g.any() or (both.si_form.b > 0).any()):  # the extension alone drives it
         units = units._replace(size=1.0)
     natural = natural_step(step, units)
     problem = StepProblem(natural, partial(_terms, extension, step, units))

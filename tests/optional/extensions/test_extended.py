@@ -16,7 +16,7 @@ from quasistatic_ref.optional.extensions.by_cvxpy import (
 from quasistatic_ref.optional.extensions.extended import simulated_solution
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.solve.step_problem import StepProblem
-from quasistatic_ref.solve.units import natural_step, natural_units
+from quasistatic_ref.solve.units import StepInBothUnits, natural_step
 from tests.helpers import changed, point_on_floor, random_step
 from tests.tolerances import ROUNDING
 
@@ -36,7 +36,7 @@ def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
     """Row i of the contacts that have it: phi + [J'(n~ + d~_i)]' delta_q = A delta_q - b."""
     step = random_step(rng, rows=(6, 4))
     step = step.replace(contacts=changed(step.contacts, J=16 * step.contacts.J))
-    units = natural_units(step)
+    units = StepInBothUnits(step).units
     form = standard_form(step)
     assert units.length > 2
     natural = natural_step(step, units)
