@@ -30,7 +30,7 @@ ROUNDING = 1 + Fraction(1, 10**30)
 
 def record_of(step):
     """What the checker reads of a step's file."""
-    return checker.load_step(json.loads(step_text(step)))
+    return checker.step_read(json.loads(step_text(step)))
 
 
 def problem(record):

@@ -216,7 +216,7 @@ def test_a_file_may_leave_out_h_or_g():
         step = step_from_record(record)
         assert step.extra.H.shape == (3, 3)
         assert step.extra.g.shape == (3,)
-        assert checker.load_step(record) == json.loads(step_text(step))
+        assert checker.step_read(record) == json.loads(step_text(step))
 
 
 REFUSED = {
