@@ -16,7 +16,7 @@ from quasistatic_ref.numbers.ordered import dot, norm, product, total
 from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import Capsule, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.tolerances import SAME_NORMAL
+from quasistatic_ref.tolerances import FACING, SAME_NORMAL
 
 TIED_FACES: Final = 1e-12
 """Difference of heights over two faces, or of the gaps along two normals, relative to sizes and
@@ -165,8 +165,15 @@ def refuse_unless_touching(name: str, phi: float, normals: Array, within: float)
         one, other = (
             np.array2string(normal + 0.0, precision=4, separator=", ") for normal in normals[:2]
         )
+        remedy = "start them less deep along one of the two"
+        if dot(normals[0], normals[1]) >= np.cos(FACING):
+            table = f"contacts.{name.partition('(')[0]}"
+            remedy = (
+                f"raise k of {table}: a face that lies on another turns into it where fewer "
+                "contacts are kept than it has corners"
+            )
         raise ContactError(
             f"the bodies are as deep in each other along {one} as along {other}, {-phi:.3g} m: "
-            "the normal is not defined; start them less deep along one of the two",
+            f"the normal is not defined; {remedy}",
             field=name,
         )

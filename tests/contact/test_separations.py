@@ -55,6 +55,14 @@ def test_solids_as_deep_along_several_normals_are_refused(a, b):
     assert "-0." not in str(refusal.value)
 
 
+@pytest.mark.parametrize("turn", [1e-5, 1e-4, 0.1])
+def test_faces_that_turn_into_each_other_want_more_contacts(turn):
+    """Two cubes are turned by as much, one to the right and one to the left."""
+    right, left = (Rotation.from_rotvec(angle * Y).as_matrix() for angle in (turn, -turn))
+    with pytest.raises(ContactError, match=r"not defined; raise k of contacts.grip: a face that"):
+        pair_normal("grip(a, b)", at(CUBE, R=right), at(CUBE, 1.99 * Z, left))
+
+
 @pytest.mark.parametrize("shape", [CAPSULE, Sphere(0.25)])
 def test_cores_that_are_apart_have_one_normal_however_near_another_gap_is(shape):
     """A core is d (cos a, sin a) beyond a cube's edge: nearly as far as beyond its face, d cos a.
