@@ -102,9 +102,6 @@ def run(options: argparse.Namespace) -> int:
     except RunFailed as error:
         failure = error
         trajectory = error.trajectory
-    if options.quiet:  # of progress; a finding is said all the same
-        for finding in trajectory.findings:
-            print(f"quasistatic-ref: {finding}", file=sys.stderr)
     if failure is not None:
         return shared.failed_run(failure, path)
     save_trajectory(path, trajectory)

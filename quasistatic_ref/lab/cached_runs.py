@@ -12,7 +12,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 def grasp(case: str) -> tuple[Scenario, Trajectory]:
     """``bunny_grasp``, ``"with torsion"`` or ``"without torsion"``; a second time without work."""
     scenario = load_scenario("bunny_grasp", CASES[case], fast=True)
-    return scenario, scenario.run(progress=False)
+    return scenario, scenario.run(progress=False, findings=False)
 
 
 def lift(case: str) -> tuple[LinkMotion, slice]:

@@ -207,7 +207,7 @@ def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Traje
         If the user ended it.
     """
     try:
-        trajectory = load_scenario(scenario, changes).run(progress=False)
+        trajectory = load_scenario(scenario, changes).run(progress=False, findings=False)
     except RunFailed as failure:
         if isinstance(failure.__cause__, KeyboardInterrupt):
             raise KeyboardInterrupt from None

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.quoting import clipped, suggestion
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.configuration import (
@@ -158,6 +158,11 @@ class Mechanism(ABC):
         self.n_a = sum(coordinate.actuated for coordinate in self.coordinates)
         self.n_u = self.n_v - self.n_a
         self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self.actuated)
+
+    def __repr__(self) -> str:
+        names = ", ".join(body.name for body in self.bodies)
+        counts = f"n_a = {self.n_a}, n_u = {self.n_u}, {len(self.links) - 1} links"
+        return f"<{type(self).__name__} of {clipped(names) or 'no bodies'}: {counts}>"
 
     @abstractmethod
     def kinematics(self, q: ArrayLike) -> Kinematics:

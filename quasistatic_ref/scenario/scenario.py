@@ -127,15 +127,21 @@ class Scenario(Settings, Plain, Shown):
         """
         return self.simulator().findings()
 
-    def run(self, progress: bool = True, observers: Sequence[Observer] = ()) -> Trajectory:
+    def run(
+        self,
+        progress: bool = True,
+        observers: Sequence[Observer] = (),
+        *,
+        findings: bool = True,
+    ) -> Trajectory:
         """Simulate the whole scenario.
 
         Parameters
         ----------
         progress : bool
         observers : sequence of Observer
-            As :func:`~quasistatic_ref.simulate.rollout.rollout` takes them, which takes `progress`
-            as well.
+        findings : bool
+            As :func:`~quasistatic_ref.simulate.rollout.rollout` takes them.
 
         Raises
         ------
@@ -155,6 +161,7 @@ class Scenario(Settings, Plain, Shown):
             force=self.force,
             record=self.record,
             progress=progress,
+            findings=findings,
             observers=observers,
         )
 

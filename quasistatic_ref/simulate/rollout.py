@@ -39,6 +39,7 @@ def rollout(
     force: Force | None = None,
     record: str = "full",
     progress: bool = True,
+    findings: bool = True,
     observers: Sequence[Observer] = (),
 ) -> Trajectory:
     """Step after step, recorded.
@@ -63,8 +64,9 @@ def rollout(
         ``"full"``; ``"light"`` to leave out the quadratic programs; ``"forces"`` to have the forces
         of single contacts in their place.
     progress : bool
-        Whether to show a progress bar on standard error, where that is a terminal, and to print
-        there, at the end of a run, its findings
+        Whether to show a progress bar on standard error, where that is a terminal.
+    findings : bool
+        Whether to print there, at the end of a run, its findings
         (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.findings`).
     observers : sequence of Observer
         What else watches the run: before each step, after it, and at the end.
@@ -92,7 +94,7 @@ def rollout(
     """
     if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
         raise InputError("must be a whole number, 0 or more", field="steps", value=steps)
-    recorder = Recorder(simulator, q, record, [*doctors(printed=progress), *observers])
+    recorder = Recorder(simulator, q, record, [*doctors(printed=findings), *observers])
     recorder.tracks = getattr(target, "tracks", ())
     recorder.idle_columns = getattr(target, "idle", ())
     q_bar_a_at = target_function(simulator.system, simulator.h, target, steps)

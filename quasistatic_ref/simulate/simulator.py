@@ -230,6 +230,11 @@ class Simulator(Settings, Shown):
         """Which coordinates move which contact."""
         return ContactGeometry(self.layout, self.system.column_map)
 
+    def __repr__(self) -> str:
+        contacts = f"{sum(pair.n_c for pair in self.pairs)} contacts"
+        settings = f"h = {self.h:g} s, {contacts}, cone {self.cone}, backend {self.backend}"
+        return f"<{type(self).__name__} of {self.system!r}: {settings}>"
+
     def __reduce__(self) -> tuple[object, ...]:
         chosen = {"backend": self.named_backend, "extension": self.extension}
         return _remade, (type(self), self.settings() | chosen)

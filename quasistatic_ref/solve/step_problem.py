@@ -101,6 +101,11 @@ class StepProblem:
         self.problem = cp.Problem(objective, constraints)
         self.set_parameters(template)
 
+    def __repr__(self) -> str:
+        step = self.template
+        size = f"{step.n_v} unknowns, {step.m} rows"
+        return f"<{type(self).__name__} of {size}: h = {step.h:g} s, cone {step.cone}>"
+
     def fill(self, step: StepData) -> None:
         """Set every parameter from one step, which has checked its numbers: CVXPY need not again.
 

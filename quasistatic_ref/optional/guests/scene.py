@@ -87,7 +87,13 @@ class MujocoScenario(Scenario):
         """The force of motors, (t, q) -> (n_v,) [N, N m]."""
         return self.drive.force
 
-    def run(self, progress: bool = True, observers: Sequence[Observer] = ()) -> Trajectory:
+    def run(
+        self,
+        progress: bool = True,
+        observers: Sequence[Observer] = (),
+        *,
+        findings: bool = True,
+    ) -> Trajectory:
         """Simulate the whole scene, as :meth:`.Scenario.run`.
 
         Raises
@@ -96,7 +102,7 @@ class MujocoScenario(Scenario):
             If a step fails; of the first one the scene's notes say more.
         """
         try:
-            return super().run(progress, observers)
+            return super().run(progress, observers, findings=findings)
         except RunFailed as failure:
             if failure.trajectory.steps or not self.drive.system.notes:
                 raise

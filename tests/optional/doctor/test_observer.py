@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import quasistatic_ref as qr
 from quasistatic_ref import load_scenario, load_trajectory
 from quasistatic_ref.optional.doctor import start
 from quasistatic_ref.simulate.finding import finding_table
@@ -148,3 +149,14 @@ def test_a_law_whose_steps_are_not_solved_again_is_said():
     run = load_scenario("block_push", law="coulomb", steps=2).run(progress=False)
     line = f"{OF_RUN}: steps are not those of the convex law alone"
     assert run.header["not_looked_at"] == line
+
+
+@pytest.mark.parametrize("progress", [True, False])
+def test_findings_are_silenced_by_their_own_argument_alone(capsys, progress):
+    system = qr.System([qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 1))])
+    simulator = qr.Simulator(system, [], h=0.01, K_q=1.0)
+    qr.rollout(simulator, system.q_start, [], 1, progress=progress)
+    assert "ball" in capsys.readouterr().err
+    run = qr.rollout(simulator, system.q_start, [], 1, progress=progress, findings=False)
+    assert run.findings
+    assert "ball" not in capsys.readouterr().err

@@ -24,7 +24,7 @@ NEAR = 1e-9
 def evidence() -> Evidence:
     """The scenario sphere_spin, then both laws."""
     scenario = load_scenario("sphere_spin", ["solver.backend=none"], fast=True)
-    run = scenario.run(progress=False)
+    run = scenario.run(progress=False, findings=False)
     (wrenches,) = scenario.wrenches
     torque = np.interp(run["t"], wrenches.times, wrenches.values[:, 5])
     share = torque / LIMIT

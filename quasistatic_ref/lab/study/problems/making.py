@@ -61,7 +61,7 @@ def problems_of_runs(scenarios: Sequence[str], total: int, progress: bool = True
 def _run(scenario: Scenario) -> Trajectory:
     """Its run, each step exact: the same bits whatever the machine's solvers."""
     try:
-        return scenario.run(progress=False)
+        return scenario.run(progress=False, findings=False)
     except RunFailed as failure:
         if isinstance(failure.__cause__, KeyboardInterrupt):
             raise KeyboardInterrupt from None
