@@ -224,11 +224,11 @@ def natural_step(step: StepData, units: Units) -> StepData:
     if not finite(np.concatenate([array.ravel() for array in arrays])):
         raise out_of_range()
     # Shapes, signs, frames and definiteness are those of the step, which are checked.
-    parts = {
-        "contacts": Contacts.unchecked(**(field_values(c) | of_contacts)),
-        "extra": Extra.unchecked(**(field_values(extra) | of_extra)),
-    }
-    return StepData.unchecked(**(field_values(step) | of_step | parts))
+    parts = field_values(step) | of_step
+    parts["contacts"] = Contacts.unchecked(**(field_values(c) | of_contacts))
+    if not extra.empty:
+        parts["extra"] = Extra.unchecked(**(field_values(extra) | of_extra))
+    return StepData.unchecked(**parts)
 
 
 def within_reach(natural: StepData) -> tuple[StepData, Mask]:
