@@ -28,9 +28,9 @@ class Iterate(NamedTuple, Generic[T]):
     Parameters
     ----------
     s, image : ndarray, shape (n,)
-        What the map was asked for, and its value there, in the same unit.
+        What the map was asked for, and its value there [both of any unit].
     residual : float
-        The largest difference of the two.
+        The largest difference of the two [their unit].
     converged : bool
         Whether that is rounding.
     of : object
@@ -56,6 +56,7 @@ def fixed_point(at: Callable[[Array], Iterate[T]], s: Array, most: int) -> tuple
     at : callable
         s >= 0, shape (n,) -> its iterate.
     s : ndarray, shape (n,)
+        Where to start [any unit].
     most : int
     """
     last = at(s)
