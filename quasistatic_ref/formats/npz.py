@@ -32,6 +32,12 @@ from quasistatic_ref.formats.files import (
 LARGEST_UNPACKED = 2**30
 """Largest sum of all arrays [bytes]: 50,000 full steps of the paper's size."""
 MOST_ARRAYS = 256
+
+
+class NoSuchArray(ValueError):
+    """What is wrong with an array of a file, in our words."""
+
+
 UNREADABLE: tuple[type[Exception], ...] = (
     ValueError,
     KeyError,
@@ -125,9 +131,10 @@ def readable(path: str | Path, problem: str) -> Iterator[None]:
             yield
     except InputError:
         raise
-    except UNREADABLE as error:
-        reason = " ".join(str(error).split())[:80]
-        raise InputError(f"{problem}{': ' if reason else ''}{reason}", file=path) from None
+    except NoSuchArray as error:
+        raise InputError(f"{problem}: {error}", file=path) from None
+    except UNREADABLE:  # in words of zipfile and NumPy
+        raise InputError(f"{problem}, or is spoilt", file=path) from None
 
 
 def _checked_sizes(archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
@@ -157,19 +164,19 @@ def array_of(file: IO[bytes], size: int, name: str) -> NDArray[Any]:
 
     Raises
     ------
-    ValueError
+    NoSuchArray, ValueError
         If it is no such array; :func:`readable` says so of the file.
     """
     if np.lib.format.read_magic(file) != (1, 0):
-        raise ValueError(f"{name} is an array file of another version")
+        raise NoSuchArray(f"{name} is an array file of another version")
     shape, _, kind = np.lib.format.read_array_header_1_0(file)
     if kind.hasobject:
-        raise ValueError(f"{name} is a pickle, which is never opened")
+        raise NoSuchArray(f"{name} is a pickle, which is never opened")
     byte_count = math.prod(
         shape, start=kind.itemsize
     )  # of Python's own numbers: it does not overflow
     if min(shape, default=0) < 0 or byte_count != size - file.tell():
-        raise ValueError(f"{name} does not have the size that it says")
+        raise NoSuchArray(f"{name} does not have the size that it says")
     file.seek(0)
     array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
     return array

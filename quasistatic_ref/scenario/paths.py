@@ -73,8 +73,8 @@ def _path(
         inside = isinstance(text, OwnWord) or lies_in(path, [folder, *roots])
     except InputError:
         raise
-    except (ValueError, RuntimeError, OSError) as error:  # a NUL character; links in a circle
-        raise table.error_about(field, f"cannot be a path: {error}", text) from None
+    except (ValueError, RuntimeError, OSError):  # a NUL character; links in a circle
+        raise table.error_about(field, "cannot be a path", text) from None
     if not inside:
         raise table.error_about(field, f"is outside the scenario's folder; {remedy}", text)
     return path

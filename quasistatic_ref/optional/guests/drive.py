@@ -218,8 +218,8 @@ def table_read(path: Path) -> tuple[list[str], Array, Array]:
         raise InputError(problem, field="targets")
     try:
         numbers = np.loadtxt(StringIO(rest), delimiter=",", ndmin=2)
-    except ValueError as error:
-        problem = f"must be rows of {len(names)} numbers below the names: {error}"
+    except ValueError:
+        problem = f"must be rows of {len(names)} numbers below the names"
         raise InputError(problem, field="targets") from None
     if numbers.shape[1] != len(names):
         raise InputError(f"must be rows of {len(names)} numbers", field="targets", value=rest)

@@ -177,7 +177,7 @@ def test_what_no_run_has_is_refused_before_the_first_step(body, rest, field):
         ("t,up\n0,1,2\n", "rows of 2 numbers"),
         ("t,up\n0,1\n0,2\n", "increase"),
         ("t,lift\n0,1\n", "no actuator"),
-        ("t,up\n0,x\n", "rows of 2 numbers below the names: could not convert string"),
+        ("t,up\n0,x\n", "rows of 2 numbers below the names"),
     ],
 )
 def test_a_table_that_is_none_is_refused(table, says, tmp_path):
