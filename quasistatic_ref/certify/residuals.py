@@ -54,7 +54,7 @@ class Residuals:
             stationarity=self.stationarity / size,
             primal=self.primal / size,
             dual=self.dual / size,
-            complementarity=self.complementarity / size**2,
+            complementarity=self.complementarity / size / size,
         )
 
 

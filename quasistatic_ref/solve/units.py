@@ -374,6 +374,8 @@ class StepInBothUnits:
         step = self.si_step
         judge = cone(step.cone).judge(step.contacts.mu)
         residuals = optimality_residuals(self.natural_form, delta_q, lam, judge)
+        if not step.n_v:
+            return residuals
         length = loads_length(step.H, single_loads(step))
         size = self.units.size
         return residuals.in_size(length / size if size < length < math.inf else 1.0)
