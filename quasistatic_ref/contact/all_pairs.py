@@ -99,7 +99,7 @@ def kind_of(pair: ContactPair) -> Kind | None:
         return Spheres, (ball_last, isinstance(other, HalfSpace))
     are_boxes = [isinstance(side, Box) for side in sides]
     known = any(are_boxes) and all(isinstance(side, Box | Capsule) for side in sides)
-    if known and (all(are_boxes) or pair.n_c == 1):
+    if known and (pair.n_c == 1 or (all(are_boxes) and pair.n_c <= pair.corners)):
         return Boxes, (*are_boxes, pair.n_c)
     plane_first = isinstance(sides[0], HalfSpace)
     plane, solid = sides if plane_first else sides[::-1]

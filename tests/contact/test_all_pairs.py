@@ -70,7 +70,7 @@ def scene(seed):
     """Some pairs of one kind, mixed with others, and where their links are."""
     rng = np.random.default_rng(seed)
     kinds = [KINDS[seed % len(KINDS)]] * 5 + [KINDS[i] for i in rng.integers(len(KINDS), size=4)]
-    k = int(rng.choice([1, 2, 4, 5, 12]))
+    k = int(rng.choice([1, 2, 4, 5, 12, 30]))
     pairs = []
     for i, names in enumerate(kinds):
         sides = [SOLIDS[name](rng) for name in (names if rng.random() < 0.7 else names[::-1])]

@@ -17,7 +17,7 @@ from quasistatic_ref.contact.tied_faces import TURNED, corner_surface
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import dot, norm, product, rotated, transposed
 from quasistatic_ref.shapes.placed_shape import Box, Shape
-from quasistatic_ref.tolerances import OVER_FACE, REPEATED, SAME_NORMAL
+from quasistatic_ref.tolerances import FILLED, OVER_FACE, REPEATED, SAME_NORMAL
 
 
 class BoxOfEach(Box):
@@ -53,8 +53,8 @@ class Boxes(Batch):
     def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
         """The candidates that rank first.
 
-        A pair is known where it has one normal and enough candidates, and where one of them is at
-        the place of the closest pair or none is as near: whether others span it is then plain.
+        A pair is known where it has one normal, and where a candidate is at the place of the
+        closest pair or none is as near: whether others span it is then plain.
         """
         poses = self.in_world(R, t)
         nearest, (gaps, normals) = polytopes_and_gaps(*self._solids, *poses)
@@ -84,13 +84,24 @@ class Boxes(Batch):
         at_its_place = (level & (away <= SPANNED / 2 * self.size[:, None])).any(axis=1)
         known &= at_its_place | ~level.any(axis=1)
         there &= ~(alone & at_its_place[:, None]) & (dot(every.n, n[:, None]) >= TURNED)
-        known &= np.count_nonzero(there, axis=1) >= self.n_c
 
         rank = np.rint(every.phi / self.resolution[:, None])
         rank = np.where(there, np.where(_repeated(every, there), np.inf, rank), np.nan)
         order = rank.argsort(axis=1, kind="stable")[:, : self.n_c]
         first = np.arange(len(order))[:, None], order
-        return known, ClosestPoints._make(field[first] for field in every)
+        kept = ClosestPoints._make(field[first] for field in every)
+        return known, self._filled(kept, nearest, np.count_nonzero(there, axis=1)[:, None])
+
+    def _filled(self, kept: ClosestPoints, nearest: Witnesses, count: Indices) -> ClosestPoints:
+        """The candidates that rank first, `count` (P, 1) of each pair, and copies that fill up."""
+        beyond = np.arange(self.n_c) - count
+        far = nearest._replace(phi=np.maximum(FILLED, 2 * nearest.phi))
+        points = self._alone(far)._replace(point=self._corners + 1 + beyond)
+        missing = beyond >= 0
+        return ClosestPoints._make(
+            np.where(missing if one.ndim == 2 else missing[..., None], copy, one)
+            for one, copy in zip(kept, points, strict=True)
+        )
 
     def _alone(self, nearest: Witnesses) -> ClosestPoints:
         """The closest pairs, as candidates."""
