@@ -154,12 +154,13 @@ def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()
     loads : iterable of ndarray, shape (n_v,)
         The step's :func:`single_loads` [N s, N m s], where they are known.
     """
-    length = max(energy_norm(H).of_displacement(optimum), loads_length(H, (g, *loads)))
+    moved = energy_norm(H).of_displacement(optimum)
+    length = max(moved, loads_length(H, (g, *loads)), UNMOVED * math.sqrt(H.diagonal().min()))
     return length if length < math.inf else math.nan
 
 
 def loads_length(H: Array, loads: Iterable[Array]) -> float:
-    """The part of :func:`error_length` that no answer enters [(N m s)^0.5].
+    """The longest of the unconstrained steps that loads would cause alone [(N m s)^0.5].
 
     Parameters
     ----------
@@ -168,8 +169,7 @@ def loads_length(H: Array, loads: Iterable[Array]) -> float:
     loads : iterable of ndarray, shape (n_v,)
         [N s, N m s].
     """
-    norm = energy_norm(H)
-    return max(UNMOVED * math.sqrt(H.diagonal().min()), *map(norm.of_impulse, loads))
+    return max(map(energy_norm(H).of_impulse, loads))
 
 
 def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> float:

@@ -367,9 +367,8 @@ class StepInBothUnits:
     def natural_residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-].
 
-        The unit of size is the length that errors are divided by where that is larger: at rest
-        loads cancel but for rounding, and the size of the step is that of noise. The answer, which
-        may be wrong, does not enter it.
+        The unit of size is at least the step that targets, tau_a or tau_u would cause alone: at
+        rest they cancel but for rounding, and the size of the step is that of noise.
         """
         step = self.si_step
         judge = cone(step.cone).judge(step.contacts.mu)
