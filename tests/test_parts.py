@@ -158,7 +158,7 @@ def test_without_pages_data_show_their_fields(without):
     scenario = load_scenario("block_push", steps=1)
     assert repr(STEP).startswith("StepData(h=0.01, K_q=array(")
     assert "phi=array(" in repr(STEP.contacts)
-    assert repr(scenario.simulator()).startswith("Simulator(system=<")
+    assert repr(scenario.simulator()).startswith("<Simulator of <System of pusher, block: n_a = 1")
     run = scenario.run(progress=False)
     assert repr(run).startswith("Trajectory(header={'format': 'quasistatic-ref/trajectory'")
     assert run._repr_html_() is None
