@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.account import scene_notes
 from quasistatic_ref.optional.doctor.artifacts import (
@@ -24,7 +25,7 @@ from quasistatic_ref.optional.doctor.checks import (
 )
 from quasistatic_ref.optional.doctor.run import Run, largest
 from quasistatic_ref.optional.doctor.start import Start
-from quasistatic_ref.simulate.finding import finding_table
+from quasistatic_ref.simulate.finding import Finding, finding_table
 from quasistatic_ref.simulate.observer import Observer, Recording
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -72,22 +73,19 @@ class Doctor(Observer):
         }
 
     def end(self, recorder: Recording, trajectory: Trajectory, interrupted: bool) -> Trajectory:
-        """The trajectory with its findings."""
-        of = Start(recorder.simulator, recorder.start)
-        checks: tuple[Check, ...] = OF_SCENE
-        if trajectory.steps:
-            of = Run(recorder, trajectory)
-            checks += OF_RUN
-        elif not trajectory.failed:
-            checks += NO_STEPS
-        skipped = not_looked_at(checks, of)
+        """The trajectory with its findings; an error costs these, and not the run."""
+        try:
+            found, skipped = _found(recorder, trajectory)
+        except (MemoryError, QuasistaticError) as error:
+            found = []
+            skipped = f"findings: {type(error).__name__} {error}".rstrip()
         header = {
             **trajectory.header,
             "scene": scene_notes(recorder),
             "quasi_dynamic_number": largest(recorder.noted("Pi")),
             "largest_drag_share": largest(recorder.noted("drag")),
             "largest_boundary_layer": largest(recorder.noted("layer")) or 0.0,
-            "findings": [finding_table(finding) for finding in findings(checks, of)],
+            "findings": [finding_table(finding) for finding in found],
         } | ({"not_looked_at": skipped} if skipped else {})
         trajectory = replace(trajectory, header=header)
         if self.printed:
@@ -96,3 +94,15 @@ class Doctor(Observer):
             if skipped:
                 print(f"quasistatic-ref: not looked at: {skipped}", file=sys.stderr)
         return trajectory
+
+
+def _found(recorder: Recording, trajectory: Trajectory) -> tuple[list[Finding], str]:
+    """The findings on a run, and what is not looked at."""
+    of = Start(recorder.simulator, recorder.start)
+    checks: tuple[Check, ...] = OF_SCENE
+    if trajectory.steps:
+        of = Run(recorder, trajectory)
+        checks += OF_RUN
+    elif not trajectory.failed:
+        checks += NO_STEPS
+    return findings(checks, of), not_looked_at(checks, of)

@@ -160,3 +160,13 @@ def test_findings_are_silenced_by_their_own_argument_alone(capsys, progress):
     run = qr.rollout(simulator, system.q_start, [], 1, progress=progress, findings=False)
     assert run.findings
     assert "ball" not in capsys.readouterr().err
+
+
+def test_an_error_in_the_findings_costs_the_findings_and_not_the_run(monkeypatch):
+    def fails(checks, of):
+        raise MemoryError("no room for (200, 600, 600)")
+
+    monkeypatch.setattr("quasistatic_ref.optional.doctor.observer.findings", fails)
+    run = load_scenario("block_push", steps=2).run(progress=False)
+    assert (len(run), run.findings) == (2, ())
+    assert run.header["not_looked_at"] == "findings: MemoryError no room for (200, 600, 600)"
