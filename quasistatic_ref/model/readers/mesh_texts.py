@@ -132,7 +132,8 @@ def _obj(content: bytes) -> Mesh:
             corners = _numbers([word.partition("/")[0] for word in words], number)
             # Those below zero are counted back from the last point so far; none is number zero.
             ahead = [c - 1 if c > 0 else len(points) + c if c else -1 for c in corners]
-            faces.append(_face(ahead, number))
+            # Two corners are a line, which some write as a face.
+            faces.append(ahead if len(ahead) == 2 else _face(ahead, number))
         elif first and first not in OBJ_UNREAD:
             problem = "is a line of an OBJ that is not read"
             raise ModelError(problem, field=f"line {number}", value=line)

@@ -362,7 +362,7 @@ LIES = {
     "a word of its own": ("a.stl", STL.replace(b"endloop", b"color", 1), "line 7: must begin with"),
     "fewer faces": ("a.off", OFF[:-10], "line 2: must be the number of points and of faces"),
     "a face cut short": ("a.off", OFF.rstrip()[:-1] + b"\n", "line 22: must have 3 corners"),
-    "a face of two": ("a.obj", TETRAHEDRON + "f 1 2\n", "line 9: must be a face of three corners"),
+    "a face of one": ("a.obj", TETRAHEDRON + "f 1\n", "line 9: must be a face of three corners"),
     "a corner too many": ("a.obj", TETRAHEDRON + "f 1 2 9\n", "triangles: must be numbers of ver"),
     "a line that is none": ("a.obj", TETRAHEDRON + "x 1 2\n", "line 9: is a line of an OBJ that"),
     "a binary PLY cut off": ("a.ply", PLY[:-1], r"face\[11\].vertex_indices: must be 3.*got 2"),
@@ -411,6 +411,7 @@ SAME = {
     "glTF": ("a.gltf", plain_gltf()),
     "GLB of several bodies": ("a.glb", exported("glb")),
     "3MF": ("a.3mf", of_3mf()),
+    "a line as a face": ("a.obj", TETRAHEDRON + "f 1 2\n"),
     "back from the last point": ("a.obj", TETRAHEDRON.replace("f 2 3 4", "f -3 -2 -1")),
 }  # fmt: skip
 
