@@ -16,7 +16,7 @@ HASHES = {
     "qp": "b26d8e669f412c35cf57e1a9d2b26da48f0a5aa13efc60bd43595fc61d9b004d",
     "wrench": "ba3e8365d03d022a6bd87683268ad7a4d90f69faf87193505904abb2286f3ebc",
     "integrate": "4b0ca0c4fc608a6b66575636ac8ab2b346f8d53d03317481b3290bb7d3c4e6c1",
-    "step": "e38f4d2b303e2edf1245f1029f15904096953b8d220b1d52645eeda178d167dd",
+    "step": "0f4b1226aef9a2be4b8593e1f4bc1e04f7246d850d178b5f0adf7646022da2c5",
     "derivative": "b0be941667c69fab3714389a71ce5089dc8e3e201a3268b6bd89eb03945c13a2",
 }
 """SHA-256 of inputs/LAYER.json followed by expected/LAYER.json in version 11.
