@@ -58,7 +58,7 @@ MOST = 200
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CoulombSolution(StepSolution):
-    """What the iteration of :func:`coulomb_step` ended at.
+    """What the iteration of ``coulomb_step`` ended at.
 
     It is its last iterate, the exact optimum of the step with phi + s, which is its `step` and that
     of its certificate.
