@@ -6,7 +6,7 @@ draws them with larger text: those of docs/slides/figures.
 """
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -113,17 +113,15 @@ def result(name: str) -> Any:
 def main() -> None:
     """Draw all."""
     options = script_options(__doc__, out=Path("page_figures"), style="paper")
-    identified = result("reality_identified")
+    drawings: dict[str, Callable[[], Figure]] = {
+        "reality_pushes": which_cone_is_real.figure,
+        "reality_identified": lambda: identified_ratios(result("reality_identified")),
+        "reality_errors": lambda: errors_by_pair(result("reality")),
+    }
+    drawings |= {module.__name__.rpartition(".")[2]: module.figure for module in DRAWN}
     with figure_style(options.style):
-        figures = {
-            "reality_pushes": which_cone_is_real.figure(),
-            "reality_identified": identified_ratios(identified),
-            "reality_errors": errors_by_pair(result("reality")),
-        }
-        for module in DRAWN:
-            figures[module.__name__.rpartition(".")[2]] = module.figure()
-        for name, figure in figures.items():
-            figure_written(figure, options.out, name)
+        for name, drawing in drawings.items():
+            figure_written(drawing(), options.out, name)
 
 
 if __name__ == "__main__":
