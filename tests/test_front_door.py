@@ -87,8 +87,8 @@ contacts = qr.Contacts(["a"], [0.0], [[0, 0, 1]], [[1, 0, 0]], [[0, 1, 0]], [], 
 names: list[str] = [finding.name.upper() for finding in run.findings]
 if not (verdict := qr.verify(solution)):
     print(verdict.reason.upper())
-solution.delta_qq  # type: ignore[attr-defined]
-qr.solve_stepp  # type: ignore[attr-defined]
+solution.delta_qq  # type: ignore[attr-defined]  # misspelt: mypy has to see it
+qr.solve_stepp  # type: ignore[attr-defined]  # misspelt: mypy has to see it
 """
 """What users write: the last two lines are needed errors, so that nothing here is of any type."""
 

@@ -130,8 +130,8 @@ class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
                 self.numbers[bound] = numbers[bound] / self.columns
 
     def apply(self, problem: object) -> NoReturn:
-        """NotImplementedError: data are scaled when they are formed."""
-        raise NotImplementedError
+        """Refuse: CVXPY asks every reduction for this method, and calls only ``invert`` of ours."""
+        raise NotImplementedError("data are scaled when they are formed")
 
     def invert(self, solution: Solution, inverse_data: None) -> Solution:
         """The solution of the program whose data were scaled."""
