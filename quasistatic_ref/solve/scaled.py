@@ -130,7 +130,13 @@ class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
                 self.numbers[bound] = numbers[bound] / self.columns
 
     def apply(self, problem: object) -> NoReturn:
-        """Refuse: CVXPY asks every reduction for this method, and calls only ``invert`` of ours."""
+        """Refuse: CVXPY asks every reduction for this method, and calls only ``invert`` of ours.
+
+        Raises
+        ------
+        NotImplementedError
+            Always.
+        """
         raise NotImplementedError("data are scaled when they are formed")
 
     def invert(self, solution: Solution, inverse_data: None) -> Solution:
