@@ -43,26 +43,6 @@ def test_rows_have_a_contact_and_a_number_in_it(step):
             flat_rows(step, [none])
 
 
-@pytest.mark.parametrize(
-    ("field", "value"),
-    [
-        ("kind", "none"),
-        ("kind", "enclosure"),
-        ("error_bound", 1e-16),
-        ("error_bound", -0.0),
-        ("gap", 0.0),
-        ("multipliers_unique", None),
-        ("differentiable", None),
-        ("smallest_inactive_slack", 1e-3),
-        ("smallest_active_multiplier", None),
-    ],
-)
-def test_false_claims_are_refused(step, optimum, field, value):
-    claims = replace(exact_certificate(step, optimum), **{field: value})
-    verdict = verify_answer(step, optimum.delta_q, claims.active, optimum.lam, claims)
-    assert field in verdict.reason
-
-
 @pytest.mark.parametrize("touching", ["a row of one's own", "a contact"])
 def test_a_row_without_multiplier_is_in_no_working_set(touching):
     """It would hold on one side only: delta_q is not differentiable, whatever set it is in.
@@ -84,20 +64,6 @@ def test_a_row_without_multiplier_is_in_no_working_set(touching):
     assert (
         "is zero" in verify_answer(step, optimum.delta_q, wider.active, optimum.lam, wider).reason
     )
-
-
-def test_claims_of_a_sticking_body_are_checked():
-    """Its idle rows follow from those that press: not unique, but differentiable."""
-    step = resting_point(tau_x=0.1, phi=1e-3, contacts=2)
-    optimum = step_optimum(step)
-    claims = exact_certificate(step, optimum)
-    assert (claims.multipliers_unique, claims.differentiable) == (False, True)
-    assert verify_answer(step, optimum.delta_q, claims.active, optimum.lam, claims)
-    for name in ("multipliers_unique", "differentiable"):
-        false = replace(claims, **{name: not getattr(claims, name)})
-        assert (
-            name in verify_answer(step, optimum.delta_q, claims.active, optimum.lam, false).reason
-        )
 
 
 @pytest.mark.parametrize("certify", ["full", "residual"])

@@ -1,7 +1,5 @@
 """The exact optimum where its value is known in closed form."""
 
-from fractions import Fraction as F
-
 import numpy as np
 import pytest
 
@@ -24,51 +22,6 @@ def resting_point(
         phi, np.tile(np.eye(3), each), np.tile(np.eye(4), each), mu_v, mu_omega, rows=6
     )
     return free_step(mass * np.eye(4), [tau_x, 0.0, -weight, 0.0], at, h)
-
-
-def test_a_contact_at_which_nothing_moves_is_no_push_out():
-    # Its rows 0 >= -phi = 0 hold, and the step is tau h^2 / m.
-    still = contacts_of(0.0, [np.eye(3)], np.zeros((1, 4, 2)), 0.5)
-    step = free_step(2.0 * np.eye(2), [1.0, 0.0], still, 0.5)
-    assert step_optimum(step).delta_q.tolist() == [0.125, 0.0]
-
-
-@pytest.mark.parametrize("phi", [0.0, 1e-5, -1e-3, 1e-300])
-@pytest.mark.parametrize("contacts", [1, 2, 3])
-def test_sticking_body_stays_where_its_contact_is(phi, contacts):
-    """delta_q = (0, 0, -phi, 0): six rows of rank four for each contact, none of them split."""
-    step = resting_point(tau_x=0.1, weight=2.0, phi=phi, contacts=contacts, mass=0.125, h=0.01)
-    optimum = step_optimum(step)
-    assert optimum.delta_q.tobytes() == np.array([0.0, 0.0, -phi + 0.0, 0.0]).tobytes()
-    assert not optimum.slack.any()
-    h = F(step.h)
-    net = [-h * F(0.1), F(0), F(0.125) * F(-phi) / h + h * 2, F(0)]  # H delta_q - g
-    assert optimum.net.tolist() == [float(v) for v in net]
-    assert not optimum.multipliers_unique
-    assert optimum.differentiable
-    assert optimum.smallest_inactive_slack is None
-
-
-@pytest.mark.parametrize(("tau_x", "slides"), [(0.75, False), (1.0, False), (1.25, True)])
-def test_limit_of_friction_is_a_kink(tau_x, slides):
-    """At |tau_x| = mu_v weight one row carries all and the others are idle."""
-    optimum = step_optimum(resting_point(tau_x=tau_x))
-    # Sliding: H = 1/h, only the row -d1 presses: dz = mu dx, (dx + mu dz) / h = h (tau_x - mu w).
-    h = F(1, 2)
-    mu = F(1, 2)
-    dx = h * h * (F(tau_x) - mu * 2) / (1 + mu * mu) if slides else F(0)
-    assert optimum.delta_q.tolist() == [float(dx), 0.0, float(mu * dx), 0.0]
-    at_limit = tau_x == 1.0
-    assert optimum.differentiable == (not at_limit)
-    assert optimum.multipliers_unique == (slides or at_limit)
-    if slides or at_limit:
-        assert optimum.working_set == (2,)
-    slack = {0: 2 * mu * dx, 1: mu * dx, 3: mu * dx, 4: mu * dx, 5: mu * dx}
-    if slides:
-        assert optimum.slack.tolist() == [float(slack.get(i, F(0))) for i in range(6)]
-        assert optimum.smallest_inactive_slack == float(mu * dx)
-    if at_limit:
-        assert optimum.smallest_inactive_slack == 0.0
 
 
 def chain(b, H=None):

@@ -52,24 +52,6 @@ def test_walls_that_overlap_are_infeasible_and_named():
     assert farkas_refutation(step, error.farkas.exact) is None
 
 
-@pytest.mark.parametrize("k", [4.0, 0.25])
-def test_the_largest_entry_of_a_proof_is_one(k):
-    """X >= 1 m and -k x >= 1 m: k times the first and the second add up to 0 >= k + 1 metres."""
-    extra = Extra(("one", "two"), [[1.0], [-k]], np.ones(2))
-    step = free_step(np.eye(1), [0.0], no_contacts(1), 0.5).replace(extra=extra)
-    with pytest.raises(StepInfeasible) as failure:
-        step_optimum(step)
-    assert failure.value.farkas.y.tolist() == [k / max(k, 1), 1 / max(k, 1)]
-    assert failure.value.farkas.contradiction == (k + 1) / max(k, 1)
-
-
-def test_single_row_that_nothing_satisfies_is_named_alone():
-    extra = Extra(("my limit",), np.zeros((1, 3)), [1.0])
-    step = point_between_walls([EAST], [1.0]).replace(extra=extra)
-    with pytest.raises(StepInfeasible, match=r"extra \(my limit\) cannot be satisfied"):
-        step_optimum(step)
-
-
 def test_false_proofs_are_refused_with_a_reason():
     step = point_between_walls([EAST, WEST], [-1e-3, -3e-3])
     right = ["1", "0", "0", "0", "1", "0", "0", "0"]
