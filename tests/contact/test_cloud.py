@@ -95,35 +95,6 @@ def test_the_closest_are_those_of_a_full_stable_sort(phi, k):
     assert closest(np.array(phi), k).tolist() == expected
 
 
-# In the half-plane (r, z) the side of this cone leads from the rim (0.3, -0.2) to the tip (0, 0.2):
-# a triangle of sides 3, 4 and 5, so that the side's normal is (4, 3) / 5.
-CONE = Cone(0.3, 0.2)
-BY_CONE = {
-    "off the side": ((0.15, 0.0), 0.1, (0.8, 0.6)),
-    "within the side": ((0.15, 0.0), -0.02, (0.8, 0.6)),
-    "off the tip": ((0.0, 0.2), 0.1, (0.6, 0.8)),
-    "above the tip": ((0.0, 0.2), 0.1, (0.0, 1.0)),
-    "off the rim": ((0.3, -0.2), 0.1, (0.6, -0.8)),
-    "below the middle of the base": ((0.1, -0.2), 0.7, (0.0, -1.0)),
-    "below the base, next to the rim": ((0.2, -0.2), 0.2, (0.0, -1.0)),
-    "within the base": ((0.1, -0.2), -0.01, (0.0, -1.0)),
-}
-"""The nearest point of the cone (r, z), the signed distance along the normal, and the normal."""
-
-
-@pytest.mark.parametrize(("foot", "distance", "normal"), BY_CONE.values(), ids=BY_CONE)
-def test_a_point_put_off_a_feature_of_a_cone_has_that_distance(foot, distance, normal):
-    r, z = np.add(foot, np.multiply(distance, normal))
-    for x, y in ((1.0, 0.0), (-0.6, 0.8)):  # half-planes about the axis
-        phi, n = CONE.signed_distance(np.array([[r * x, r * y, z]]))
-        assert_within(phi, [distance], CLOSED_FORM)
-        turned = [normal[0] * x, normal[0] * y, normal[1]]
-        if r > 0:
-            assert_within(n, [turned], CLOSED_FORM)
-        else:
-            assert_within(n[0, 2], normal[1], CLOSED_FORM)
-
-
 def test_the_normal_at_a_tip_is_one_of_the_tip_whatever_is_rounded(rng):
     """Along all generators from the tip, (radius, -2 half_length), n may not point into the cone.
 

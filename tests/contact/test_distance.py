@@ -17,8 +17,6 @@ from tests.contact.still import found_for, placed_shape, standing_links
 from tests.tolerances import EXACT, SIGNED_DISTANCE
 
 X, _, Z = np.eye(3)
-FLOOR = HalfSpace(Z, 0.0)
-CUBE = Box(np.full(3, 0.25))
 SOLIDS = {
     "sphere": Sphere(0.1),
     "box": Box((0.1, 0.15, 0.2)),
@@ -75,26 +73,6 @@ def test_zero_is_never_minus_zero():
     points = candidates_at(-np.zeros(1), np.zeros(1), np.zeros(1, dtype=int))
     found = joined_contacts([points.swapped()])
     assert np.signbit([*found.phi, *found.n[0]]).tolist() == [False, False, False, True]
-
-
-def test_cubes_that_overlap_by_a_corner_touch_with_the_corners_of_the_common_square():
-    # The square leads from (0, 0) to (0.25, 0.25). Corners count from 0 (binary: x lowest), alpha's
-    # first: the upper one of alpha is 7, the lower one of beta 8. Of the 12 edges, counted by axis,
-    # alpha's are 3 (along x) and 7 (along y), beta's 0 and 4.
-    there = standing_links((np.eye(3), np.array([0.25, 0.25, 0.5])))
-    found = found_for(placed_shape(CUBE), placed_shape(CUBE, 1), there, 4)
-    crossings = 16 + 4 + 2 * (12 * np.array([3, 7]) + [4, 0])
-    assert found.point.tolist() == [7, 8, *crossings]
-    assert found.alpha[:, :2].tolist() == [[0.25, 0.25], [0, 0], [0, 0.25], [0.25, 0]]
-
-
-def test_bars_that_cross_touch_where_their_edges_do_and_not_at_the_closest_pair_again():
-    along_x = placed_shape(Box((0.5, 0.25, 0.25)))
-    along_y = placed_shape(Box((0.25, 0.5, 0.25)), 1)
-    found = found_for(along_x, along_y, standing_links((np.eye(3), 0.5 * Z)), 4)
-    square = [[x, y] for x in (-0.25, 0.25) for y in (-0.25, 0.25)]
-    assert sorted(found.alpha[:, :2].tolist()) == square
-    assert (found.point > 16).all()  # the closest pair's number, after 16 corners
 
 
 def test_copies_of_the_closest_pair_fill_the_number_at_a_distance_that_bears_nothing():

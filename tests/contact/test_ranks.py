@@ -79,19 +79,6 @@ def test_a_line_of_contact_has_its_ends_for_contacts_in_one_order(solid, yaw):
     assert len(orders) == 1
 
 
-def test_points_of_a_rim_on_a_slope_stay_the_same_while_it_moves_by_less_than_is_known():
-    angle = np.arange(12) * np.pi / 6
-    rim = 0.04 * np.column_stack([np.cos(angle), np.sin(angle), np.zeros(12)])
-    R = Rotation.from_euler("y", 0.3).as_matrix()
-    slope = HalfSpace(R @ Z, 0.0)
-    one = pair(placed_shape(slope), placed_shape(PointCloud(rim), 1), 8)
-    rng = np.random.default_rng(3)
-    for _ in range(40):
-        t = np.array([0.3, -0.2, 0.3 * -np.tan(0.3)]) + 5e-17 * rng.normal(size=3)
-        found = closest_points([one], standing_links((R, t)))
-        assert found.point.tolist() == list(range(8))
-
-
 def test_contacts_rank_by_a_share_of_the_smaller_shape_and_keep_their_distances():
     """A point is listed before a nearer one of a higher number only within one multiple."""
     size = 0.5
@@ -106,13 +93,6 @@ def test_contacts_rank_by_a_share_of_the_smaller_shape_and_keep_their_distances(
     ball = pair(placed_shape(Sphere(0.1)), placed_shape(PointCloud([[1.0, 0, 0]]), 1))
     assert ball.size == 0.2  # a single point has none
     assert pair(placed_shape(FLOOR), placed_shape(PointCloud([[1.0, 0, 0]]), 1)).resolution == 0
-
-
-def test_a_closest_pair_that_no_others_span_stays_a_contact():
-    ball = placed_shape(Sphere(0.05), 1)
-    found = found_for(placed_shape(TABLE), ball, standing_links((np.eye(3), 0.3 * Z)), 3)
-    assert found.phi[0] == pytest.approx(0.0, abs=1e-15)
-    assert (found.phi[1:] > 1e5).all()
 
 
 def scene(body, xyz, rpy, k, steps):
@@ -154,19 +134,6 @@ def test_a_box_whose_centre_is_over_the_corner_that_would_be_lost_does_not_sink(
         R, t = made.system.pose(q, "box")
         assert (corners @ R.T + t)[:, 2].min() > -1e-7
     assert run.wrench[:, :, 2].sum(axis=1).max() < 9.81 * 1.001
-
-
-def test_a_step_that_is_differentiable_turns_as_its_derivative_says():
-    made = scene({"urdf": urdf((0.02, 0.02), BOX_100)}, [0, 0, 0.05], [0, 0, 0], 4, 1)
-    simulator = made.simulator()
-    q = made.system.q_start
-    rates = qr.derivatives(simulator, q, np.zeros(0))
-    assert rates.differentiable
-    for column, turn in ((3, 1e-6), (3, -1e-6), (4, 1e-6), (4, -1e-6)):
-        turned = made.system.integrate(q, turn * np.eye(6)[column])
-        after = simulator.step(turned, np.zeros(0)).q
-        change = made.system.difference(rates.result.q, after) / turn
-        np.testing.assert_allclose(change, rates.dq_dq[:, column], atol=1e-5)
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7])

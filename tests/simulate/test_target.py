@@ -7,27 +7,12 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import InputError, ScenarioError, load_scenario
 from quasistatic_ref.model.joints.floating import Floating
-from quasistatic_ref.simulate.target import JointTrack, Targets, piecewise_linear
+from quasistatic_ref.simulate.target import JointTrack, Targets
 from quasistatic_ref.simulate.user_functions import target_function
 from tests.closeness import assert_close
 from tests.tolerances import DIFFERENCE, ROUNDING
 
 TIMES = np.array([1.0, 2.0, 4.0])
-VALUES = np.array([[0.0, 5.0], [10.0, 5.0], [-10.0, 6.0]])
-BETWEEN = {
-    "before the first": (-3.0, [0.0, 5.0]),
-    "at the first": (1.0, [0.0, 5.0]),
-    "a quarter on": (1.25, [2.5, 5.0]),
-    "at the second": (2.0, [10.0, 5.0]),
-    "half way to the third": (3.0, [0.0, 5.5]),
-    "at the last": (4.0, [-10.0, 6.0]),
-    "after the last": (99.0, [-10.0, 6.0]),
-}
-
-
-@pytest.mark.parametrize(("t", "expected"), BETWEEN.values(), ids=BETWEEN)
-def test_waypoints_are_joined_by_lines_and_held_at_both_ends(t, expected):
-    assert_close(piecewise_linear(TIMES, VALUES, t), expected, ROUNDING)
 
 
 def test_a_continuous_joint_may_turn_beyond_pi(scene):

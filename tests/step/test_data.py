@@ -106,15 +106,6 @@ def test_the_caller_s_own_array_is_copied_not_locked():
     np.testing.assert_array_equal(step.tau_a, [1.0, 2.0])
 
 
-def test_a_wrong_frame_is_named_with_its_axes():
-    """The second contact's normal has length 2: d1, d2 and n of that contact are reported."""
-    n = CONTACTS.n * [[1.0], [2.0]]
-    with pytest.raises(StepDataError, match=r"contacts\[c1\]: d1, d2, n must be") as caught:
-        changed(CONTACTS, n=n)
-    expected = [CONTACTS.d1[1].tolist(), CONTACTS.d2[1].tolist(), n[1].tolist()]
-    assert caught.value.value == expected
-
-
 def test_arrays_cannot_be_written():
     def arrays(data):
         return [value for value in vars(data).values() if isinstance(value, np.ndarray)]

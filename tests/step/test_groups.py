@@ -5,15 +5,13 @@ import pytest
 
 from quasistatic_ref import (
     Extra,
-    StepData,
     StepIllPosed,
     StepInfeasible,
     contact_forces,
-    load_scenario,
 )
 from quasistatic_ref.certify.exact import ILL_POSED, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.lab.scenes.contacts import X, contacts_of, no_contacts
+from quasistatic_ref.lab.scenes.contacts import X, contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.step.groups import group_steps, groups
 from tests.oracles.grouped import faults, random_case
@@ -37,22 +35,6 @@ def test_random_steps_without_some_couplings_have_the_optimum_of_their_groups():
         assert faults(step) == [], seed
         several += len(groups(step)) > 1
     assert several > 12
-
-
-def test_a_step_of_a_scenario_has_the_optimum_of_its_groups():
-    step = load_scenario("block_incline", steps=2).run(progress=False).step_data(1)
-    assert len(groups(step)) == 2
-    assert faults(step) == []
-
-
-def test_inertia_couples_the_coordinates_after_the_actuated_ones():
-    """K_q couples 0 and 1; M_u begins at 2, and couples its first and its third: 2 and 4."""
-    M_u = np.eye(3) + 0.5 * np.eye(3)[[2, 1, 0]]
-    step = StepData(
-        h=0.01, K_q=[[2.0, 1.0], [1.0, 2.0]], M_u=M_u, tau_a=np.ones(2), tau_u=np.ones(3),
-        delta_q_bar_a=np.zeros(2), contacts=no_contacts(5),
-    )  # fmt: skip
-    assert [g.coordinates.tolist() for g in groups(step)] == [[0, 1], [2, 4], [3]]
 
 
 def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():

@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from quasistatic_ref import Extra, StepDataError, StepProblem, solve_step
+from quasistatic_ref import StepDataError, StepProblem, solve_step
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.step.friction import friction_rows
 from quasistatic_ref.step.problem import paper_problem, set_values
-from tests.closeness import assert_relative, assert_within
+from tests.closeness import assert_within
 from tests.helpers import (
     JUDGE,
     changed,
@@ -26,13 +26,6 @@ def with_mu_of(other, step):
     """The step with another's mu_v and mu_omega, which are constants of a compiled problem."""
     mu = {name: getattr(other.contacts, name) for name in ("mu_v", "mu_omega")}
     return step.replace(contacts=changed(step.contacts, **mu))
-
-
-def test_the_paper_s_step_compiles_to_13_variables_and_80_rows(rng):
-    problem = StepProblem(random_step(rng, **PAPER)).problem
-    data, _, _ = problem.get_problem_data(cp.OSQP, solver_opts={})
-    assert data["P"].shape == (13, 13)
-    assert data["F"].shape == (80, 13)
 
 
 def test_nothing_is_compiled_after_the_first_solve(monkeypatch):
@@ -52,29 +45,6 @@ def test_nothing_is_compiled_after_the_first_solve(monkeypatch):
         truth = solve_step(step, "none").delta_q
         assert_within(error(step, answer, truth), 0.0, OPTIMUM)
         assert kept.problem.problem._cache.param_prog is compiled
-
-
-@pytest.mark.parametrize(("n_a", "n_u", "rows"), [(0, 4, (6, 4)), (3, 0, (4, 6))])
-def test_empty_blocks_are_left_out(n_a, n_u, rows, rng):
-    step, delta_q, lam = planted_step(rng, n_a, n_u, rows)
-    answer = solve_step(step, JUDGE, certify="off")
-    assert_within(error(step, answer.delta_q, delta_q), 0.0, OPTIMUM)
-    assert answer.lam.shape == lam.shape
-
-
-def test_a_row_of_the_user_s_own_holds_a_coordinate_back(rng):
-    # Alone, delta_q_a would be tau_a / K; the row -delta_q_a >= -limit stops it there with the
-    # multiplier h (tau_a - K limit).
-    step = random_step(rng, 1, 1, rows=()).replace(
-        K_q=[[100.0]],
-        tau_a=[2.0],
-        delta_q_bar_a=[0.0],
-        extra=Extra(("stop",), [[-1.0, 0.0]], [-0.005]),
-    )
-    answer = solve_step(step, JUDGE, certify="off")
-    push = step.h * (2.0 - 100.0 * 0.005)
-    assert_relative(answer.delta_q[0], 0.005, OPTIMUM)
-    assert_relative(answer.lam_extra, [push], MULTIPLIERS)
 
 
 def test_multipliers_are_contact_major_though_cvxpy_s_are_not(rng):

@@ -110,14 +110,6 @@ def test_a_cost_that_is_not_convex_is_refused_in_a_sentence():
         solve_step(joint(), extension=Extension(lambda s: [-cp.sum_squares(s.delta_q)]))
 
 
-def test_an_extension_stands_beside_the_ellipsoid():
-    step = pinch(grip=5.0, offset=0.2).replace(cone="ellipsoid")
-    limit = Extension(lambda s: [s.delta_q_u[2] >= -1e-4])
-    assert solve_step(step, extension=limit).certificate.kind == "enclosure"
-    cost = Extension(lambda s: [cp.sum(cp.abs(s.delta_q))])
-    assert solve_step(step, extension=cost).certificate.kind == "residual"
-
-
 def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
     scenario = load_scenario("bunny_grasp", ["steps=8"], fast=True)
     h = scenario.h

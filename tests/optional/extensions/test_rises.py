@@ -171,21 +171,6 @@ def test_an_l_is_pushed_along_a_wall_on_its_support(tmp_path):
     assert run.header["largest_boundary_layer"] < 2 * w * x  # of the wall, not of the rise
 
 
-def test_a_support_holds_and_turns_as_a_sphere_does(tmp_path):
-    """(R5): alone, a torque t turns it by h^2 (t - mu_omega m g) / (I + m_r mu_omega^2)."""
-    m = 0.5
-    mu_omega = 0.01
-    inertia = 1e-3
-    free = scene(tmp_path, PUSHED.partition("[[")[0])
-    assert_relative(free.pairs[-1].beta.shape.points, [[0.01, 0.02, 0.0]], ROUNDING)
-    # The twist of the base, from whose origin the centre of mass is (0.01, 0.02) off.
-    turn = np.array([0.02, -0.01, 1.0])
-    assert not step(free, 0.0, 0.0, 0.999 * mu_omega * m * G).delta_q.any()
-    angle = H**2 * (0.2 - mu_omega * m * G) / (inertia + 1e-6 * m * mu_omega**2)
-    found = step(free, 0.0, 0.0, 0.2).delta_q
-    assert_relative(found[:3], angle * turn, ROUNDING)
-
-
 @pytest.mark.parametrize(
     ("text", "field"),
     [

@@ -278,17 +278,6 @@ def test_what_a_damper_bears_is_a_load(by):
     assert any("dampers" in sentence for sentence in answer.left_out)
 
 
-def test_adhesion_that_holds_presses_with_what_is_left_of_it():
-    ceiling = '<geom name="ceiling" type="box" size="1 1 .1" pos="0 0 .3"/>'
-    ball = '<geom name="ball" size=".1" mass="1" adhesion="12" gap=".01"/>'
-    answer = opinion(scene(f"{ceiling}{FREE}{ball}</body>"))
-    assert answer.findings == ()
-    (contact,) = answer.contacts
-    assert contact.depth == 0.0
-    assert contact.exact.normal == pytest.approx(12 - GRAVITY, rel=1e-6)
-    assert contact.theirs.normal == pytest.approx(12 - GRAVITY, rel=1e-3)
-
-
 SLOPE = '<option gravity="-2.539 0 -9.4757" {}>{}</option>'  # 15 degrees
 ON_SLOPE = f"{FLOOR}{FREE}{BOX}</body>".replace("size", 'friction="0.5" size')
 

@@ -19,12 +19,11 @@ from quasistatic_ref.optional.derivatives.step.load_rates import load_rates
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates, Equations
 from quasistatic_ref.optional.derivatives.step.touching import touching_rows
 from quasistatic_ref.step.friction import frame_jacobian
-from tests.closeness import assert_relative, assert_within
-from tests.helpers import changed, sphere_on_floor
+from tests.closeness import assert_within
+from tests.helpers import changed
 from tests.oracles.random_steps import any_step
 from tests.oracles.rational_kkt import exact
 from tests.oracles.solution_truth import problem, record_of
-from tests.tolerances import ROUNDING
 
 TINY = F(1, 2**80)
 OF_CONTACTS = ("phi", "mu_v", "mu_omega")
@@ -200,25 +199,3 @@ def by(step):
     every = keys(step)
     missing = {key for key, is_there in zip(every, there, strict=True) if not is_there}
     return dict(zip(every, found.T, strict=True)), missing
-
-
-def test_a_sticking_contact_with_dependent_rows_is_differentiable():
-    found, missing = by(sphere_on_floor(wrench=(0.1, 0, -3, 0, 0, 0.01)))
-    assert missing == set()
-    # It follows the floor, delta_z = -phi, however rough that is, and rolls with m + I / r^2.
-    assert_within(found["phi", 0], [0, 0, -1, 0, 0, 0], ROUNDING)
-    for name in ("mu_v", "mu_omega"):
-        assert_within(found[name, 0], 0.0, ROUNDING)
-    rolled = 0.01**2 / (0.3 + 2e-4 / 0.04**2)
-    assert_relative(found["tau_u", 0][0], rolled, ROUNDING)
-    assert_within(found["tau_u", 2], 0.0, ROUNDING)
-
-
-def test_the_gap_of_one_of_two_equal_contacts_has_no_derivative():
-    step = sphere_on_floor(wrench=(0.1, 0, -3, 0, 0, 0.01))
-    step = step.replace(contacts=repeated(step.contacts, [0, 0]))
-    assert by(step)[1] == {("phi", 0), ("phi", 1)}
-    # One-sided differences: lowering one gap lets the other carry on, raising it lifts the body.
-    (below, at, above), little = optima_around(step, ("phi", 0))
-    assert float((above[2] - at[2]) / little) == 0.0
-    assert float((at[2] - below[2]) / little) == -1.0
