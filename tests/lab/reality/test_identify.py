@@ -29,21 +29,6 @@ def test_loads_without_scatter_give_the_planted_ratio(ratio):
     assert identified_ratio(planted_loads(50, 0.0, 1, ratio), RHO) == pytest.approx(ratio, rel=1e-6)
 
 
-def test_scatter_moves_a_ratio_as_far_as_its_fisher_information_says():
-    # The elevation alpha of a twist, tan alpha = rho tau / (c^2 |f|), changes with log c by
-    # sin 2 alpha: angles that scatter by s leave log c a deviation of s / sqrt(sum sin^2 2 alpha).
-    noise = 0.2
-    shares = []
-    for seed in range(20):
-        loads = planted_loads(300, noise, seed)
-        f = np.linalg.norm(loads.wrench[:, :2], axis=1)
-        alpha = np.arctan2(RHO * loads.wrench[:, 2] / RATIO**2, f)
-        deviation = noise / np.sqrt((np.sin(2 * alpha) ** 2).sum())
-        shares.append(np.log(identified_ratio(loads, RHO) / RATIO) / deviation)
-    # Of 20 numbers of deviation 1 the sum of squares is between 7.4 and 40 but once in 100 times.
-    assert 7.4 < np.square(shares).sum() < 40.0
-
-
 def test_a_ratio_is_near_the_published_one():
     """The published ellipsoid was fitted to the same loads by another loss."""
     (pair,) = pairs_read(["abs/rect1"])

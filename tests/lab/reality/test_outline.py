@@ -9,7 +9,6 @@ from tests.tolerances import ROUNDING
 A = 0.06
 B = 0.02
 RECTANGLE = np.array([[0, 0], [A, 0], [A, B], [0, B]]) + np.array([0.1, -0.3])
-TRIANGLE = np.array([[0.0, 0.0], [0.15, 0.0], [0.0, 0.15]])
 BENT = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.2], [0.0, 1.0]])
 
 
@@ -29,10 +28,6 @@ def test_the_mean_distance_from_the_middle_of_a_square():
     turn = np.linspace(0, 2 * np.pi, 4000, endpoint=False)
     disc = Outline(0.05 * np.column_stack([np.cos(turn), np.sin(turn)]))
     assert disc.mean_distance == pytest.approx(0.05 * 2 / 3, rel=1e-5)
-
-
-def test_the_centre_of_a_triangle_is_the_mean_of_its_vertices():
-    assert Outline(TRIANGLE).centre == pytest.approx(TRIANGLE.mean(0), rel=ROUNDING)
 
 
 @pytest.mark.parametrize(
