@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.certify.curved_cone import CurvedCone
     from quasistatic_ref.certify.solution import StepSolution
     from quasistatic_ref.contact.pairs import ContactPair
+    from quasistatic_ref.model.readers.mesh import Mesh
     from quasistatic_ref.model.system import System
     from quasistatic_ref.numbers.arrays import Array
     from quasistatic_ref.optional.extensions.extension import Extension, OfBodies
@@ -238,6 +239,13 @@ def file_points(path: Path, kind: str) -> Array:
     with needing(f"a {kind} cloud"):
         from quasistatic_ref.optional.readers.points import file_points as points
     return points(path)
+
+
+def file_mesh(path: Path, kind: str) -> Mesh:
+    """``mesh``: what a file of this kind, as ``.stl``, holds."""
+    with needing(f"a {kind} mesh"):
+        from quasistatic_ref.optional.readers.meshes import file_mesh as mesh
+    return mesh(path, kind)
 
 
 def page_text(shown: object) -> str | None:

@@ -15,7 +15,7 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.extensions.extension import Extension
-from quasistatic_ref.parts import is_there, needing
+from quasistatic_ref.parts import file_mesh, is_there, needing
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Cylinder
 from quasistatic_ref.simulate.trajectory import load_trajectory
@@ -114,6 +114,7 @@ STEP = random_step(np.random.default_rng(0))
 NAMES = {
     "smoothed": ("derivatives", lambda: qr.smoothed),
     "forces": ("forces", lambda: solve_step(STEP).forces),
+    "a .stl mesh": ("readers", lambda: file_mesh(Path("m.stl"), ".stl")),
     "extension": (
         "extensions",
         lambda: solve_step(STEP, extension=Extension(lambda symbols: [])),

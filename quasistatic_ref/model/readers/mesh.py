@@ -1,8 +1,6 @@
 """A mesh: vertices, and triangles between them."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -46,17 +44,3 @@ class Mesh:
     def corners(self) -> Array:
         """The vertices that a triangle uses, (C, 3) [m]; of points alone, all of them."""
         return self.vertices[np.unique(self.triangles)] if len(self.triangles) else self.vertices
-
-
-def fans(faces: Sequence[Sequence[int]]) -> Indices:
-    """Triangles, (T, 3), of faces of any number of corners, as a fan around the first of each."""
-    triangles = [(a, b, c) for a, *rest in faces for b, c in pairwise(rest)]
-    return np.array(triangles, dtype=np.int64).reshape(-1, 3)
-
-
-def joined(meshes: Sequence[Mesh]) -> Mesh:
-    """All of them as one."""
-    starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-    numbers = [mesh.triangles + start for mesh, start in zip(meshes, starts, strict=False)]
-    vertices = [np.zeros((0, 3)), *(mesh.vertices for mesh in meshes)]
-    return Mesh(np.concatenate(vertices), np.concatenate([fans(()), *numbers]))

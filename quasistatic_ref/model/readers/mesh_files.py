@@ -5,16 +5,15 @@ from pathlib import Path
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, ModelError, about_file
-from quasistatic_ref.formats.files import bytes_read
+from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.readers.mesh import Mesh
-from quasistatic_ref.model.readers.mesh_texts import TEXTS
-from quasistatic_ref.model.readers.placed_meshes import PLACED, placed_mesh
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.parts import file_mesh
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull, hull_of_mesh
 
-MESHES = (*TEXTS, *PLACED)
+MESHES = (".stl", ".obj", ".off", ".ply", ".gltf", ".glb", ".dae", ".3mf")
+"""Extensions of files that ``optional/readers`` reads."""
 PACKAGE = "package://"
 LARGEST_MESH = 16 * 2**20
 """Largest mesh [bytes]."""
@@ -119,16 +118,8 @@ def loaded_mesh(path: Path, *, finite: bool = True) -> Mesh:
         If the file cannot be read, a count in it is not that of what it holds, or a coordinate is
         not finite.
     """
-    kind = path.suffix.lower()
     with about_file(path):
-        content = bytes_read(path, ModelError)
-        try:
-            mesh = TEXTS[kind](content) if kind in TEXTS else placed_mesh(path, content)
-        except InputError:
-            raise
-        except Exception:  # each library raises its own kinds, in its own words
-            problem = "cannot be read as a mesh: it is malformed; export it again"
-            raise ModelError(problem) from None
+        mesh = file_mesh(path, path.suffix.lower())
         if finite and not np.isfinite(mesh.vertices).all():
             raise ModelError("must be finite numbers", field="vertices")
         return mesh

@@ -6,8 +6,6 @@ import re
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.files import LARGEST_TEXT
 
-LARGEST_UNPACKED = 64 * 2**20
-"""Largest sum of what a file holds compressed, or of its arrays [bytes]."""
 MOST_POINTS = 1_000_000
 """Most points of a cloud; its text has at most twice as many lines, with comments and a header."""
 
@@ -60,10 +58,3 @@ def check_equal(what: str, count: int, stated: int) -> None:
     """ModelError if a file holds another number than it states."""
     if count != stated:
         raise ModelError(f"must be {stated}, as the file states", field=what, value=count)
-
-
-def check_unpacked(size: int) -> None:
-    """ModelError if a file states that it unpacks to more bytes than it may."""
-    if size > LARGEST_UNPACKED:
-        most = LARGEST_UNPACKED / 2**20
-        raise ModelError(f"unpacks to more than {most:g} MiB", value=size)

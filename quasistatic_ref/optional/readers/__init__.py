@@ -1,1 +1,1 @@
-"""Further formats of files: clouds in PLY, PCD and NumPy's arrays."""
+"""Meshes, and further formats of clouds: PLY, PCD, LAS and NumPy's arrays."""

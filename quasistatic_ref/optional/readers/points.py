@@ -9,12 +9,13 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import InputError, ModelError, about_file
+from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.formats.npz import array_of, npz_arrays, readable
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
-from quasistatic_ref.model.readers.text import check_equal, check_points, check_unpacked
+from quasistatic_ref.model.readers.text import check_equal, check_points
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.readers.files import check_unpacked, malformed
 from quasistatic_ref.parts import needed_package
 
 LARGEST_HEADER = 2**20
@@ -37,13 +38,8 @@ def file_points(path: Path) -> Array:
     """
     kind = path.suffix.lower()
     with about_file(path):
-        try:
+        with malformed(kind[1:].upper()):
             points = KINDS[kind](path)
-        except InputError:
-            raise
-        except Exception:  # each library raises its own kinds, in its own words
-            problem = f"cannot be read as {kind[1:].upper()}: it is malformed; export it again"
-            raise ModelError(problem) from None
         if points.dtype.kind not in "fiu" or points.ndim != 2 or points.shape[1] != 3:
             shape = f"{points.dtype} of shape {points.shape}"
             raise ModelError("must contain numbers of shape (N, 3)", field="points", value=shape)

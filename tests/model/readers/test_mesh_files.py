@@ -14,10 +14,10 @@ import trimesh
 
 from quasistatic_ref import Body, ModelError, System, load_scenario
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.model.readers import placed_meshes, text
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_hull, mesh_path
 from quasistatic_ref.model.urdf import urdf_shapes
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
+from quasistatic_ref.optional.readers import files, placed_meshes
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
@@ -389,7 +389,7 @@ def test_what_a_file_states_of_itself_is_compared_with_it(
         (tmp_path / other).write_bytes(part)
     monkeypatch.setattr(placed_meshes, "MOST_PLACED", 150)
     monkeypatch.setattr(placed_meshes, "PART", 0)
-    monkeypatch.setattr(text, "LARGEST_UNPACKED", 8000)
+    monkeypatch.setattr(files, "LARGEST_UNPACKED", 8000)
     (tmp_path / name).write_bytes(_bytes(content))
     with pytest.raises(ModelError, match=f"^{re.escape(str(tmp_path))}/.*{words}"):
         loaded_mesh(tmp_path / name)

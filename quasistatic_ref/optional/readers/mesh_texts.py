@@ -4,8 +4,9 @@ Readers of others pass over what they do not know, and take a file that was cut 
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, Final
 
 import numpy as np
@@ -13,9 +14,9 @@ from numpy.lib.recfunctions import unstructured_to_structured
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.model.readers.mesh import Mesh, fans
+from quasistatic_ref.model.readers.mesh import Mesh
 from quasistatic_ref.model.readers.text import check_equal, number_or_nan
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, Indices
 
 LARGEST_HEADER = 2**20
 """Bytes in which the header of a PLY ends."""
@@ -85,6 +86,12 @@ def _face(corners: list[int], number: int) -> list[int]:
     return corners
 
 
+def _fans(faces: Sequence[Sequence[int]]) -> Indices:
+    """Triangles, (T, 3), of faces of any number of corners, as a fan around the first of each."""
+    triangles = [(a, b, c) for a, *rest in faces for b, c in pairwise(rest)]
+    return np.array(triangles, dtype=np.int64).reshape(-1, 3)
+
+
 def _points(points: list[list[float]]) -> Array:
     return np.array(points, dtype=np.float64).reshape(-1, 3)
 
@@ -137,7 +144,7 @@ def _obj(content: bytes) -> Mesh:
         elif first and first not in OBJ_UNREAD:
             problem = "is a line of an OBJ that is not read"
             raise ModelError(problem, field=f"line {number}", value=line)
-    return Mesh(_points(points), fans(faces))
+    return Mesh(_points(points), _fans(faces))
 
 
 def _off(content: bytes) -> Mesh:
@@ -166,7 +173,7 @@ def _off(content: bytes) -> Mesh:
             problem = f"must have {corners} corners"
             raise ModelError(problem, field=f"line {number}", value=line)
         faces.append(_face(face, number))
-    return Mesh(_points(points), fans(faces))
+    return Mesh(_points(points), _fans(faces))
 
 
 @dataclass
@@ -256,7 +263,7 @@ def _ply(content: bytes) -> Mesh:
     if len(named) != 1 or others:
         raise ModelError("must be faces with a list vertex_indices", field="face")
     corners = [_face([int(c) for c in face], number) for number, face in enumerate(faces[named[0]])]
-    return Mesh(points, fans(corners))
+    return Mesh(points, _fans(corners))
 
 
 def _ply_header(lines: list[str]) -> tuple[str, list[_Element]]:

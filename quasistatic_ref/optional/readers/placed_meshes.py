@@ -19,15 +19,11 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.formats.files import bytes_read, text_of
-from quasistatic_ref.model.readers.mesh import Mesh, fans, joined
-from quasistatic_ref.model.readers.mesh_texts import text_of_mesh
-from quasistatic_ref.model.readers.text import (
-    LARGEST_UNPACKED,
-    check_equal,
-    check_unpacked,
-    decimal,
-)
+from quasistatic_ref.model.readers.mesh import Mesh
+from quasistatic_ref.model.readers.text import check_equal, decimal
 from quasistatic_ref.model.readers.xml_text import DEEPEST, xml_root
+from quasistatic_ref.optional.readers.files import LARGEST_UNPACKED, check_unpacked
+from quasistatic_ref.optional.readers.mesh_texts import text_of_mesh
 from quasistatic_ref.parts import needed_package
 
 MOST_PLACED = 5_000_000
@@ -377,15 +373,12 @@ def placed_mesh(path: Path, content: bytes) -> Mesh:
         placed = scene.dump()
     # Lines have no vertices that count.
     shown = [one for one in placed if type(one).__name__ in ("Trimesh", "PointCloud")]
-    meshes = [
-        Mesh(
-            np.asarray(one.vertices, dtype=np.float64).reshape(-1, 3),
-            np.asarray(getattr(one, "faces", fans(())), dtype=np.int64).reshape(-1, 3),
-        )
-        for one in shown
-    ]
-    mesh = joined(meshes)
-    check_equal("triangles", len(mesh.triangles), stated.triangles)
+    nothing = np.zeros((0, 3))
+    vertices = np.concatenate([nothing, *(one.vertices for one in shown)])
+    starts = np.cumsum([0, *(len(one.vertices) for one in shown)])
+    faces = [getattr(one, "faces", nothing) + n for one, n in zip(shown, starts, strict=False)]
+    triangles = np.concatenate([nothing, *faces]).astype(np.int64)
+    check_equal("triangles", len(triangles), stated.triangles)
     units = "meters" if stated.kind == "gltf" or scene.units is None else scene.units
     metres = trimesh.units.unit_conversion(units, "meters")
-    return Mesh(metres * mesh.vertices, mesh.triangles, stated.note)
+    return Mesh(metres * vertices, triangles, stated.note)
