@@ -26,7 +26,7 @@ def main(pushes=PUSHES):
 
 def figure(*, pushes=PUSHES):
     """One panel a push: the block, the forces at one point, the cone and the resultant."""
-    made, row = panels(6.3, 4.8, columns=len(pushes), sharey=True)
+    made, row = panels(6.3, 3.3, columns=len(pushes), sharey=True)
     for axes, push, force in zip(row, pushes, main(pushes), strict=True):
         axes.add_patch(Rectangle((-5, 0), 10, 8, facecolor="0.93", edgecolor="0.7", zorder=0))
         axes.axhline(0.0, color="0.3", linewidth=scaled(1.2))

@@ -32,7 +32,7 @@ def main() -> np.ndarray:
 
 def figure() -> Figure:
     """The matrix as a table with the numbers in it."""
-    page, (axes,) = panels(6.3, 3.4)
+    page, (axes,) = panels(6.3, 3.2)
     G = main()
     largest = np.abs(G).max()
     axes.imshow(G, cmap="RdBu", vmin=-2 * largest, vmax=2 * largest, aspect="auto")

@@ -93,7 +93,7 @@ def figure(*, tilt: float = TILT, k: int = K) -> Figure:
     k : int
         Points that become contacts.
     """
-    page, (left, right) = panels(6.3, 3.0, columns=2)
+    page, (left, right) = panels(6.3, 3.2, columns=2)
     system, pair, q = tilted_scene(tilt, k)
     points, found = geometry(system, pair, q)
     x, _, z = 1e3 * points_at(system, q).T
@@ -102,13 +102,14 @@ def figure(*, tilt: float = TILT, k: int = K) -> Figure:
     left.plot(x, z, "o", color="#0072B2", label="points", **marks)
     beta = 1e3 * points.beta
     left.plot(beta[:, 0], beta[:, 2], "s", color="#D55E00", label=f"k = {k} contacts", **marks)
-    motion = 150 * found.J[:, :3, 4]  # for a turn of 0.15 rad about y, in mm
+    motion = 300 * found.J[:, :3, 4]  # for a turn of 0.3 rad about y, in mm
     for start, along in zip(beta[:, [0, 2]], motion[:, [0, 2]], strict=True):
         left.annotate("", start + along, start, annotation_clip=False,
-                      arrowprops={"arrowstyle": "->", "shrinkA": 0, "shrinkB": 0})  # fmt: skip
+                      arrowprops={"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0,
+                                  "color": "black", "linewidth": scaled(0.8)})  # fmt: skip
     left.axhline(0, color="0.3", linestyle="-")
     left.set_aspect("equal")
-    label_axes(left, "x [mm]", "z [mm]", "arrows: J for a turn of 0.15 rad")
+    label_axes(left, "x [mm]", "z [mm]", "arrows: J for 0.3 rad")
     right.loglog(TURNS, 1e3 * errors(TURNS, tilt), marker="o", markersize=scaled(3), label="error")
     second = 0.5 * HALF_AXES[0] * TURNS**2
     right.loglog(TURNS, 1e3 * second, "k:", label=r"$r\,\theta^2 / 2$, r = 50 mm")

@@ -15,7 +15,7 @@ from quasistatic_ref.lab.figures.labels import caption, label_axes, legend_below
 from quasistatic_ref.lab.scenes.pushed_block import MU_OMEGA, OFFSET, RADIUS, SIDE, pushed_block
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.step_jax import jax_package, smoothed_jax
-from quasistatic_ref.optional.show.figures import Figure, panels, scaled
+from quasistatic_ref.optional.show.figures import Figure, panels
 
 jax = jax_package()
 np_jax = jax.numpy
@@ -86,19 +86,22 @@ def planned_push(start: tuple[float, float, float], mu_omega: float) -> Push:
 
 def figure(*, start: tuple[float, float, float] = STARTS[0]) -> Figure:
     """Both pushes from `start` [m, rad], from above, and how far the descent was from the goal."""
-    page, grid = panels(6.3, 3.0, columns=3)
+    page, grid = panels(6.3, 3.0, columns=3, width_ratios=(3, 3, 2))
     for axes, (name, mu_omega), style in zip(grid, SUPPORTS.items(), ("-", "--"), strict=False):
         push = planned_push(start, mu_omega)
-        _block(axes, push.q[0], "--", "black", "start")
-        for k in range(10, STEPS + 1, 10):
-            _block(axes, push.q[k], "-", "C0", "every 10 steps" if k == 10 else None)
+        _block(axes, push.q[0], "--", "0.5", "start")
+        _block(axes, push.q[-1], "-", "C0", "end")
         _block(axes, np.array([0, 0, *GOAL, 0, 1, 0]), ":", "black", "goal")
-        axes.plot(*(1e3 * (push.q[:, :2] + OFFSET)).T, "k.", markersize=scaled(2), label="finger")
-        axes.set(aspect="equal", xlim=(-80, 220), ylim=(-120, 120))
+        axes.plot(*(1e3 * (push.q[:, :2] + OFFSET)).T, "-", color="C1", label="path of the finger")
+        ahead = 0.5 * SIDE * push.q[::5, 5:7]
+        axes.quiver(*(1e3 * push.q[::5, 2:4]).T, *(1e3 * ahead).T, color="C0", angles="xy",
+                    scale_units="xy", scale=1, width=0.012)  # fmt: skip
+        axes.set(aspect="equal", xlim=(-90, 220), ylim=(-120, 120))
         label_axes(axes, "x [mm]", "y [mm]", name, key=False)
         grid[2].semilogy(1e3 * np.array(push.misses), style, label=name)
     label_axes(grid[2], "descent [steps]", "miss [mm]")
-    legend_below(list(grid), grid[0].get_legend_handles_labels()[0], caption(H))
+    arrows = f"arrows: the block's direction every 5 steps; {caption(H)}"
+    legend_below(list(grid), grid[0].get_legend_handles_labels()[0], arrows)
     return page
 
 

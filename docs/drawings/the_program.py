@@ -49,7 +49,7 @@ def figure(*, pushes=PUSHES, mu_v=MU_V, h=H):
     free = 1e6 * h**2 * np.array([[push, -MASS * GRAVITY] for push in pushes]) / MASS
     deep = 1e6 * h**2 * GRAVITY
     x, z = np.meshgrid(np.linspace(-0.7, 1.3, 200) * deep, np.linspace(-1.2, 0.75, 200) * deep)
-    made, row = panels(6.3, 3.7, columns=len(pushes), sharey=True)
+    made, row = panels(6.3, 3.3, columns=len(pushes), sharey=True)
     for axes, push, (to_x, to_z) in zip(row, pushes, free, strict=True):
         away = np.hypot(x - to_x, z - to_z) / deep
         axes.contour(x, z, away, np.arange(0.1, 2.5, 0.15), colors="0.75", linestyles="solid",

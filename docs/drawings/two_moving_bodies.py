@@ -107,12 +107,18 @@ def figure(*, phi: float = PHI, turn: float = TURN) -> Figure:
         (beta, of_beta - of_alpha, r"difference, J $\delta q$", "#D55E00", "-."),
     ):
         end = start + motion[[0, 2]]
-        head = {"arrowstyle": "-|>", "color": colour, "linestyle": "none", "shrinkB": 0}
+        head = {
+            "arrowstyle": "-|>",
+            "color": colour,
+            "linestyle": "none",
+            "shrinkB": 0,
+            "mutation_scale": scaled(14),
+        }
         left.plot(*np.transpose([start, end]), pattern, color=colour, label=name)
         left.annotate("", end, (start + 9 * end) / 10, arrowprops=head, annotation_clip=False)
     left.plot(*np.transpose([alpha, beta]), "ko", markersize=scaled(3), label="alpha and beta")
-    x, z, reach = *(alpha + beta) / 2, 2.4e3 * RADIUS
-    left.set(aspect="equal", xlim=(x - reach, x + 0.8 * reach), ylim=(z - 0.8 * reach, z + reach))
+    x, z, reach = *(alpha + beta) / 2, 1e3 * RADIUS
+    left.set(aspect="equal", xlim=(x - reach, x + reach), ylim=(z - reach, z + reach))
     label_axes(left, "x [mm]", "z [mm]")
     _columns(right)
     return page

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.figures.labels import caption, label_axes, note_below
+from quasistatic_ref.lab.figures.labels import caption, label_axes, legend_below
 from quasistatic_ref.lab.scenes.nudge import MASS, MU_V, RADIUS, H, body_at_rest, points
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
@@ -86,7 +86,7 @@ def figure(*, reach: float = 1.0) -> Figure:
     forces = reach * np.linspace(-0.2, 0.2, 21)
     ends, slopes = fall_curve(moves)
     _sides(grid[0], 1e3 * moves, 1e3 * (ends - RADIUS), slopes)
-    label_axes(grid[0], "start above the kink [mm]", "height after [mm]", "just touches")
+    label_axes(grid[0], "start above the kink [mm]", "height after [mm]", "just touches", key=False)
     ends, slopes = push_curve(forces)
     _sides(grid[1], forces, 1e3 * ends, 1e3 * slopes)
     label_axes(grid[1], "push beyond the limit [N]", "place after [mm]", "just holds", key=False)
@@ -94,7 +94,7 @@ def figure(*, reach: float = 1.0) -> Figure:
     ends, _ = tilt_curve(angles)
     grid[2].plot(1e3 * angles, 1e3 * ends, "o", color="C0", markersize=scaled(3))
     label_axes(grid[2], "tilt before [mrad]", "tilt after [mrad]", "a tie of points")
-    note_below(list(grid), caption(H))
+    legend_below(list(grid), grid[0].get_legend_handles_labels()[0], caption(H))
     return page
 
 

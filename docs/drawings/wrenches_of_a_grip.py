@@ -30,7 +30,7 @@ def held(h: float) -> bool:
 def figure() -> Figure:
     """The diamond, the weight, and weight and drag for three time steps."""
     assert [held(h) for h in STEPS] == [True, True, False]
-    page, (axes,) = panels(5.2, 3.8)
+    page, (axes,) = panels(6.3, 3.3)
     force, torque = 2 * MU_V * GRIP, 2e3 * MU_OMEGA * GRIP
     diamond = [(force, 0), (0, torque), (-force, 0), (0, -torque)]
     axes.add_patch(Polygon(diamond, facecolor="#0072B2", alpha=0.2, edgecolor="none"))

@@ -51,10 +51,11 @@ assert abs(force[59] - m * v / h) < 1e-6
 assert np.abs(np.diff(q[-5:], axis=0)).max() < 1e-11
 
 figure, (axes, right) = plt.subplots(1, 2, figsize=(7.6, 3.2), layout="constrained")
-for name, place in {"target": targets, "finger": q[1:, 0], "block": q[1:, 1]}.items():
-    axes.plot(times, 1e3 * place, {"target": ":", "finger": "-", "block": "--"}[name], label=name)
-axes.set(xlabel="time t [s]", ylabel="x [mm]", title=f"the finger lags by {1e3 * lag:.1f} mm")
-axes.legend()
+for place, line, name in ((q[1:, 1], "--", "block"), (q[1:, 0], "-", "finger")):
+    axes.plot(times, 1e3 * (targets - place), line, label=name)
+axes.axhline(1e3 * lag, color="black", linestyle=":", label="m v / (h K_q)")
+axes.set(xlabel="time t [s]", ylabel="behind the target [mm]")
+axes.legend(loc="lower right")
 right.step(times, force, label="force")
 right.axhline(m * v / h, color="black", linestyle=":", label="m v / h")
 right.set(xlabel="time t [s]", ylabel="force [N]")
