@@ -21,11 +21,11 @@ before they are branched on.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from flint import fmpq
+from flint import arb, fmpq
 
-from quasistatic_ref.certify.dependence import combination, independent_rows
-from quasistatic_ref.certify.form import PRECISION, ExactForm, fraction
-from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.certify.dependence import independent_rows
+from quasistatic_ref.certify.form import PRECISION, ExactForm
+from quasistatic_ref.certify.minimiser import Line, Minimiser
 from quasistatic_ref.numbers.precision import working_precision
 
 
@@ -66,8 +66,9 @@ def most_violated(minimiser: Minimiser) -> int | None:
     that it takes with :func:`least_index`.
     """
     shown = minimiser.lowest_shown
-    if not shown:
-        return least_index(minimiser)
+    if not shown:  # a row that balls show to be violated needs no zero to be decided
+        by_balls = [i for i, ball in minimiser.slack_balls.items() if ball < 0]
+        return by_balls[0] if by_balls else least_index(minimiser)
     first, *others = shown
     for i in others:
         if minimiser.below(i, first):
@@ -115,7 +116,7 @@ def dual_active_set(
         if p is None:  # All slacks are >= 0, too: the optimum.
             positive = minimiser.positive() if walks else minimiser.working
             same = positive == minimiser.working
-            return Optimum(minimiser if same else Minimiser(form, positive), walks)
+            return Optimum(minimiser if same else minimiser.on(positive), walks)
         after = _walk(minimiser, p)
         if isinstance(after, Farkas):
             return after
@@ -141,26 +142,26 @@ def _start(form: ExactForm, warm: Sequence[int]) -> Minimiser:
 
 def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
     """Return the minimiser that the violated row p leads to, or a proof that there is none."""
-    form = minimiser.form
     while True:
         working = minimiser.working
-        c = combination(form, working, p)
-        if c is None:
-            after = Minimiser(form, (*working, p))
+        relation = minimiser.relation(p)
+        if relation is None:
+            after = minimiser.on((*working, p))
             leaving = _first_to_vanish(minimiser, after)
             if leaving is None:
                 return after
         else:
-            leaving = _first_to_vanish(minimiser, [-c_j for c_j in c])
+            leaving = _first_to_vanish(minimiser, relation)
             if leaving is None:  # a_p = sum c_j a_j with c <= 0, and b_p > sum c_j b_j
-                support = {i: -c_j for i, c_j in zip(working, c, strict=True) if c_j}
+                u = [relation.end(j) for j in range(len(working))]
+                support = {i: u_j for i, u_j in zip(working, u, strict=True) if u_j}
                 return Farkas({**support, p: fmpq(1)})
         rest = working[:leaving] + working[leaving + 1 :]
         # The start of the next line; the walk is already inside of it.
-        minimiser = Minimiser(form, rest)
+        minimiser = minimiser.on(rest)
 
 
-def _first_to_vanish(minimiser: Minimiser, u: Minimiser | list[fmpq]) -> int | None:
+def _first_to_vanish(minimiser: Minimiser, line: Line) -> int | None:
     """Ratio test: index in W of the multiplier that vanishes first on a line, or None.
 
     l are the multipliers on W. The line goes towards u, those on W and p, or along u = -c. The
@@ -171,23 +172,33 @@ def _first_to_vanish(minimiser: Minimiser, u: Minimiser | list[fmpq]) -> int | N
     where the multiplier of p is zero. The ratios of the whole line are valid all the same: a
     multiplier that is >= 0 at that point and ends at u_j < 0 decreases along the line, so that it
     vanishes at that point or after it.
+
+    No sign of u_j is decided where balls show that, even if it falls, another vanishes before.
     """
+    u = line.ends
+    shown = [j for j, ball in enumerate(u) if ball < 0]
+    one = min(shown, key=lambda j: float(minimiser.balls.y[j] / -u[j]), default=None)
     first = None
-    for j in range(len(minimiser.working)):
-        falls = u.multiplier_sign(j) < 0 if isinstance(u, Minimiser) else u[j] < 0
-        if falls and (first is None or _vanishes_before(minimiser, u, j, first)):
+    for j, ball in enumerate(u):
+        if ball > 0 or (one is not None and _difference(minimiser, line, j, one) > 0):
+            continue
+        falls = ball < 0 or line.end(j) < 0
+        if falls and (first is None or _vanishes_before(minimiser, line, j, first)):
             first = j
     return first
 
 
-def _vanishes_before(minimiser: Minimiser, u: Minimiser | list[fmpq], j: int, k: int) -> bool:
-    """Return whether l_j / -u_j < l_k / -u_k, both u being negative."""
-    l_ball = minimiser.balls.y
-    u_ball = u.balls.y if isinstance(u, Minimiser) else u
+def _difference(minimiser: Minimiser, line: Line, j: int, k: int) -> arb:
+    """Negative where l_j / -u_j < l_k / -u_k, both u being negative."""
+    l_balls = minimiser.balls.y
+    u = line.ends
     with working_precision(PRECISION):
-        difference = l_ball[k] * u_ball[j] - l_ball[j] * u_ball[k]
+        return l_balls[k] * u[j] - l_balls[j] * u[k]
+
+
+def _vanishes_before(minimiser: Minimiser, line: Line, j: int, k: int) -> bool:
+    """Return whether l_j / -u_j < l_k / -u_k, both u being negative."""
+    difference = _difference(minimiser, line, j, k)
     if not difference.contains(0):
         return bool(difference < 0)
-    l_j, l_k = (fraction(minimiser.fractions.y[i]) for i in (j, k))
-    u_j, u_k = (fraction(u.fractions.y[i]) if isinstance(u, Minimiser) else u[i] for i in (j, k))
-    return bool(l_k * u_j < l_j * u_k)
+    return bool(minimiser.end(k) * line.end(j) < minimiser.end(j) * line.end(k))

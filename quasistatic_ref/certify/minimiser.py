@@ -6,7 +6,7 @@ The sign of a slack is taken from the first of these sources that shows it:
 2. a slack is zero if W implies its row (``implied_rows``): by the geometry of its contact's cone,
    whatever the numbers are, or by elimination in whole numbers;
 3. balls show the others that are clearly not zero, and fractions decide the rest
-   (``slack_signs``).
+   (``slack_signs``). A row that they show to be violated needs no other sign.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import compress
-from typing import TypeAlias, cast
+from typing import Protocol, TypeAlias, cast
 
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz_mat
 
-from quasistatic_ref.certify.dependence import implied, null_space
+from quasistatic_ref.certify.dependence import combination, implied, null_space
 from quasistatic_ref.certify.form import (
     EXACT,
     PRECISION,
@@ -31,6 +31,7 @@ from quasistatic_ref.certify.form import (
     fraction,
     whole_numbers,
 )
+from quasistatic_ref.certify.near_sets import NearSets
 from quasistatic_ref.certify.rounding import all_nearest, nearest
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.precision import working_precision
@@ -73,12 +74,75 @@ class Solution:
         return self.in_fractions(self.x)
 
 
+class Line(Protocol):
+    """What the multipliers on W go to in a walk, or the direction in which they go."""
+
+    @property
+    def ends(self) -> list[arb]:
+        """Of each of them, in balls."""
+
+    def end(self, j: int) -> fmpq:
+        """One of these without rounding, times a positive number that they have in common."""
+
+
+@dataclass(frozen=True, eq=False)
+class Relation:
+    """The u of a_p + sum_j u_j A[working[j]] = 0.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : tuple of int
+        W.
+    p : int
+        A row.
+    ends : list of arb
+        u.
+    """
+
+    form: ExactForm
+    working: tuple[int, ...]
+    p: int
+    ends: list[arb]
+
+    @cached_property
+    def exact(self) -> list[fmpq] | None:
+        """The u in fractions; None if the row is independent of W.
+
+        Which of them are not zero is guessed from balls, and elimination proves the guess.
+        """
+        guess = [j for j, ball in enumerate(self.ends) if not ball.contains(0)]
+        some = combination(self.form, [self.working[j] for j in guess], self.p)
+        if some is None:
+            every = combination(self.form, self.working, self.p)
+            return None if every is None else [-c_j for c_j in every]
+        u = [fmpq(0)] * len(self.working)
+        for j, c_j in zip(guess, some, strict=True):
+            u[j] = -c_j
+        return u
+
+    def end(self, j: int) -> fmpq:
+        """As of a line."""
+        assert self.exact is not None  # it is a relation
+        return self.exact[j]
+
+
 Numbers: TypeAlias = Callable[[Solution], "list[arb]"]
 """Some numbers of a solution, times its denominator."""
 
 
-def ball_solution(form: ExactForm, working: Sequence[int]) -> Solution:
+def ball_solution(
+    form: ExactForm, working: Sequence[int], near: NearSets | None = None
+) -> Solution:
     """The solution in balls.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+        W.
+    near : NearSets, optional
+        Of a working set that differs by few rows.
 
     Raises
     ------
@@ -89,11 +153,15 @@ def ball_solution(form: ExactForm, working: Sequence[int]) -> Solution:
     A = columns(rows, slice(0, form.n))
     c = columns(rows, slice(form.n, form.n + 1))
     with working_precision(PRECISION):
-        pull = form.H_inverse * A.transpose()
-        y = (A * pull).solve(-(A * form.free + c))
-        x = form.free + pull * y
+        right_side = -(A * form.free + c)
+        if near is None:
+            y = (A * (form.H_inverse * A.transpose())).solve(right_side)
+        else:
+            y = arb_mat(len(rows), 1, near.solved(working, right_side.entries()))
+        net = A.transpose() * y
+        x = form.free + form.H_inverse * net
         z = arb_mat(form.n + 1, 1, [*x.entries(), 1])
-        return Solution(z, y.entries(), A.transpose() * y, arb(1))
+        return Solution(z, y.entries(), net, arb(1))
 
 
 def fraction_solution(form: ExactForm, working: Sequence[int]) -> Solution:
@@ -125,11 +193,25 @@ class Minimiser:
     form : ExactForm
     working : tuple of int
         W: independent rows.
+    near : NearSets, optional
+        Of a working set that may differ by few rows.
     """
 
-    def __init__(self, form: ExactForm, working: tuple[int, ...]) -> None:
+    def __init__(
+        self, form: ExactForm, working: tuple[int, ...], near: NearSets | None = None
+    ) -> None:
         self.form = form
         self.working = working
+        self._near = near if near is not None and near.has_near(working) else None
+
+    def on(self, working: tuple[int, ...]) -> Minimiser:
+        """The minimiser on another working set, that differs by few rows."""
+        return Minimiser(self.form, working, self.near_sets)
+
+    @cached_property
+    def near_sets(self) -> NearSets:
+        """What finds multipliers on working sets near this one."""
+        return self._near or NearSets(self.form, self.working)
 
     @cached_property
     def balls(self) -> Solution:
@@ -144,7 +226,7 @@ class Minimiser:
             If the rows are not independent.
         """
         try:
-            return ball_solution(self.form, self.working)
+            return ball_solution(self.form, self.working, self._near)
         except ZeroDivisionError:
             exact = self.fractions
         with working_precision(PRECISION):
@@ -157,14 +239,20 @@ class Minimiser:
         """The solution in fractions: milliseconds, so only where it is needed."""
         return fraction_solution(self.form, self.working)
 
-    def multiplier_sign(self, j: int) -> int:
-        """Return the exact sign of the multiplier of working[j]."""
-        ball = self.balls.y[j]
-        return _sign(ball if ball > 0 or ball < 0 else self.fractions.y[j])
+    @property
+    def ends(self) -> list[arb]:
+        """As of a line."""
+        return self.balls.y
+
+    def end(self, j: int) -> fmpq:
+        """As of a line."""
+        return fraction(self.fractions.y[j])
 
     def positive(self) -> tuple[int, ...]:
         """Return the rows of the working set whose multipliers are positive."""
-        return tuple(i for j, i in enumerate(self.working) if self.multiplier_sign(j) > 0)
+        y = enumerate(self.balls.y)
+        signs = [_sign(v if v > 0 or v < 0 else self.fractions.y[j]) for j, v in y]
+        return tuple(i for i, sign in zip(self.working, signs, strict=True) if sign > 0)
 
     @cached_property
     def float_slacks(self) -> tuple[Array, Array]:
@@ -216,14 +304,41 @@ class Minimiser:
         return self.implied(self.open_rows)
 
     @cached_property
+    def slack_balls(self) -> dict[int, arb]:
+        """The slacks in balls of all open rows that the cones of contacts leave in doubt."""
+        by_cone = {*self.form.implied_by_cone(self.working, self.open_rows)}
+        rows = [i for i in self.open_rows if i not in by_cone]
+        with working_precision(PRECISION):
+            return dict(zip(rows, self.form.slacks(rows, self.balls.z), strict=True))
+
+    @cached_property
     def slack_signs(self) -> dict[int, int]:
         """The exact signs of the slacks of all open rows that W does not imply."""
-        rows = sorted({*self.open_rows} - {*self.implied_rows})
-        with working_precision(PRECISION):
-            balls = zip(rows, self.form.slacks(rows, self.balls.z), strict=True)
+        implied_rows = {*self.implied_rows}
         return {
-            i: _sign(ball if ball > 0 or ball < 0 else self._exact_slack(i)) for i, ball in balls
+            i: _sign(ball if ball > 0 or ball < 0 else self._exact_slack(i))
+            for i, ball in self.slack_balls.items()
+            if i not in implied_rows
         }
+
+    def relation(self, p: int) -> Relation | None:
+        """That of a row to those of W; None if it is independent of them."""
+        near = self.near_sets
+        working = self.working
+        try:
+            loads = near.loads(working, p)
+            c = near.solved(working, loads)
+        except ZeroDivisionError:
+            c = [arb(0, 1)] * len(working)  # nothing is shown
+        else:
+            a, moved, *_ = near.pull(p)
+            with working_precision(PRECISION):
+                of_others = sum((v * load for v, load in zip(c, loads, strict=True)), arb(0))
+                if (a * moved)[0, 0] - of_others > 0:
+                    return None
+        relation = Relation(self.form, working, p, [-v for v in c])
+        depends = len(working) == self.form.n or relation.exact is not None
+        return relation if depends else None
 
     def _exact_slack(self, i: int) -> arb:
         with working_precision(EXACT):
