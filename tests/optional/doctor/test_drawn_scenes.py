@@ -1,0 +1,80 @@
+"""Of each drawn scene the findings are those that are right by hand.
+
+The hand values themselves are checked by other means than those of the findings.
+"""
+
+import numpy as np
+import pytest
+from scipy.optimize import linprog
+
+from quasistatic_ref import coulomb_step, standard_form
+from tests.optional.doctor.drawn_scenes import BROKEN, HEALTHY, SEEDS, Draw
+
+TOUCHES = 1e-6
+"""[m]"""
+
+
+def drawn(kinds):
+    """Each kind with its seeds; README's line takes one of every other kind."""
+    for i, kind in enumerate(kinds):
+        for seed in range(SEEDS * i, SEEDS * (i + 1)):
+            marks = () if seed % (2 * SEEDS) == 0 else pytest.mark.long
+            yield pytest.param(kind, seed, id=f"{kind.__name__}-{seed}", marks=marks)
+
+
+def bears(run, k, pressed):
+    """Whether forces in the cones of a step's contacts bear its loads: a linear program.
+
+    A pair behind springs presses with what is `pressed`; all others as they must.
+    """
+    step = run.step_data(k)
+    touching = np.flatnonzero(step.contacts.phi <= TOUCHES)
+    step = step.replace(contacts=step.contacts.some(touching, np.arange(step.n_v)))
+    _, _, A, _ = standard_form(step)
+    rows = np.where(step.contacts.torsion, 6, 4)
+    of = np.repeat([run.pair_names[i].partition("(")[0] for i in touching], rows)
+    springs = np.array([of == name for name in pressed]).reshape(len(pressed), len(of))
+    size = np.abs(step.tau_u).max()
+    found = linprog(
+        np.zeros(len(of)),
+        A_eq=np.vstack([A[:, step.n_a :].T, springs]),
+        b_eq=np.concatenate([-step.tau_u, [*pressed.values()]]) / size,
+    )
+    assert found.status in (0, 2), found.message
+    return found.status == 0
+
+
+@pytest.mark.parametrize(("kind", "seed"), [*drawn(HEALTHY)])
+def test_what_is_healthy_is_borne_at_its_end(kind, seed):
+    scenario, hand, pressed, _ = kind(Draw(seed))
+    run = scenario.run(progress=False)
+    assert hand == {}
+    assert not run.scene.system.n_u or bears(run, run.steps - 1, pressed)
+
+
+@pytest.mark.parametrize(("kind", "seed"), [*drawn(BROKEN)])
+def test_hand_values_hold_in_the_run_or_in_a_step_that_converges(kind, seed):
+    """Of drag and layer in the run; of what is missing by Coulomb's law at 0.1 s, from the start.
+
+    Springs that give way add m g / (K h^2) <= 1e-3 m, over the 0.1 to 1 g with which it starts.
+    """
+    scenario, hand, pressed, _ = kind(Draw(seed))
+    run = scenario.run(progress=False)
+    if "not in equilibrium" not in hand:
+        (numbers,) = hand.values()
+        of_pair = [name.startswith("c(") for name in run.pair_names]
+        assert run["wrench"][-1, of_pair, 2].sum() == pytest.approx(numbers["normal_N"], rel=1e-3)
+        return
+    lacks = hand["not in equilibrium"]
+    step = run.step_data(0).replace(h=0.1)
+    answer = coulomb_step(step, fast=True)
+    assert answer.converged
+    n_u = run.scene.system.n_u
+    r = -step.M_u[:n_u, :n_u] @ answer.delta_q[step.n_a :][:n_u] / step.h**2
+    if n_u % 6:  # a joint, which comes first, and bystanders
+        assert abs(r[0]) == pytest.approx(max(lacks.values()), rel=1e-3)
+        return
+    force, torque = np.linalg.norm(r.reshape(-1, 2, 3), axis=(0, 2))
+    assert force == pytest.approx(lacks["missing_N"], rel=1e-3)
+    assert torque == pytest.approx(lacks["missing_Nm"], rel=1e-3, abs=1e-9)
+    assert not bears(run, 0, pressed)
