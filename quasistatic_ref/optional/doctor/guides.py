@@ -201,13 +201,20 @@ def _holds(start: Start, guide: Guide, q: Array, contacts: Contacts, squeezed: b
 
 def _remedy(start: Start, guide: Guide, q: Array, contacts: Contacts) -> str:
     names = [start.simulator.layout.names[j] for j in guide.contacts]
-    tables = " or ".join(sorted({f"contacts.{name.partition('(')[0]}" for name in names}))
-    joint = start.system.joint(_joints(start, guide)[0])
+    of_mjcf = start.system.of_mjcf
+    words = "contact[{}]".format if of_mjcf else lambda name: f"contacts.{name.partition('(')[0]}"
+    tables = " or ".join(sorted(set(map(words, names))))
+    joints = _joints(start, guide)
+    joint = start.system.joint(joints[0])
     name = joint.name.partition("/")[0]
     if joint.free:
         if _holds(start, guide, q, contacts, squeezed=True):
-            return f"let a spring (K_q) press one side of {tables}, so that friction holds {name}"
-        return f"give {tables} {'mu_omega' if guide.turns else 'mu_v'} = 0, or more clearance"
+            spring = "a position actuator" if of_mjcf else "a spring (K_q)"
+            return f"let {spring} press one side of {tables}, so that friction holds {name}"
+        mu = "condim = 1" if of_mjcf else f"{'mu_omega' if guide.turns else 'mu_v'} = 0"
+        return f"give {tables} {mu}, or more clearance"
+    if of_mjcf:
+        return f"leave out {tables} (contact/exclude), and give {' and '.join(joints)} frictionloss"
     instead = "support" if isinstance(joint, Planar) else "joint_friction"
     return f"leave out {tables}, and say {instead} in [bodies.{name}]"
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate.account import Account, Drive, Motion, PairAccount, Stop
-from quasistatic_ref.tolerances import FILLED
+from quasistatic_ref.tolerances import FILLED, UNMOVED
 
 PRINTED = 4
 """Lines of a kind in a short table."""
@@ -33,7 +33,7 @@ def motion_numbers(motion: Motion) -> dict[str, float]:
 def drive_numbers(drive: Drive) -> dict[str, float]:
     """How far a joint ends from its target, and how its spring pushed."""
     numbers = {f"ends_from_target_{drive.unit}": float(drive.error[-1])}
-    if drive.way > 0:
+    if drive.way > UNMOVED:
         numbers["share_of_way_left"] = float(drive.error[-1]) / drive.way
     if drive.spring is not None:
         unit = "N" if drive.unit == "m" else "Nm"

@@ -55,6 +55,28 @@ def test_a_slack_rope_holds_nothing():
     assert "lamp" in in_the_air(ROPE, hook=0.5)
 
 
+GUIDED = {
+    "leave out contact[world-b(floor, b)] (contact/exclude), and give b/x and b/y frictionloss":
+        '<joint name="x" type="slide" axis="1 0 0"/><joint name="y" type="slide" axis="0 1 0"/>',
+    "give contact[world-b(ceiling, b)] or contact[world-b(floor, b)] condim = 1, or more clearance":
+        "<freejoint/>",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("remedy", "joints"), [*GUIDED.items()], ids=["on joints", "free"])
+def test_a_guide_of_a_mujoco_scene_is_mended_in_the_words_of_that(remedy, joints):
+    """A box on a floor, and the free one under a ceiling that it touches."""
+    z = 0.15 if "free" in joints else 2
+    model = mujoco.MjModel.from_xml_string(
+        f"""<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>
+        <geom name="ceiling" type="box" size="1 1 .05" pos="0 0 {z}"/>
+        <body name="b" pos="0 0 0.05">{joints}<geom name="b" type="box" size=".05 .05 .05"/></body>
+        </worldbody></mujoco>"""
+    )
+    scenario = qr.mujoco_scenario(model, h=0.01, settings=("steps=1",))
+    assert remedy in [one.remedy for one in scenario.findings()]
+
+
 def test_rails_inside_of_what_they_should_guide_are_penetration():
     """The cart and pole of others: their box, 0.4 x 0.3 x 0.2 m, is around the rails."""
     rail = '<geom name="{0}" type="capsule" pos="0 {1} 1" zaxis="1 0 0" size="0.02 2"/>'
