@@ -122,7 +122,8 @@ def test_type_checkers_see_the_names_of_the_tables_of_homes():
     homes = {(name, name, f"quasistatic_ref.{home}") for name, home in qr._HOME.items()}
     drawn = "quasistatic_ref.optional.show.figures."
     homes |= {(name, name, drawn + home) for name, home in figures._HOME.items()}
-    assert seen == homes | {("figures", "figures", "quasistatic_ref")}
+    alike = "a name stands in its table of homes, and in the re-exports below the table"
+    assert seen == homes | {("figures", "figures", "quasistatic_ref")}, alike
 
 
 def test_arguments_that_type_checkers_see_are_those_that_there_are():
@@ -170,7 +171,7 @@ def test_every_name_says_what_it_is_with_an_example_that_runs(name, tmp_path, mo
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))  # some examples write a file
     said = attrgetter(name)(qr).__doc__
     example = doctest.DocTestParser().get_doctest(said, {"qr": qr, "np": np}, name, None, None)
-    assert example.examples
+    assert example.examples, f"{name} has no example: add one to its docstring"
     assert doctest.DocTestRunner().run(example).failed == 0
 
 
