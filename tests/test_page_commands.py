@@ -58,7 +58,9 @@ def test_the_commands_of_a_page_run(page, tmp_path, monkeypatch):
             assert main([*words, *quicker]) == (words[0] == FINDS), words
 
 
-@pytest.mark.parametrize("page", ["conventions.md", "figures.md"])
+@pytest.mark.parametrize(
+    "page", ["conventions.md", pytest.param("figures.md", marks=pytest.mark.long)]
+)
 def test_the_programs_of_a_page_run(page, tmp_path, monkeypatch, capsys):
     """A run of theirs ends a little after the grip has closed, at 0.7 s, and takes fast steps."""
     monkeypatch.chdir(tmp_path)

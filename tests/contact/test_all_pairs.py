@@ -92,7 +92,7 @@ def found(search, *arguments):
         return str(refused)
 
 
-FEW = 40
+FEW = len(KINDS)
 
 
 @pytest.mark.parametrize(

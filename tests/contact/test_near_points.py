@@ -1,5 +1,7 @@
 """Points and triangles that are left out do not count: the bits are those of a full search."""
 
+import itertools
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -39,9 +41,14 @@ CLOUDS = {
 }
 
 
-@pytest.mark.parametrize("k", [1, 5, 70])
-@pytest.mark.parametrize("on", CLOUDS)
-@pytest.mark.parametrize("name", MESHES)
+EACH = [
+    pytest.param(*each, marks=pytest.mark.long if each[1] == "large" else ())
+    for each in itertools.product(MESHES, CLOUDS, (1, 5, 70))
+]
+"""Those of the large cloud take seconds each."""
+
+
+@pytest.mark.parametrize(("name", "on", "k"), [*EACH, ("box", "large", 4)])
 def test_contacts_of_a_cloud_are_those_of_all_points_over_all_triangles(name, on, k, monkeypatch):
     mesh = MESHES[name]
     cloud = CLOUDS[on]

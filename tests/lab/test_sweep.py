@@ -144,6 +144,7 @@ def test_workers_end_with_the_process_of_the_sweep_also_when_it_is_killed(tmp_pa
     waited_for(lambda: all(map(has_ended, workers)))
 
 
+@pytest.mark.long
 def test_on_two_workers_of_dask_the_runs_are_the_same(two_of_dask, tmp_path):
     values = {"h": [0.01, 0.02], "steps": [2]}
     there = simulate_many(

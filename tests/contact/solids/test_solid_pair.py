@@ -16,10 +16,11 @@ def by_coal(names):
     return bool(closest.CURVED & set(names)) and not {"sphere", "half-space"} & set(names)
 
 
+@pytest.mark.parametrize("poses", [4, pytest.param(8, marks=pytest.mark.long)])
 @pytest.mark.parametrize("names", closest.pairs(), ids="-".join)
-def test_a_pair_is_as_far_apart_as_another_computation_says(names):
+def test_a_pair_is_as_far_apart_as_another_computation_says(names, poses):
     atol = CURVED_PAIR if by_coal(names) else CLOSED_FORM
-    worst, refused = pair_errors(names, 8)
+    worst, refused = pair_errors(names, poses)
     assert refused <= by_coal(names)  # where one is deep inside the other
     assert worst.pop("points") <= max(atol, WAY_OUT)
     assert all(error <= atol for error in worst.values())

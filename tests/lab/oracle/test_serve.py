@@ -98,6 +98,7 @@ def test_a_server_without_standard_input_says_so(monkeypatch, cli):
     assert "standard input: is closed" in cli("serve", "sphere_spin", status=2).err
 
 
+@pytest.mark.long
 def test_the_line_on_the_page_is_answered_by_the_step_of_the_simulator():
     page = (ROOT / "docs" / "guides" / "check_your_implementation.md").read_text("utf-8")
     (line,) = (one for one in shell_lines(page) if one.startswith("echo "))

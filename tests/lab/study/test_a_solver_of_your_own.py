@@ -29,6 +29,7 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.long
 def test_a_function_runs_in_a_study_of_ten_problems(folder, capsys):
     script, report = shell_lines(PAGE)
     paths = os.environ | {"PYTHONPATH": str(ROOT)}

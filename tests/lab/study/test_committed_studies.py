@@ -12,6 +12,7 @@ from quasistatic_ref.lab.study.store import rows_read
 
 ROOT = Path(__file__).parents[3]
 STUDIES = ROOT / "validation" / "studies"
+pytestmark = pytest.mark.long
 
 
 @pytest.fixture(scope="module")

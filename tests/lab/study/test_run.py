@@ -193,6 +193,7 @@ def test_a_solver_that_exceeds_its_limits_is_ended_and_costs_itself_only(tmp_pat
     assert limited(tmp_path) == ["timeout", "not run"]  # a call takes longer than the budget
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("child")  # before the workers start
 def test_on_two_workers_of_dask_the_rows_are_the_same_and_limits_hold(
     small, whole, two_of_dask, tmp_path

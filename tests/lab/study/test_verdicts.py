@@ -110,6 +110,7 @@ def test_a_certificate_clears_a_claim_only_where_it_holds_to_the_accuracy(wedge)
 # -- The committed rows ----------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_a_committed_claim_of_success_is_false_where_a_residual_exceeds_its_limit(committed):
     """Or where its numbers are not finite."""
     false = 0

@@ -48,7 +48,13 @@ def contents(folder):
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
 
 
-@pytest.mark.parametrize("layer", LAYERS)
+LARGE = "distance", "step", "derivative"
+"""Layers of which a validator reads megabytes."""
+
+
+@pytest.mark.parametrize(
+    "layer", [pytest.param(one, marks=pytest.mark.long if one in LARGE else ()) for one in LAYERS]
+)
 def test_every_file_is_as_its_schema_says(layer, tmp_path):
     inputs = json.loads((VECTORS / "inputs" / f"{layer}.json").read_text())
     outputs = json.loads((VECTORS / "expected" / f"{layer}.json").read_text())

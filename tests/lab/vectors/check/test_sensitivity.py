@@ -40,15 +40,17 @@ def test_no_tolerance_passes_anything_or_nothing(layer):
             assert tolerance["absolute"] > 0 or copied or zeros, (name, field)
 
 
+@pytest.mark.parametrize("every", [4, pytest.param(1, marks=pytest.mark.long)])
 @pytest.mark.parametrize("layer", LAYERS)
-def test_any_one_number_changed_beyond_its_tolerance_fails(layer, rng):
+def test_any_one_number_changed_beyond_its_tolerance_fails(layer, every, rng):
     """Three numbers of every case, each by two tolerances.
 
     By a thousandth of its field where it may be another one.
     """
     answers = right_answers(layer)
     tried = 0
-    for case in cases(layer):
+    some = cases(layer)[::every]
+    for case in some:
         wanted = expected_of(layer)[case.id]
         answer = answers[case.id]
         found = numbers_in(answer)
@@ -61,7 +63,7 @@ def test_any_one_number_changed_beyond_its_tolerance_fails(layer, rng):
             verdict = case_verdict(layer, case.input, wanted, other)
             assert verdict.verdict == "failed", (case.id, keys, value, by, verdict)
             tried += 1
-    assert tried >= len(cases(layer))
+    assert tried >= len(some)
 
 
 def change_of(layer, case, wanted, keys):
