@@ -113,5 +113,5 @@ def figure(*, tilt: float = TILT, k: int = K) -> Figure:
     right.loglog(TURNS, 1e3 * errors(TURNS, tilt), marker="o", markersize=scaled(3), label="error")
     second = 0.5 * HALF_AXES[0] * TURNS**2
     right.loglog(TURNS, 1e3 * second, "k:", label=r"$r\,\theta^2 / 2$, r = 50 mm")
-    label_axes(right, r"turn $\theta$ [rad]", r"error of $\phi + n^T J\,\delta q$ [mm]")
+    label_axes(right, r"turn $\theta$ [rad]", r"error of $\phi + J_n\,\delta q$ [mm]")
     return page

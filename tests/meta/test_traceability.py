@@ -62,8 +62,8 @@ def test_under_each_equation_stand_its_code_and_its_test():
         header = ast.get_docstring(ast.parse(path.read_text()))
         assert number in cited_equations(header.split("\n")[0]), path
         module, name = UNDER_TEST.search(header).groups()
-        # (2) and (3), (5) and (6) are one display and one function.
-        shown = under[number + 1 if number in (2, 5) else number]
+        # (2) and (3), (5) and (6), (10) to (12) are one display and one function.
+        shown = under[{2: 3, 5: 6, 10: 12, 11: 12}.get(number, number)]
         file = f"quasistatic_ref/{module.replace('.', '/')}.py"
         assert re.search(rf"<!-- code {file} {name}\b", shown), number
         assert f"`tests/equations/{path.name}`" in shown, number
