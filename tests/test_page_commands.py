@@ -13,7 +13,6 @@ import shutil
 import pytest
 
 from quasistatic_ref.cli.main import main
-from tests.extras import marked_parameters
 from tests.pages import EXAMPLES, ROOT, shell_lines
 
 DOCS = ROOT / "docs"
@@ -31,6 +30,8 @@ PAGES = [
     "guides/write_a_scenario.md",
     "quickstart.md",
 ]
+LONG = "artifacts.md", "coulomb.md", "derivations.md", "distances.md", "guides/runs.md"
+"""Pages whose commands take seconds."""
 READERS_OWN = "my_sim"
 STEP = re.compile(r"--step (\d+)")
 FINDS = "opinion"
@@ -38,9 +39,11 @@ FINDS = "opinion"
 PYTHON = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize(
-    "page", marked_parameters(PAGES, {"guides/does_my_contact_hold.md": "engines"})
-)
+NEEDS = dict.fromkeys(LONG, pytest.mark.long)
+NEEDS["guides/does_my_contact_hold.md"] = pytest.mark.extra("engines")
+
+
+@pytest.mark.parametrize("page", [pytest.param(p, marks=NEEDS.get(p, ())) for p in PAGES])
 def test_the_commands_of_a_page_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     if "contact_hold" in page:  # the scenes that the page links to

@@ -110,7 +110,10 @@ def test_the_command_writes_counterexamples_that_can_be_asked_again(tmp_path, cl
 
 @pytest.mark.parametrize(
     ("name", "program"),
-    [("step", springs_one_by_one), ("selection", the_later_of_equal_distances)],
+    [
+        pytest.param("step", springs_one_by_one, marks=pytest.mark.long),
+        ("selection", the_later_of_equal_distances),
+    ],
 )
 def test_a_bug_that_shows_in_special_cases_alone_is_found(name, program):
     assert challenge(program, layers=[name], cases=120).findings
