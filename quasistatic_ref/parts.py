@@ -159,6 +159,13 @@ def extended_step(
     return extended(step, extension, solver, fast, accuracy, certify)
 
 
+def posed(step: StepData, extension: Extension) -> tuple[StepData, bool]:
+    """``extension``: a step with what of it is data, and whether that is all of it."""
+    with needing("extension"):
+        from quasistatic_ref.optional.extensions import extended
+    return extended.posed(step, extension)
+
+
 def extended_bodies(
     system: System,
     pairs: tuple[ContactPair, ...],

@@ -166,7 +166,6 @@ def summary_record(scenario: Scenario, trajectory: Trajectory, path: Path) -> di
         "certified": certified(trajectory),
         "worst_residual": worst_residual(trajectory),
         "quasi_dynamic_number": header["quasi_dynamic_number"],
-        "largest_drag_share": header["largest_drag_share"],
         "largest_boundary_layer": header["largest_boundary_layer"],
         "milliseconds_per_step": {
             stage: 1e3 * float(seconds.mean()) for stage, seconds in trajectory.seconds.items()
@@ -258,12 +257,7 @@ def worst_residual(trajectory: Trajectory) -> float | None:
 
 
 def _artifacts(header: Mapping[str, Any]) -> str:
-    drag = header["largest_drag_share"]
     Pi = header["quasi_dynamic_number"]
-    share = "not defined" if drag is None else f"{drag:.2g} of what friction can bear"
     number = "not defined" if Pi is None else f"{Pi:.2g}"
     layer = 1e6 * header["largest_boundary_layer"]
-    return (
-        f"largest drag {share}, largest quasi-dynamic number {number}, "
-        f"largest boundary layer {layer:.3g} um"
-    )
+    return f"largest quasi-dynamic number {number}, largest boundary layer {layer:.3g} um"

@@ -85,9 +85,8 @@ def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object
     Returns
     -------
     dict
-        rotation_deg (largest since the grip closed), lift_mm, drag_share (largest of the whole run:
-        drag over the friction that contacts can bear), variables, rows, worst_residual (natural
-        units), findings, and the milliseconds of each part of a step.
+        rotation_deg (largest since the grip closed), lift_mm, variables, rows, worst_residual
+        (natural units), findings, and the milliseconds of each part of a step.
     """
     motion, steps = lift_motion(scenario, trajectory)
     z = motion.t[steps, 2]
@@ -99,7 +98,6 @@ def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object
         "rows": trajectory["A"].shape[1],
         "rotation_deg": float(np.degrees(motion.rotation_since(CLOSED)[steps].max())),
         "lift_mm": 1e3 * float(z[-1] - z[0]),
-        "drag_share": trajectory.header["largest_drag_share"],
         "worst_residual": worst_residual(trajectory),
         "findings": [str(finding) for finding in trajectory.findings],
         **parts,

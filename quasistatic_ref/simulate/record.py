@@ -64,7 +64,7 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
     full = record == "full"
     top.number("h", above=0.0)
     _unless_null(top, "failed", top.text)
-    for name in ("quasi_dynamic_number", "largest_drag_share", "largest_boundary_layer"):
+    for name in ("quasi_dynamic_number", "largest_boundary_layer"):
         _unless_null(top, name, top.number)
     top.text("backend")
     with about_field("cone"):

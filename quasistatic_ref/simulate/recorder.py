@@ -277,7 +277,6 @@ class Recorder:
             "steps": self.steps,
             "failed": failed,
             "quasi_dynamic_number": None,  # the observers know
-            "largest_drag_share": None,
             "largest_boundary_layer": None,
             "contacts": [list(names(p)) for p in arrays["point"]] if full else [],
             "findings": [],

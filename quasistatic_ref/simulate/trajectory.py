@@ -48,10 +48,10 @@ class Trajectory(Plain, HasPage):
         format, version, h, backend, cone, extra (names of an extension's rows), record, n_a, n_u,
         coordinates and their units, positions (entries of q) and slots (places of contacts) by
         name, contacts (names by step), steps; ``quasi_dynamic_number`` (the largest Pi of a
-        step, or None), ``largest_drag_share`` (drag over what contacts can bear, or None) and
-        ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.optional.doctor.artifacts`,
-        without which all three are None; ``alone``, false where the steps are not all that was
-        solved, see :class:`~quasistatic_ref.certify.solution.StepSolution`; ``law``, where that is
+        step, or None) and ``largest_boundary_layer`` [m], see
+        :mod:`~quasistatic_ref.optional.doctor.artifacts`, without which both are None; ``alone``,
+        false where the steps are not all that was solved, see
+        :class:`~quasistatic_ref.certify.solution.StepSolution`; ``law``, where that is
         ``"coulomb"``;
         ``findings``, see :attr:`findings`; ``not_looked_at``, where there is anything, what they
         leave out and why; ``scene``, see

@@ -78,7 +78,6 @@ def _table(report: dict[str, dict[str, object]]) -> list[tuple[str, ...]]:
     labels = {
         "rotation_deg": (f"largest rotation of the bunny, {lift} [deg]", "{:.3f}"),
         "lift_mm": (f"lift height, {lift} [mm]", "{:.2f}"),
-        "drag_share": ("largest drag / friction that contacts can bear [-]", "{:.3f}"),
         "certified": ("certified", "{}"),
         "worst_residual": ("worst residual [natural units]", "{:.1e}"),
         "variables": ("variables", "{}"),

@@ -209,11 +209,11 @@ def pair_accounts(
     slip = None
     turn = None
     if motion is not None:
-        slips = _slips(run, motion)
+        slips = contact_slips(run, motion)
         slip = np.hypot(slips[:, :, 0], slips[:, :, 1])
         turn = np.abs(slips[:, :, 2])
         gap = run["phi"] + np.vecdot(motion[:, :, :3], run["n"])
-        slack = gap - slip_norm(_mu(run) * slips, run.header["cone"])
+        slack = gap - slip_norm(contact_mu(run) * slips, run.header["cone"])
         touch &= slack <= NEAR
         if cone(run.header["cone"]).polyhedral:
             touch |= slack <= TOUCHES
@@ -254,7 +254,7 @@ def _mean(values: Array, on: Mask) -> Array:
 def _loads(run: Trajectory, wrench: Array, of_pair: Mask) -> Loads:
     """Sums over the contacts of a pair, of wrenches (steps, n, 4) [N, N m]."""
     normal = wrench[:, :, 2].sum(axis=1)
-    needs = gauge(run.header["cone"], wrench, _mu(run)[of_pair]).sum(axis=1)
+    needs = gauge(run.header["cone"], wrench, contact_mu(run)[of_pair]).sum(axis=1)
     return Loads(
         normal=normal,
         friction=np.hypot(wrench[:, :, 0], wrench[:, :, 1]).sum(axis=1),
@@ -337,13 +337,13 @@ def _bears(run: Trajectory) -> Mask:
     return pressing(np.maximum.reduceat(of_rows, np.cumsum(counts) - counts, axis=1))
 
 
-def _slips(run: Trajectory, motion: Array) -> Array:
+def contact_slips(run: Trajectory, motion: Array) -> Array:
     """Slips along d1 and d2 [m], and turns of what has torsion [rad], (steps, n_c, 3)."""
     d1, d2 = (np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2"))
     return np.stack([d1, d2, np.where(run["rows"] == 6, motion[:, :, 3], 0.0)], axis=2)
 
 
-def _mu(run: Trajectory) -> Array:
+def contact_mu(run: Trajectory) -> Array:
     """(mu_v, mu_v, mu_omega) of contacts, which is 0 where it is not used, (n_c, 3) [-, -, m]."""
     mu_omega = np.where(run["rows"] == 6, run["mu_omega"], 0.0)
     return np.stack([run["mu_v"], run["mu_v"], mu_omega], axis=1)

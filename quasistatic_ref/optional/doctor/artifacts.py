@@ -1,9 +1,7 @@
-"""How far a run is from physics: its drag, its quasi-dynamic number and its boundary layer.
+"""How far a run is from physics: its quasi-dynamic number and its boundary layer.
 
 They are measured of several steps of a simulator at once, along the first axis.
 """
-
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,66 +10,11 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.ordered import dot
 from quasistatic_ref.optional.doctor.start import free_bases
-from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import BEARS
 
 LIGHT = 1e-3
 """Force that is none, over the weight of a scene's bodies or its largest load [-]."""
-BORNE = 0.1
-"""Normal forces over the weight of a body below which they do not bear it [-]."""
-
-
-def drag_share(
-    system: System,
-    steps: Sequence[StepData],
-    delta_q: Sequence[Array] | Array,
-    wrench: Array,
-    g: float,
-) -> Array:
-    """Spurious drag over what contacts can bear by friction, (R13), of the body with the most.
-
-    The drag on a free body is ||M_u delta_q_u / h^2|| of its translation. Its contacts can bear the
-    sum of mu_v f_n; where they bear nothing by friction, or press with less than a tenth of its
-    weight, its weight counts.
-
-    Parameters
-    ----------
-    system : System
-    steps : sequence of StepData
-        One, whose M_u all of them have; or each.
-    delta_q : sequence of ndarray, each of shape (n_v,)
-    wrench : ndarray, shape (steps, n_c, 4)
-        Of their contacts [N, N m]: those of this delta_q, or of steps with another M_u.
-    g : float
-        Length of gravity [m/s^2].
-
-    Returns
-    -------
-    ndarray, shape (steps,)
-        [-], 1 in free fall; NaN where float64 has no number for it, or nothing floats freely.
-    """
-    first = steps[0]
-    bases = free_bases(system)
-    end = max((base.v.stop for base in bases.values()), default=first.n_a) - first.n_a
-    if len(steps) == 1:
-        momentum = first.momentum(np.asarray(delta_q))
-    else:
-        each = zip(steps, delta_q, strict=True)
-        momentum = np.array([step.momentum(v)[:end] for step, v in each])  # no private rises
-    presses = _loads(wrench)
-    rubs = first.contacts.mu_v * presses
-    largest = np.full(len(delta_q), np.nan)
-    for body, base in bases.items():
-        x = base.v.start
-        of_body = moved(first.contacts, x)
-        drag = _quotient(_lengths(momentum[:, x - first.n_a : x - first.n_a + 3]), first.h**2)
-        friction = _sums(rubs[:, of_body])
-        weight = system.mass(body) * g
-        rubbed = (friction > BEARS * drag) & (_sums(presses[:, of_body]) >= BORNE * weight)
-        share = _quotient(drag, np.where(rubbed, friction, weight))
-        largest = np.fmax(largest, share)
-    return largest
 
 
 def _quotient(over: ArrayLike, under: ArrayLike) -> Array:
@@ -91,12 +34,6 @@ def _lengths(vectors: Array) -> Array:
         return np.asarray(np.sqrt(np.vecdot(vectors, vectors)))
 
 
-def _loads(wrench: Array) -> Array:
-    """f_n [N] of the contacts with load, 0 of the others, shape (steps, n_c)."""
-    f_n = wrench[:, :, 2]
-    return np.where(pressing(f_n), f_n, 0.0)
-
-
 def pressing(normal: Array) -> Mask:
     """Which contacts bear more than noise of the largest force, shape (..., n_c), as `normal`.
 
@@ -106,21 +43,6 @@ def pressing(normal: Array) -> Mask:
         Normal forces [N].
     """
     return np.asarray(normal > BEARS * normal.max(axis=-1, initial=0.0, keepdims=True))
-
-
-def moved(contacts: Contacts, x: int) -> Mask:
-    """Whether the coordinate x, which translates a base, moves each contact, shape (n_c,).
-
-    It moves the points of its body's contacts by one metre per metre, and others not at all: the
-    same in all steps.
-    """
-    column = contacts.J[:, :3, x]
-    return np.asarray(np.linalg.norm(column, axis=1) > 0.5)  # it is 1 or 0, but for rounding
-
-
-def _sums(loads: Array) -> Array:
-    """Sums over contacts, shape (steps,), in their order."""
-    return np.add.accumulate(loads, axis=1)[:, -1] if loads.shape[1] else np.zeros(len(loads))
 
 
 def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: float) -> Array:
@@ -176,3 +98,13 @@ def boundary_layer(gap: Array, wrench: Array) -> Array:
         [N, N m].
     """
     return np.asarray(gap.max(axis=1, where=pressing(wrench[:, :, 2]), initial=0.0))
+
+
+def gives(step: StepData) -> Array:
+    """How far springs let each contact give way along its normal, shape (n_c,) [m/N]."""
+    n_a = step.n_a
+    contacts = step.contacts
+    if not n_a:
+        return np.zeros(contacts.n_c)
+    J_n = np.einsum("ci,civ->cv", contacts.n, contacts.J[:, :3, :n_a])
+    return np.asarray(np.vecdot(J_n, np.linalg.solve(step.K_q, J_n.T).T))

@@ -6,12 +6,12 @@ from typing import Any, NamedTuple
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor import (
     contradictions,
-    drag,
     grips,
     guides,
     placed,
     points,
     solving,
+    statics,
     steps,
     targets,
     task,
@@ -55,6 +55,13 @@ def is_beyond(run: Run) -> str:
     return is_large(run)
 
 
+def has_own_terms(run: Run) -> str:
+    """Why no step is asked by other laws."""
+    if run.small and run.own_terms:
+        return "the user's own costs or constraints are not asked"
+    return is_large(run)
+
+
 def is_cut_short(run: Run) -> str:
     """Why it is not asked whether a task was done."""
     return "" if run.complete else "the run ended early"
@@ -89,19 +96,19 @@ OF_RUN = (
     Check(task.still, is_cut_short),
     Check(task.through, is_cut_short),
     Check(task.idle, is_cut_short),
-    Check(grips.lost, is_cut_short),
+    Check(grips.lost, has_own_terms),
     Check(task.short, is_cut_short),
     Check(guides.locked, is_beyond, "locked guides"),
     Check(steps.sunk),
     Check(steps.crossed),
-    Check(drag.out_of_balance, is_beyond, "equilibrium"),
+    Check(statics.out_of_balance, has_own_terms, "equilibrium"),
     Check(steps.leaps),
     Check(targets.joints_beyond),
     Check(unsupported.falling),
     Check(solving.backend_failures),
-    Check(drag.corners, is_beyond, "artifacts of the model"),
-    Check(drag.drag, is_beyond),
-    Check(drag.layer, is_beyond),
+    Check(statics.corners, has_own_terms, "artifacts of the model"),
+    Check(statics.drag, has_own_terms),
+    Check(statics.layer, has_own_terms),
     Check(solving.unborne, is_beyond, "forces of single contacts"),
 )
 NO_STEPS = (Check(units.no_steps),)

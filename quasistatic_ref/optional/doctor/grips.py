@@ -1,99 +1,119 @@
-"""Grips, contacts from opposite sides, and whether what they hold slips or turns away."""
+"""Grips: what is held from opposite sides by what is driven, and what its contacts lack."""
 
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.numbers.arrays import Indices, Mask
+from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import centre, least
-from quasistatic_ref.optional.doctor.task import Task
+from quasistatic_ref.optional.doctor.start import table
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import SLIPPED
 
+CLOSED = 0.45
+"""Length of the least mean of normals, with weights, of a grip that is closed [-]."""
 TURNED = 0.1
-"""Turn of what a grip carries that counts as lost [rad]."""
-TWISTED = 0.25
-"""Torque of a weight about a grip, over the torsion that this bears, that may turn it away [-]."""
+"""Turn of what a grip holds that counts as lost [rad]."""
+AGREES = 0.5
+"""Cosine between what is missing and the way of what slips from which they agree [-]."""
 
 
 def lost(run: Run) -> Iterator[Finding]:
-    """Grips along which what they hold slips by much, or in which what they carry turns."""
-    task = Task(run)
-    for table, pairs in task.tables.items():
-        slips = {i: slip for i in pairs if (slip := task.accounts[i].slip) is not None}
-        on = task.grips(pairs)
-        if not (task.finished and slips and on.any()):
+    """Bodies that slip or turn by much in all that grips them, whatever its tables.
+
+    The contacts of what is driven are asked alone: a grip is lost if they do not bear the body's
+    loads, and what is missing is along the way by which the body slips.
+    """
+    of_pairs = [run.driven[p.alpha.link] or run.driven[p.beta.link] for p in run.pairs]
+    driven = np.array(of_pairs, dtype=bool)[run.pair_of]
+    for body in run.bodies_of:
+        on = body.contacts & driven & run.presses
+        closed = np.array([_closed(n[here]) for n, here in zip(run["n"], on, strict=True)])
+        if not closed.any():
             continue
-        ways = {i: float(slip[on].sum()) for i, slip in slips.items()}
-        worst = max(ways, key=lambda i: ways[i] / least(run.pairs[i]))
-        pair = run.pairs[worst]
-        name = task.held(worst)
-        way = ways[worst]
-        slipped = way > SLIPPED * least(pair)
-        k = int(np.where(on, slips[worst], 0.0).argmax() if slipped else on.argmax())
-        contacts = task.contacts(pairs)
-        pressed = float(run.at(k).forces[contacts, 2].sum())
-        bears = pair.mu_v * pressed
-        torsion = pair.mu_omega * pressed if pair.rows == 6 else 0.0
-        body = name.partition("/")[0]
-        weight = run.system.mass(body) * run.g
-        arm = _arm(run, body, contacts, k)
-        torque = weight * arm
-        turn = _turn(task, worst, on)
-        turns = turn > TURNED and torque > TWISTED * torsion and weight < bears
-        if turns and (slipped or _carries(task, table, body, k)):
-            rows = " (rows = 6)" if pair.rows == 4 else ""
-            limit = f"mu_omega bears {torsion:.3g} N m"
-            if torque < torsion:
-                limit = f"of the {torsion:.3g} N m that mu_omega bears the weight leaves too little"
-            yield Finding(
-                "lost grip",
-                True,
-                f"raise mu_omega of contacts.{table}{rows}, or hold {name} nearer to its centre of "
-                "mass",
-                f"{name} turns by {amount(turn, 'rad')} in {task.holder(worst)} and slips by "
-                f"{length(way)}: its weight, {length(arm)} beside the grip, asks for {torque:.3g} "
-                f"N m of torsion, and {limit}, at {run['t'][k]:.2f} s",
-                {"turn_rad": turn, "slip_mm": 1e3 * way, "torque_Nm": torque, "step": k},
-            )
-        elif slipped:
-            more = ", and more than its weight pulls at it" if weight < bears else ""
-            yield Finding(
-                "lost grip",
-                True,
-                f"raise mu_v of contacts.{table}, or K_q of what closes it or how far it closes",
-                f"{name} slips by {length(way)} along {task.holder(worst)}; at {run['t'][k]:.2f} s "
-                f"the grip presses with {pressed:.3g} N in all, its friction bears {bears:.3g} N, "
-                f"and {name} weighs {weight:.3g} N{more}",
-                {"slip_mm": 1e3 * way, "bears_N": bears, "weight_N": weight, "step": k},
-            )
+        slips = np.where(on & closed[:, None], np.linalg.norm(run.slips[..., :2], axis=2), 0.0)
+        turns = np.where(on & closed[:, None], np.abs(run.noted("moved")[..., 3]), 0.0)
+        ways = slips.sum(axis=0) / run.sizes
+        turned = turns.sum(axis=0)
+        if ways.max(initial=0.0) <= SLIPPED and turned.max(initial=0.0) <= TURNED:
+            continue
+        scores = (slips / run.sizes / SLIPPED + turns / TURNED).max(axis=1)
+        k = int(scores.argmax())
+        lacks = run.looking.alone(k, body, body.contacts & driven)
+        agrees = lacks is not None and _agreement(run, body, k, on[k], lacks) > AGREES
+        if not agrees and (run.presses[k] & body.contacts & ~driven).any():
+            continue  # it is stroked, and others bear it
+        yield _finding(run, body, k, on[k], lacks, slips, turns)
 
 
-def _turn(task: Task, i: int, on: Mask) -> float:
-    """How far what a pair holds turns in what holds it, while a grip is on [rad]."""
-    pair = task.run.pairs[i]
-    ends = on.nonzero()[0][[0, -1]] + [0, 1]
-    R = [task.run.system.kinematics(task.run["q"][k]).R for k in ends]
-    seen = [of[pair.alpha.link].T @ of[pair.beta.link] for of in R]
-    return float(Rotation.from_matrix(seen[1] @ seen[0].T).magnitude())
+def _closed(n: Array) -> bool:
+    """Whether normals, (n_c, 3), nearly cancel with weights >= 0 of sum 1."""
+    from scipy.optimize import nnls  # takes as long as a short run
+
+    if len(n) < 2:
+        return False
+    _, left = nnls(np.vstack([n.T, np.ones(len(n))]), np.array([0.0, 0.0, 0.0, 1.0]))
+    return bool(left < CLOSED)
 
 
-def _arm(run: Run, name: str, contacts: Indices, k: int) -> float:
-    """Lever arm of a free body's weight about the normal of a grip in step k [m]; else 0."""
-    pressing = contacts[run["wrench"][k, contacts, 2] > 0]
-    if name not in run.free_bases or not run.g or not pressing.size:
-        return 0.0
-    away = centre(run.system, run.system.kinematics(run["q"][k]), name)
-    away = away - run["beta"][k, pressing].mean(axis=0)
-    return abs(float(np.cross(run.gravity / run.g, run["n"][k, pressing[0]]) @ away))
+def _agreement(run: Run, body: Body, k: int, on: Mask, lacks: Missing) -> float:
+    """Cosine between a body's first acceleration and its way over what grips it [-]."""
+    contacts = run.at(k).contacts
+    J = contacts.J[on][:, :, body.coordinates]
+    frames = np.stack(frame_jacobian(contacts, contacts.J), axis=1)[on][:, 1:3, body.coordinates]
+    slips = run.slips[k, on, :2]
+    rows = frames.reshape(-1, frames.shape[-1])
+    rows = np.vstack([rows, J[:, 3]])
+    seen = np.concatenate([slips.ravel(), run.noted("moved")[k, on, 3]])
+    v = np.linalg.lstsq(rows, seen, rcond=1e-9)[0]
+    M = body.inertia(run.at(k).step.M_u, run.system.n_a)
+    starts = np.linalg.solve(M, -lacks.r)
+    sizes = float(np.sqrt((starts @ M @ starts) * (v @ M @ v)))
+    return float(starts @ M @ v) / sizes if sizes > 0 else 0.0
 
 
-def _carries(task: Task, table: str, name: str, k: int) -> bool:
-    """Whether nothing but a table touches a body in step k."""
-    others = [i for i, account in enumerate(task.accounts) if account.table != table]
-    return not any(
-        task.accounts[i].touches[k] and name in task.run.bodies(task.run.pairs[i]) for i in others
+def _finding(
+    run: Run, body: Body, k: int, on: Mask, lacks: Missing | None, slips: Array, turns: Array
+) -> Finding:
+    pairs = sorted({int(i) for i in run.pair_of[on]})
+    tables = " and ".join(sorted({table(run, run.pairs[i]) for i in pairs}))
+    accounts = [run.pair_accounts[i] for i in pairs]
+    holders = " and ".join(
+        dict.fromkeys(
+            x.beta if run.free[run.pairs[i].alpha.link] else x.alpha
+            for i, x in zip(pairs, accounts, strict=True)
+        )
+    )
+    way = float(slips.sum(axis=0).max())
+    turn = float(turns.sum(axis=0).max())
+    pressed = float(run["wrench"][k, on, 2].sum())
+    says = f"the grip presses with {pressed:.3g} N in all, "
+    more = "" if lacks is None else f", and {lacks} are missing"
+    slipped = way > SLIPPED * float(run.sizes[on].min())
+    if turn > TURNED and (not slipped or (lacks is not None and lacks.turning > COUNTS)):
+        rows = "" if all(run.pairs[i].rows == 6 for i in pairs) else " (rows = 6)"
+        remedy = f"raise mu_omega of {tables}{rows}, or hold {body.name} nearer to its centre of "
+        remedy += "mass"
+        does = f"turns by {amount(turn, 'rad')} in {holders} and slips by {length(way)}"
+        says += f"mu_omega bears {float(run['wrench'][k, on, 2] @ run.mu[on, 2]):.3g} N m"
+    else:
+        remedy = f"raise mu_v of {tables}, or K_q of what closes it or how far it closes"
+        does = f"slips by {length(way)} along {holders}"
+        says += f"its friction bears {float(run['wrench'][k, on, 2] @ run.mu[on, 0]):.3g} N"
+    return Finding(
+        "lost grip",
+        True,
+        remedy,
+        f"{body.name} {does}; at {run['t'][k]:.2f} s {says}{more}",
+        {
+            "slip_mm": 1e3 * way,
+            "turn_rad": turn,
+            "presses_N": pressed,
+            "missing_N": 0.0 if lacks is None else lacks.force,
+            "missing_Nm": 0.0 if lacks is None else lacks.torque,
+            "step": k,
+        },
     )

@@ -11,8 +11,8 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.account import scene_notes
 from quasistatic_ref.optional.doctor.artifacts import (
     boundary_layer,
-    drag_share,
     gap_after,
+    gives,
     quasi_dynamic_number,
 )
 from quasistatic_ref.optional.doctor.checks import (
@@ -29,7 +29,6 @@ from quasistatic_ref.simulate.finding import Finding, finding_table
 from quasistatic_ref.simulate.observer import Observer, Recording
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.data import StepData
 
 
 class Doctor(Observer):
@@ -41,7 +40,7 @@ class Doctor(Observer):
         Whether to print the findings on standard error, too.
     """
 
-    notes = ("gap", "moved", "Pi", "drag", "layer")
+    notes = ("gap", "moved", "Pi", "layer", "momentum", "gives")
 
     def __init__(self, printed: bool) -> None:
         self.printed = printed
@@ -52,28 +51,30 @@ class Doctor(Observer):
         """What is read at the end, of each step.
 
         Gaps after the step, shape (steps, n_c) [m]; J delta_q, (steps, n_c, 4) [m, m, m, rad], of
-        which a light record holds nothing; each (steps,): Pi, share of drag [-], and boundary layer
-        [m].
+        which a light record holds nothing; each (steps,): Pi [-] and boundary layer [m]; M_u
+        delta_q_u, (steps, n_u) [kg m, kg m^2]; what springs give along n, (steps, n_c) [m/N].
         """
         system = recorder.system
         simulator = recorder.simulator
-        steps: Sequence[StepData] = [results[0].step]
-        delta_q: Sequence[Array] | Array = arrays["delta_q"]
-        if not system.constant_mass_matrix or simulator.extension is not None:
-            steps = [result.step for result in results]
-            delta_q = [result.solution.delta_q for result in results]
+        n_u = system.n_u
         g = float(np.linalg.norm(simulator.gravity))
         gap = gap_after(arrays["phi"], arrays["n"], arrays["motion"])
+        if system.constant_mass_matrix and simulator.extension is None:
+            momentum = results[0].step.momentum(np.asarray(arrays["delta_q"]))
+        else:
+            each = [result.step.momentum(result.solution.delta_q)[:n_u] for result in results]
+            momentum = np.array(each)
         return {
             "gap": gap,
             "moved": arrays["motion"],
-            "Pi": quasi_dynamic_number(system, steps[0], arrays["delta_q"], g),
-            "drag": drag_share(system, steps, delta_q, arrays["wrench"], g),
+            "Pi": quasi_dynamic_number(system, results[0].step, arrays["delta_q"], g),
             "layer": boundary_layer(gap, arrays["wrench"]),
+            "momentum": momentum,
+            "gives": np.array([gives(result.step) for result in results]),
         }
 
     def end(self, recorder: Recording, trajectory: Trajectory, interrupted: bool) -> Trajectory:
-        """The trajectory with its findings; an error costs these, and not the run."""
+        """The trajectory with its findings; an error costs the findings, and not the run."""
         try:
             found, skipped = _found(recorder, trajectory)
         except (MemoryError, QuasistaticError) as error:
@@ -83,7 +84,6 @@ class Doctor(Observer):
             **trajectory.header,
             "scene": scene_notes(recorder),
             "quasi_dynamic_number": largest(recorder.noted("Pi")),
-            "largest_drag_share": largest(recorder.noted("drag")),
             "largest_boundary_layer": largest(recorder.noted("layer")) or 0.0,
             "findings": [finding_table(finding) for finding in found],
         } | ({"not_looked_at": skipped} if skipped else {})
@@ -97,7 +97,7 @@ class Doctor(Observer):
 
 
 def _found(recorder: Recording, trajectory: Trajectory) -> tuple[list[Finding], str]:
-    """The findings on a run, and what is not looked at."""
+    """The findings, and what was not looked at."""
     of = Start(recorder.simulator, recorder.start)
     checks: tuple[Check, ...] = OF_SCENE
     if trajectory.steps:
@@ -105,4 +105,8 @@ def _found(recorder: Recording, trajectory: Trajectory) -> tuple[list[Finding], 
         checks += OF_RUN
     elif not trajectory.failed:
         checks += NO_STEPS
-    return findings(checks, of), not_looked_at(checks, of)
+    found = findings(checks, of)
+    skipped = [not_looked_at(checks, of)]
+    if isinstance(of, Run) and of.statics is not None:
+        skipped.append(of.statics.not_looked_at)
+    return found, "; ".join(filter(None, skipped))

@@ -1,7 +1,9 @@
 """A run at its end: what findings after the run look at."""
 
+from __future__ import annotations
+
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,11 +11,17 @@ from numpy.typing import NDArray
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.doctor.account import pair_accounts, sides
-from quasistatic_ref.optional.doctor.artifacts import LIGHT
-from quasistatic_ref.optional.doctor.compared import Compared, RunStep
-from quasistatic_ref.optional.doctor.start import SHORT, Start, least
+from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.optional.doctor.account import (
+    contact_mu,
+    contact_slips,
+    pair_accounts,
+    sides,
+)
+from quasistatic_ref.optional.doctor.bodies import Body, bodies
+from quasistatic_ref.optional.doctor.looks import Looking
+from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.parts import contact_forces, is_there, posed
 from quasistatic_ref.simulate.account import PairAccount
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Recording
@@ -24,11 +32,21 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.tolerances import BEARS
+
+if TYPE_CHECKING:
+    from quasistatic_ref.certify.contact_forces import ContactForces
+    from quasistatic_ref.optional.doctor.statics import Statics
+    from quasistatic_ref.step.contacts import Contacts
 
 ACCURATE = ("clarabel", "daqp")
 """Backends whose answers have ten digits without a proof."""
-FEW = 0.01
-"""Motion that is none, over the longest of a contact in a step of the run [-]."""
+FAR = 0.1
+"""Way of a body over its size [-], or its turn [rad], that counts."""
+HELD = 1e-9
+"""Change of a target that is none [m, rad, -]."""
+SAMPLED = 21
+"""Steps, spread over a run, between which the way of a body is taken."""
 
 
 class Run(Start):
@@ -49,11 +67,8 @@ class Run(Start):
         self.complete = trajectory.failed is None
         self._steps: dict[int, RunStep] = {}
         self._solvers: dict[str, Solver] = {}
-
-    @cached_property
-    def compared(self) -> Compared:
-        """Its documented steps, solved again; none if it is not `searched`."""
-        return Compared(self)
+        self.looking = Looking(self)
+        self.statics: Statics | None = None
 
     @cached_property
     def pair_accounts(self) -> list[PairAccount]:
@@ -62,22 +77,88 @@ class Run(Start):
         return pair_accounts(self.trajectory, named, self.noted("moved"), None)
 
     @cached_property
-    def light(self) -> float:
-        """A force that is none [N]: a thousandth of what is free weighs, or presses in the run."""
-        weight = sum(self.system.mass(name) for name in dict.fromkeys(self.owners)) * self.g
-        pressed = self["wrench"][:, :, 2].sum(axis=1).max(initial=0.0)
-        return LIGHT * max(weight, float(pressed))
+    def bodies_of(self) -> tuple[Body, ...]:
+        """What un-actuated coordinates move together."""
+        return tuple(bodies(self))
 
     @cached_property
-    def shortest(self) -> Array:
-        """A motion of each pair that is none, shape (pairs,) [m].
+    def presses(self) -> Mask:
+        """Which contacts press, shape (steps, n_c): a share of what a body's largest force is."""
+        f_n = self["wrench"][:, :, 2]
+        most = np.zeros_like(f_n)
+        alone = np.ones(f_n.shape[1], dtype=bool)
+        for body in self.bodies_of:
+            alone &= ~body.contacts
+        for of in (*(body.contacts for body in self.bodies_of), alone):
+            largest = f_n[:, of].max(axis=1, initial=0.0, keepdims=True)
+            most[:, of] = np.maximum(most[:, of], largest)
+        return np.asarray(f_n > BEARS * most)
 
-        It is a millionth of its smaller shape, or a hundredth of the longest step of a contact in
-        the run.
+    @cached_property
+    def mu(self) -> Array:
+        """(mu_v, mu_v, mu_omega) of contacts, shape (n_c, 3) [-, -, m]."""
+        return contact_mu(self.trajectory)
+
+    @cached_property
+    def slips(self) -> Array:
+        """Slips along d1 and d2 [m] and turns of what has torsion [rad], shape (steps, n_c, 3)."""
+        return contact_slips(self.trajectory, self.noted("moved"))
+
+    @property
+    def scaled_slips(self) -> Array:
+        """The same times friction, as cones take them, shape (steps, n_c, 3) [m]."""
+        return self.mu * self.slips
+
+    @cached_property
+    def targets_move(self) -> Mask:
+        """Whether a target moves in each step, shape (steps,): where none does, bodies settle."""
+        ways = np.abs(np.diff(self["q_bar_a"], axis=0)).max(axis=1, initial=0.0) > HELD
+        return np.concatenate([ways[:1], ways]) if len(ways) else np.zeros(self.steps, dtype=bool)
+
+    def drags(self, body: Body) -> Array:
+        """What inertia bears of a body's load in each step, shape (steps,) [N]."""
+        n_a = self.system.n_a
+        M = body.inertia(self.system.M_u(self.q_start), n_a)
+        return body.amount(M, self.noted("momentum")[:, body.coordinates - n_a] / self.h**2)
+
+    def loads(self, body: Body) -> Array:
+        """A body's own load in each step, shape (steps,) [N].
+
+        It is what gravity and other loads are, or the largest force on it in the run.
         """
-        longest = np.linalg.norm(self.noted("moved")[:, :, :3], axis=2).max(initial=0.0)
-        sizes = np.array([least(pair) for pair in self.pairs])
-        return np.asarray(np.maximum(SHORT * sizes, FEW * longest))
+        n_a = self.system.n_a
+        M = body.inertia(self.system.M_u(self.q_start), n_a)
+        tau = body.amount(M, self.noted("tau")[:, body.coordinates])
+        pressed = float(self["wrench"][:, body.contacts, 2].max(initial=0.0))
+        return np.asarray(np.maximum(tau, pressed or (0.0 if tau.any() else 1.0)))
+
+    def load(self, body: Body, k: int) -> float:
+        """The same in one step [N]."""
+        return float(self.loads(body)[k])
+
+    def delta_q_of(self, k: int, n_v: int) -> Array:
+        """delta_q of step k, with private rises that do not rise, shape (n_v,) [m, rad]."""
+        delta_q = self["delta_q"][k]
+        return np.pad(delta_q, (0, n_v - len(delta_q)))
+
+    def posed(self, k: int) -> StepData:
+        """Step k with the rows and private rises of its extension."""
+        extension = self.simulator.extension
+        step = self.at(k).step
+        return step if extension is None else posed(step, extension(self["q"][k]))[0]
+
+    def way(self, body: Body, first: int = 0) -> tuple[float, float]:
+        """How far a body gets from where a step starts: [m] and [rad]."""
+        steps = np.unique(np.linspace(first, self.steps, SAMPLED).round().astype(int))
+        return body.moves(self["q"][steps])
+
+    def gets_far(self, name: str) -> bool:
+        """Whether a body moves by more than a tenth of its size, or 0.1 rad."""
+        for body in self.bodies_of:
+            if body.name == name:
+                length, angle = self.way(body)
+                return length > FAR * body.size or angle > FAR
+        return False
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]
@@ -101,6 +182,11 @@ class Run(Start):
         """Whether a step of it may be solved once more, as a convex step without an extension."""
         convex = self.simulator.law == CONVEX
         return self.small and convex and self.simulator.extension is None
+
+    @property
+    def own_terms(self) -> bool:
+        """Whether a user's own costs or constraints are more than rows and rises."""
+        return self.extension is not None and not posed(self.at(0).step, self.extension)[1]
 
     def at(self, k: int) -> RunStep:
         """Step k, which is kept."""
@@ -127,6 +213,56 @@ class Run(Start):
         if step.cone not in self._solvers or not self._solvers[step.cone].fits(step):
             self._solvers[step.cone] = solver_for(step, fast=fast)
         return self._solvers[step.cone]
+
+
+class RunStep:
+    """A step of a run.
+
+    Parameters
+    ----------
+    run : Run
+    k : int
+        Of the step.
+    """
+
+    def __init__(self, run: Run, k: int) -> None:
+        self.run = run
+        self.k = k
+
+    @cached_property
+    def contacts(self) -> Contacts:
+        """Its contacts."""
+        kinematics = self.run.system.kinematics(self.run["q"][self.k])
+        return self.run.simulator.geometry.contacts(self.run.points_of(self.k), kinematics)
+
+    @cached_property
+    def step(self) -> StepData:
+        """Its problem, up to rounding."""
+        run = self.run
+        k = self.k
+        load = run.noted("tau")[k]
+        return run.simulator.step_under(run["q"][k], run["q_bar_a"][k], load, self.contacts)
+
+    @cached_property
+    def compliant(self) -> ContactForces | None:
+        """The forces of single contacts in a polyhedral cone, where they are rational.
+
+        None if the run is not `searched`, or there is no optional/forces.
+        """
+        polyhedral = cone(self.run.simulator.cone).polyhedral
+        if not (self.run.searched and polyhedral and is_there("forces")):
+            return None
+        near = self.run["delta_q"][self.k], self.run["wrench"][self.k]
+        return contact_forces(self.step, near)
+
+    @property
+    def forces(self) -> Array:
+        """Forces of single contacts, shape (n_c, 4) [N, N m].
+
+        Where they cannot be formed, what the multipliers of the step combine to.
+        """
+        compliant = self.compliant
+        return np.asarray(self.run["wrench"][self.k]) if compliant is None else compliant.wrench
 
 
 def largest(values: Array) -> float | None:

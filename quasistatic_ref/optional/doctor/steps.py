@@ -7,8 +7,10 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.doctor.looks import SLOW
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
+from quasistatic_ref.optional.doctor.statics import statics
 from quasistatic_ref.optional.doctor.telling import amount
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import BEYOND, FILLED, LEAP, SUNK
@@ -25,6 +27,7 @@ def leaps(run: Run) -> Iterator[Finding]:
     How far a body moves that is not in equilibrium says nothing: it has a finding of its own.
     """
     sides = run.sides
+    unbalanced = {name for look in statics(run).looks for name in look.missing[SLOW]}
     jumps = {
         track.joint.name: abs(float(track.values[0, 0] - run.q_start[track.joint.q][0]))
         for track in run.recorder.tracks
@@ -33,7 +36,7 @@ def leaps(run: Run) -> Iterator[Finding]:
     links = np.array([side.link for side in sides], dtype=np.int64)
     leaps_of_pairs: list[tuple[int, float, Finding]] = []
     for joint in run.system.joints:
-        if joint.name.partition("/")[0] in run.compared.unbalanced:
+        if joint.name.removesuffix("/base") in unbalanced:
             continue
         moved = [sides[i] for i in np.flatnonzero(run.moves[links, joint.v].any(axis=1))]
         motion = run["delta_q"][:, joint.v]

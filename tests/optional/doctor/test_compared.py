@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Sphere
-from quasistatic_ref.optional.doctor.compared import RunStep
 from tests.model.urdf.urdf_texts import link, robot
 from tests.optional.doctor.words import (
     TIP,
@@ -50,17 +49,6 @@ def test_what_a_spring_presses_presses_harder_while_it_slides(h):
     assert f"{finding.numbers['normal_N']:.3g} N" in finding.cause
 
 
-def test_a_step_in_which_coulombs_law_settles_nothing_is_counted(monkeypatch):
-    (finding,) = found(wiper(0.01))
-    assert finding.numbers["steps_without_fixed_point"] == 0
-    step = finding.numbers["step"]
-    coulomb = RunStep._coulomb
-    monkeypatch.setattr(RunStep, "_coulomb", lambda at: None if at.k == step else coulomb(at))
-    (finding,) = found(wiper(0.01))
-    assert finding.numbers["steps_without_fixed_point"] == 1
-    assert finding.numbers["step"] != step
-
-
 def test_a_layer_of_less_than_a_tenth_of_the_force_is_not_said():
     """mu_v h v over e is 0.8 %."""
     assert found(wiper(0.01, 4e-4)) == []
@@ -95,7 +83,7 @@ def test_a_slab_that_drag_keeps_from_going_with_its_belt():
     run = plates(0.55, 0.01, 50)
     assert -2.2e-3 < run["q"][-1][3] < -1.8e-3
     (finding,) = found(run)
-    assert (finding.name, "it slips by 0.05" in finding.cause) == ("drag", True)
+    assert (finding.name, "and not without it" in finding.cause) == ("drag", True)
 
 
 def lifted(mu_omega, speed=0.2 / 3, load=0.0):
@@ -126,7 +114,7 @@ def lifted(mu_omega, speed=0.2 / 3, load=0.0):
         (4.0e-3, 0.05 / 3, []),
         (3.2e-3, 0.005 / 3, []),
         (4.7e-3, 0.2 / 3, []),
-        (2.2e-3, 0.005 / 3, ["not in equilibrium"]),
+        (2.2e-3, 0.005 / 3, ["not in equilibrium", "corners of the cone"]),
     ],
 )
 def test_a_grip_that_turns_by_its_drag_alone(mu_omega, speed, names):
@@ -157,10 +145,14 @@ TALL = block(1.0, (0.1, 0.1, 0.3))
 
 
 def test_a_box_that_topples_is_not_in_equilibrium():
-    """At first 3.4 N - 9.81 N 50 / 150 = 0.13 N are missing, and more while it tips."""
+    """About its edge 3.4 N 150 mm - 9.81 N 50 mm are missing: it starts with that over I."""
     run = loaded(TALL, 0.15, (3.4, 0, 0), mu_v=0.9)
     (finding,) = run.findings
-    np.testing.assert_allclose(finding.numbers["missing_N"], 0.13, rtol=0.01)
+    reach = 0.05**2 + 0.15**2
+    at_centre = (0.1**2 + 0.3**2) / 12
+    turns = (3.4 * 0.15 - 9.81 * 0.05) / (at_centre + reach)
+    np.testing.assert_allclose(finding.numbers["missing_N"], turns * np.sqrt(reach), rtol=1e-3)
+    np.testing.assert_allclose(finding.numbers["missing_Nm"], turns * at_centre, rtol=1e-3)
     assert loaded(TALL, 0.15, (3.2, 0, 0), mu_v=0.9).findings == ()
 
 
@@ -200,4 +192,5 @@ def test_a_pile_that_collapses_in_the_corners_of_the_pyramid():
     assert (finding.name, finding.remedy) == ("corners of the cone", 'set cone = "ellipsoid"')
     assert found(pile(0.36, "ellipsoid")) == found(pile(0.45, "pyramid")) == []
     for cone in ("pyramid", "ellipsoid"):
-        assert {finding.name for finding in found(pile(0.3, cone))} == {"not in equilibrium"}
+        names = {finding.name for finding in found(pile(0.3, cone))}
+        assert names - {"corners of the cone"} == {"not in equilibrium"}

@@ -56,7 +56,7 @@ def grip(aside, mu_v, *mu_omega, cone="pyramid"):
 @pytest.mark.parametrize(
     ("aside", "mu_v", "mu_omega", "cone", "remedy", "limit"),
     [
-        (0.04, 0.5, 0.02, "pyramid", "raise mu_omega", "the weight leaves too little"),
+        (0.04, 0.5, 0.02, "pyramid", "raise mu_omega", "mu_omega bears 0.12"),
         (0.0, 0.2, 0.02, "pyramid", "raise mu_v", "its friction bears"),
         (0.04, 2.0, 0.005, "pyramid", "raise mu_omega", "mu_omega bears 0.03"),  # hardly slips
         (0.04, 2.0, 0.005, "ellipsoid", "raise mu_omega", "mu_omega bears 0.03"),
@@ -72,7 +72,6 @@ def test_a_grip_that_is_lost_says_which_limit_was_reached(
     assert [one.remedy.partition(" of ")[0] for one in said] == ([remedy] if remedy else [])
     for one in said:
         assert limit in one.cause
-        assert not aside or "40 mm beside the grip, asks for 0.078" in one.cause
         assert "its friction bears" not in one.cause or aside == 0
 
 

@@ -1,0 +1,179 @@
+"""What un-actuated coordinates move together, and what is missing for its equilibrium."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+from quasistatic_ref.optional.doctor.start import FARTHEST
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.groups import labels
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.doctor.start import Start
+
+EARTH = 9.80665
+"""Unit of acceleration in a sentence [m/s^2]."""
+COUNTS = 0.1
+"""Part of an amount from which on it is said [-]."""
+
+
+class Missing(NamedTuple):
+    """What a body lacks for equilibrium in a step.
+
+    Parameters
+    ----------
+    amount : float
+        Its mass times the root mean square of its points' first acceleration [N]: of no frame, and
+        for comparing alone.
+    force, torque : float
+        Of a free body about its centre of mass; else along its joints that slide and that turn
+        [N, N m].
+    slides, turns : float
+        Acceleration with which it would start [m/s^2, rad/s^2].
+    r : ndarray
+        What would have to be added, along its coordinates [N, N m].
+    k : int
+        The step.
+    turning : float
+        Part of its first kinetic energy that is in turning [-].
+    """
+
+    amount: float
+    force: float
+    torque: float
+    slides: float
+    turns: float
+    r: Array
+    k: int
+    turning: float
+
+    def __str__(self) -> str:
+        parts = []
+        if self.turning < 1 - COUNTS:
+            parts.append(f"{self.force:.3g} N")
+        if self.turning > COUNTS:
+            parts.append(f"{self.torque:.3g} N m")
+        return " and ".join(parts)
+
+    @property
+    def starts(self) -> str:
+        """How it would start to move."""
+        if self.turning > 1 - COUNTS:
+            return f"{self.turns:.2g} rad/s^2"
+        return f"{self.slides / EARTH:.2g} g"
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """What un-actuated coordinates move together.
+
+    Parameters
+    ----------
+    name : str
+        Of a free body; else of a body's first joint.
+    coordinates : ndarray of int
+        Entries of delta_q.
+    free : bool
+        Whether it is one floating base alone.
+    mass : float
+        Of the links that they move [kg].
+    contacts : ndarray of bool, shape (n_c,)
+        Those that they move.
+    size : float
+        Of its largest shape in a pair [m].
+    lengths : ndarray of bool
+        Which coordinates are lengths.
+    joints : tuple of Joint
+    """
+
+    name: str
+    coordinates: Indices
+    free: bool
+    mass: float
+    contacts: Mask
+    size: float
+    lengths: Mask
+    joints: tuple[Joint, ...]
+
+    def amount(self, M: Array, r: Array) -> Array:
+        """Of generalised forces, shape (..., n) [N, N m], in [N]."""
+        per = np.linalg.solve(M, r[..., None])[..., 0]
+        return np.asarray(np.sqrt(self.mass * np.maximum(np.vecdot(r, per), 0.0)))
+
+    def inertia(self, M_u: Array, n_a: int) -> Array:
+        """Its block of M_u."""
+        return np.asarray(M_u[np.ix_(self.coordinates - n_a, self.coordinates - n_a)])
+
+    def missing(self, r: Array, step: StepData, k: int) -> Missing:
+        """What is missing, from r along its coordinates [N, N m]."""
+        M = self.inertia(step.M_u, step.n_a)
+        force, torque = r[self.lengths], r[~self.lengths]
+        start = np.linalg.solve(M, r)
+        slides, turns = start[self.lengths], start[~self.lengths]
+        turning = float(torque @ turns)
+        if self.free:
+            S = M[3:6, :3] / M[0, 0]  # [c]x, of the centre of mass
+            torque = torque - S @ force
+            slides = force / M[0, 0]
+            turning = float(torque @ turns)
+        whole = float(r @ start)
+        return Missing(
+            float(self.amount(M, r)),
+            float(np.linalg.norm(force)),
+            float(np.linalg.norm(torque)),
+            float(np.linalg.norm(slides)),
+            float(np.linalg.norm(turns)),
+            r,
+            k,
+            turning / whole if whole > 0 else 0.0,
+        )
+
+    def moves(self, q: Array) -> tuple[float, float]:
+        """How far it gets from where q, (n, n_q), starts: [m] and [rad]."""
+        far = [0.0, 0.0]
+        for joint in self.joints:
+            places = q[:, joint.q].tolist()
+            for here in places[1:]:
+                change = joint.change(places[0], here)
+                far[0] = max(far[0], float(np.linalg.norm(change[: joint.lengths])))
+                far[1] = max(far[1], float(np.linalg.norm(change[joint.lengths :])))
+        return far[0], far[1]
+
+
+def bodies(start: Start) -> Iterator[Body]:
+    """What un-actuated coordinates move together, in a scene."""
+    system = start.system
+    n_a = system.n_a
+    coordinates = system.coordinates[n_a:]
+    joints = [joint for joint in system.joints if not joint.actuated]
+    of_joint = np.zeros((len(joints), len(coordinates)), dtype=bool)
+    for i, joint in enumerate(joints):
+        of_joint[i, joint.v.start - n_a : joint.v.stop - n_a] = True
+    couplings = np.vstack([of_joint, system.M_u(start.q_start) != 0])
+    label, _ = labels(couplings)
+    for first in np.unique(label):
+        at = n_a + np.flatnonzero(label == first)
+        own = tuple(joint for joint in joints if joint.v.start in at)
+        free = len(own) == 1 and own[0].free
+        links: Mask = np.asarray(np.any(start.moves[:, at], axis=1), dtype=np.bool_)
+        of_pairs = np.array(
+            [links[p.alpha.link] or links[p.beta.link] for p in start.pairs], dtype=np.bool_
+        )
+        extents = [side.shape.extent for side in start.sides if links[side.link] and side.link]
+        size = max((x for x in extents if 0 < x < np.inf), default=FARTHEST)
+        yield Body(
+            own[0].name.removesuffix("/base"),
+            at,
+            free,
+            float(system.masses[links].sum()) or 1.0,
+            np.asarray(of_pairs[start.pair_of]),
+            size,
+            np.array([coordinates[i - n_a].unit == "m" for i in at]),
+            own,
+        )
