@@ -338,7 +338,10 @@ def _bears(run: Trajectory) -> Mask:
 
 
 def contact_slips(run: Trajectory, motion: Array) -> Array:
-    """Slips along d1 and d2 [m], and turns of what has torsion [rad], (steps, n_c, 3)."""
+    """Slips along d1 and d2 [m], and turns of what has torsion [rad], (steps, n_c, 3).
+
+    They are of a motion, J delta_q, shape (steps, n_c, 4) [m, m, m, rad].
+    """
     d1, d2 = (np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2"))
     return np.stack([d1, d2, np.where(run["rows"] == 6, motion[:, :, 3], 0.0)], axis=2)
 

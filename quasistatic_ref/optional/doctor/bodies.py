@@ -102,12 +102,12 @@ class Body:
     joints: tuple[Joint, ...]
 
     def amount(self, M: Array, r: Array) -> Array:
-        """Of generalised forces, shape (..., n) [N, N m], in [N]."""
+        """Of generalised forces r, shape (..., n) [N, N m], with the inertia M, (n, n), in [N]."""
         per = np.linalg.solve(M, r[..., None])[..., 0]
         return np.asarray(np.sqrt(self.mass * np.maximum(np.vecdot(r, per), 0.0)))
 
     def inertia(self, M_u: Array, n_a: int) -> Array:
-        """Its block of M_u."""
+        """Its block of M_u, shape (n_u, n_u); n_a coordinates come before."""
         return np.asarray(M_u[np.ix_(self.coordinates - n_a, self.coordinates - n_a)])
 
     def missing(self, r: Array, step: StepData, k: int) -> Missing:

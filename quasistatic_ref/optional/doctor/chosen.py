@@ -64,7 +64,9 @@ def _of_bodies(run: Run) -> list[Asked]:
     for body in run.bodies_of:
         drags = run.drags(body) / run.loads(body)
         slips = ways[:, body.contacts].max(axis=1, initial=0.0)
-        slips = slips * body.mass / run.h**2 / run.loads(body)
+        with np.errstate(all="ignore"):
+            slips = slips * body.mass / run.h / run.h / run.loads(body)
+        slips = np.where(np.isfinite(slips), slips, 0.0)
         sets = near[:, body.contacts]
         here = drags > LITTLE
         if body.free:

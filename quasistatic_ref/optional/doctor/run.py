@@ -116,10 +116,16 @@ class Run(Start):
         return np.concatenate([ways[:1], ways]) if len(ways) else np.zeros(self.steps, dtype=bool)
 
     def drags(self, body: Body) -> Array:
-        """What inertia bears of a body's load in each step, shape (steps,) [N]."""
+        """What inertia bears of a body's load in each step, shape (steps,) [N].
+
+        0 where float64 has no number for it, as with an h of 1e-308 s.
+        """
         n_a = self.system.n_a
         M = body.inertia(self.system.M_u(self.q_start), n_a)
-        return body.amount(M, self.noted("momentum")[:, body.coordinates - n_a] / self.h**2)
+        with np.errstate(all="ignore"):
+            r = self.noted("momentum")[:, body.coordinates - n_a] / self.h / self.h
+            drags = body.amount(M, r)
+        return np.where(np.isfinite(drags), drags, 0.0)
 
     def loads(self, body: Body) -> Array:
         """A body's own load in each step, shape (steps,) [N].

@@ -168,7 +168,7 @@ class Tangents:
 
 
 def slip_of(step: StepData, delta_q: Array) -> Array:
-    """The norm of each contact's slip in the step's cone, shape (n_c,) [m]."""
+    """The norm of each contact's slip by delta_q, shape (n_v,), in the step's cone, (n_c,) [m]."""
     _, *J_t = frame_jacobian(step.contacts, step.contacts.J)
     scaled = step.contacts.mu * np.stack([J @ delta_q for J in J_t], axis=1)
     if not cone(step.cone).polyhedral:
@@ -179,7 +179,10 @@ def slip_of(step: StepData, delta_q: Array) -> Array:
 def by_coulomb(
     step: StepData, solvers: Solvers, start: Array, *, proved: bool
 ) -> tuple[Iterate[Answer], int]:
-    """The step by Coulomb's law: phi is raised by the slip that comes of it."""
+    """The step by Coulomb's law: phi is raised by the slip that comes of it.
+
+    The iteration starts at start, shape (n_c,) [m].
+    """
     J = np.abs(step.contacts.J)
     mu = step.contacts.mu
     tangents = Tangents(mu)
@@ -237,7 +240,10 @@ class Climb:
 
 
 def rung(step: StepData, T: float, solvers: Solvers, sizes: Array, start: Array) -> Rung | None:
-    """The step by Coulomb's law at T, from floats; None where no fixed point is found."""
+    """The step by Coulomb's law at T [s], from floats; None where no fixed point is found.
+
+    The iteration starts at start [m], and shapes have sizes [m], each of shape (n_c,).
+    """
     at, _ = by_coulomb(step.replace(h=T), solvers, start, proved=False)
     if not at.converged and cone(step.cone).polyhedral:
         at, _ = by_coulomb(step.replace(h=T), solvers, at.image, proved=True)

@@ -349,7 +349,8 @@ def _changes(every: Statics, look: Look, one: str, other: str) -> Iterator[Chang
         most = float(run["wrench"][:, of_pair, 2].sum(axis=1).max())
         rubs = max(force, most / 2)
         arm = rubs * pair.mu_omega if pair.rows == 6 else np.inf
-        sizes = {"normal": max(force, most), "friction": rubs, "torque": arm}
+        whole = force if force > COUNTS * most else most
+        sizes = {"normal": whole, "friction": rubs, "torque": arm}
         shares = {
             name: abs(here[name] - there[name]) / sizes[name]
             if known[name] and sizes[name] > 0

@@ -12,6 +12,7 @@ from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
+from quasistatic_ref.optional.doctor.looks import SLOW
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import SHORT, Start, body, joining, least
 from quasistatic_ref.shapes.placed_shape import PointCloud
@@ -92,7 +93,7 @@ class Fall(NamedTuple):
 def falls(run: Run) -> dict[str, Fall]:
     """Free bodies, by name, that nothing bears or holds in the last step, and that move down in it.
 
-    A force below 1e-3 of a body's weight does not bear it.
+    A force below 1e-3 of a body's weight does not bear it, but a soft spring under it does slowly.
     """
     if not run.g:
         return {}
@@ -109,7 +110,17 @@ def falls(run: Run) -> dict[str, Fall]:
             first = int(len(free) - np.argmin(free[::-1])) if not free.all() else 0
             sinking[name] = Fall(first, float(drop[first:].sum()), of_body)
     others = alone(run) | held(run, sinking)
+    others |= {name for name in sinking if name not in others and _yields(run, name)}
     return {name: fall for name, fall in sinking.items() if name not in others}
+
+
+def _yields(run: Run, name: str) -> bool:
+    """Whether what touches a body in the last step bears it slowly, as a soft spring does."""
+    if not run.small or run.own_terms:
+        return False
+    look = run.looking.at(run.steps - 1, {name})
+    touches = bool((look.asked & run.of_body(name)).any())
+    return touches and name in look.bodies and name not in look.missing[SLOW]
 
 
 def _remedy(of_body: Mask, run: Run, first: int) -> str:

@@ -120,6 +120,7 @@ ARTIFACTS = {
     "block_incline": ["not in equilibrium"],
     "sphere_spin": ["not in equilibrium"],
     "two_finger_pinch": ["corners of the cone"],
+    "peg_in_hole": ["boundary layer"],
 }
 """What is not small: a smooth block slides down its incline, and a sphere is turned by more than
 its floor bears; one of two bars is held in the ellipsoid alone; a door is set in motion."""
