@@ -390,12 +390,12 @@ def missing(step: StepData, climbed: Climb, coordinates: Indices) -> Array:
         -(step.M_u @ x.answer.delta_q[step.n_a :])[coordinates] / x.T**2 for x in climbed.rungs
     )
     M = step.M_u[np.ix_(coordinates, coordinates)]
-    size_1, size_2 = (float(np.sqrt(r @ np.linalg.solve(M, r))) for r in (r_1, r_2))
-    falls = size_2 * other.T < size_1 * one.T
-    if not falls:
-        return r_2
-    if max(SLOWLY, 1000 * step.h) * (1 - 1e-9) <= other.T:
-        return np.zeros_like(r_2)
     left = (other.T**2 * r_2 - one.T**2 * r_1) / (other.T**2 - one.T**2)
-    size = float(np.sqrt(left @ np.linalg.solve(M, left)))
-    return np.asarray(left if size > STRAIGHT * size_2 else np.zeros_like(r_2))
+    size_1, size_2, size_left, change = (
+        float(np.sqrt(r @ np.linalg.solve(M, r))) for r in (r_1, r_2, left, r_2 - r_1)
+    )
+    ends = max(SLOWLY, 1000 * step.h) * (1 - 1e-9) <= other.T
+    if size_2 * other.T >= size_1 * one.T:  # it does not fall
+        return r_2 if ends or change > size_2 / 2 else np.asarray(left)
+    nothing = ends or size_left <= STRAIGHT * size_2
+    return np.zeros_like(r_2) if nothing else np.asarray(left)

@@ -14,7 +14,7 @@ from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor import chosen
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
 from quasistatic_ref.optional.doctor.looks import COULOMB, MODEL, ROUND, RUN, SLOW, Look
-from quasistatic_ref.optional.doctor.run import FAR, Run
+from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.optional.doctor.unsupported import falls
 from quasistatic_ref.simulate.finding import Finding
@@ -109,11 +109,13 @@ def out_of_balance(run: Run) -> Iterator[Finding]:
         if every.rests(body):
             if every.settles(body):
                 continue
-            first = found[0][0].k
-            steps = int(np.flatnonzero(run.drags(body) > chosen.LITTLE * run.loads(body))[-1])
-            way, turn = run.way(body, first)
-            far = length(way) if way > FAR * body.size else amount(turn, "rad")
-            then = f"it falls by {far} in {steps + 1 - first} steps, then lies still"
+            drags = run.drags(body)[look.k :] > chosen.LITTLE * run.loads(body)[look.k :]
+            steps = 1 + int(np.flatnonzero(drags).max(initial=0))
+            way, turn = run.way(body, look.k)
+            does = f"falls by {length(way)}"
+            if turn > way / body.size:
+                does = f"turns by {amount(turn, 'rad')}"
+            then = f"from there it {does} in {steps} steps, then lies still"
         yield Finding(
             "not in equilibrium",
             False,
@@ -346,6 +348,8 @@ def _changes(every: Statics, look: Look, one: str, other: str) -> Iterator[Chang
         here, there = _sums(run, look, one, of_pair), _sums(run, look, other, of_pair)
         known = _known(look, inner, of_pair)
         force = max(here["normal"], there["normal"], here["friction"], there["friction"])
+        if near and force <= COUNTS * min(run.load(body, look.k) for body in near):
+            continue  # it hardly bears them, as where they are being put down or lifted
         most = float(run["wrench"][:, of_pair, 2].sum(axis=1).max())
         rubs = max(force, most / 2)
         arm = rubs * pair.mu_omega if pair.rows == 6 else np.inf
