@@ -5,12 +5,10 @@ Readers of others pass over what they do not know, and take a file that was cut 
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, Final
 
 import numpy as np
-from numpy.lib.recfunctions import unstructured_to_structured
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, about_field
@@ -176,69 +174,8 @@ def _off(content: bytes) -> Mesh:
     return Mesh(_points(points), _fans(faces))
 
 
-@dataclass
-class _Element:
-    """An element that the header of a PLY announces.
-
-    Parameters
-    ----------
-    name : str
-    count : int
-    properties : list of (str, dtype, dtype or None)
-        Name, kind, and of a list the kind of its length.
-    """
-
-    name: str
-    count: int
-    properties: list[tuple[str, np.dtype[Any], np.dtype[Any] | None]]
-
-
-class _PlyBody:
-    """The numbers of a PLY after its header, taken in order."""
-
-    def __init__(self, content: bytes, is_text: bool) -> None:
-        words = content.decode("latin-1").split() if is_text else []
-        self.numbers = np.array([number_or_nan(word) for word in words]) if is_text else None
-        self.content = content
-        self.at = 0
-
-    @property
-    def left(self) -> bytes | Array:
-        """What was not taken."""
-        return self.content[self.at :] if self.numbers is None else self.numbers[self.at :]
-
-    def take(self, kind: np.dtype[Any], count: int) -> NDArray[Any]:
-        """Numbers of one kind, or rows of several; fewer where the file ends."""
-        size = kind.itemsize if self.numbers is None else len(kind.names or "1")
-        count = min(count, len(self.left) // size)
-        start = self.at
-        self.at += count * size
-        if self.numbers is None:
-            return np.frombuffer(self.content, kind, count, start)
-        taken = self.numbers[start : self.at]
-        if kind.names is None:
-            if kind.kind != "f" and (taken % 1).any():
-                raise ModelError("must be whole numbers", field="list", value=taken.tolist())
-            return taken
-        return unstructured_to_structured(taken.reshape(count, size), kind)
-
-    def rows(self, element: _Element) -> dict[str, Any]:
-        """Of each property, one value for each time that the element comes, or one list."""
-        columns: dict[str, list[Any]] = {name: [] for name, *_ in element.properties}
-        if all(length is None for *_, length in element.properties):
-            fields = [(name, kind) for name, kind, _ in element.properties]
-            table = self.take(np.dtype(fields), element.count)
-            check_equal(element.name, len(table), element.count)
-            return {name: table[name] for name, _ in fields}
-        for number in range(element.count):
-            for name, kind, length in element.properties:
-                counts = self.take(length, 1).tolist() if length is not None else [1]
-                if not counts:
-                    check_equal(element.name, number, element.count)
-                values = self.take(kind, max(0, int(counts[0]))).tolist()
-                check_equal(f"{element.name}[{number}].{name}", len(values), counts[0])
-                columns[name].append(values if length is not None else values[0])
-        return columns
+_Properties = list[tuple[str, np.dtype[Any], np.dtype[Any] | None]]
+"""Name and kind of each property of an element of a PLY, and of a list the kind of its length."""
 
 
 def _ply(content: bytes) -> Mesh:
@@ -246,54 +183,98 @@ def _ply(content: bytes) -> Mesh:
     head = re.match(rb"ply\s.*?\nend_header[ \t]*\r?\n", content[:LARGEST_HEADER], re.DOTALL)
     if head is None:
         raise ModelError("must begin with ply, and have an end_header")
-    order, elements = _ply_header(_lines(head[0])[1:-2])
-    body = _PlyBody(content[head.end() :], order == "")
-    read = {element.name: body.rows(element) for element in elements}
-    if order == "":  # each entry has a line
-        filled = sum(1 for line in _lines(content[head.end() :]) if line.strip())
-        check_equal("lines", filled, sum(element.count for element in elements))
-    if bytes(body.left).strip():
+    is_text, elements = _ply_header(_lines(head[0])[1:-2])
+    body = content[head.end() :]
+    lines = [line for line in _lines(body) if line.strip()] if is_text else []
+    if is_text:
+        body = np.array([number_or_nan(word) for word in " ".join(lines).split()]).tobytes()
+    read, left = _ply_entries(body, elements)
+    if is_text:  # each entry has a line
+        check_equal("lines", len(lines), sum(count for _, count, _ in elements))
+    if left.strip():
         raise ModelError("holds more than its header says")
     vertices = read.get("vertex", {"x": (), "y": (), "z": ()})
     points = np.stack([np.asarray(vertices[axis], dtype=np.float64) for axis in "xyz"], axis=1)
-    faces = read.get("face", {"vertex_indices": ()})
     lists = ("vertex_indices", "vertex_index")
-    named = [name for name in lists if name in faces]
-    others = [name for name, columns in read.items() if name != "face" and {*lists} & {*columns}]
-    if len(named) != 1 or others:
+    named = [
+        (name, one) for name, _, properties in elements for one, *_ in properties if one in lists
+    ]
+    if "face" not in read and not named:
+        return Mesh(points, _fans(()))
+    if [name for name, _ in named] != ["face"]:
         raise ModelError("must be faces with a list vertex_indices", field="face")
-    corners = [_face([int(c) for c in face], number) for number, face in enumerate(faces[named[0]])]
-    return Mesh(points, _fans(corners))
+    corners = read["face"][named[0][1]]
+    if any(corner % 1 for face in corners for corner in face):
+        raise ModelError("must be whole numbers", field="face")
+    return Mesh(points, _fans([_face(face, number) for number, face in enumerate(corners)]))
 
 
-def _ply_header(lines: list[str]) -> tuple[str, list[_Element]]:
-    """The order of bytes, as NumPy names it and none of text, and what follows the header."""
-    order = None
-    elements: list[_Element] = []
+def _ply_entries(
+    body: bytes, elements: list[tuple[str, int, _Properties]]
+) -> tuple[dict[str, Any], bytes]:
+    """Of each element, by the names of its properties, the numbers or lists; and what is left."""
+    at = 0
+
+    def taken(kind: np.dtype[Any], count: int, what: str) -> NDArray[Any]:
+        nonlocal at
+        start = at
+        check_equal(what, min(count, (len(body) - start) // kind.itemsize), count)
+        at += count * kind.itemsize
+        return np.frombuffer(body, kind, count, start)
+
+    read: dict[str, Any] = {}
+    for name, count, properties in elements:
+        if all(length is None for *_, length in properties):
+            fields = [(one, kind) for one, kind, _ in properties]
+            read[name] = taken(np.dtype(fields), count, name)
+            continue
+        columns: dict[str, list[Any]] = {one: [] for one, *_ in properties}
+        for number in range(count):
+            if at == len(body):
+                check_equal(name, number, count)
+            for one, kind, length in properties:
+                what = f"{name}[{number}].{one}"
+                (size,) = (1,) if length is None else taken(length, 1, what).tolist()
+                if size % 1:
+                    raise ModelError("must have a whole number of entries", field=what, value=size)
+                values = taken(kind, max(0, int(size)), what).tolist()
+                columns[one].append(values[0] if length is None else values)
+        read[name] = columns
+    return read, body[at:]
+
+
+def _ply_header(lines: list[str]) -> tuple[bool, list[tuple[str, int, _Properties]]]:
+    """Whether it is text, whose numbers are all taken as float64, and what follows the header."""
+    kinds: dict[str, np.dtype[Any]] = {}
+    is_text = False
+    elements: list[tuple[str, int, _Properties]] = []
     for number, line in enumerate(lines, start=2):
         match line.split():
             case ["format", word, "1.0"] if word in PLY_ORDERS:
-                order = PLY_ORDERS[word]
-            case ["element", name, count] if order is not None and count.isdecimal():
-                elements.append(_Element(name, int(count), []))
-            case ["property", kind, name] if elements and kind in PLY_TYPES:
-                elements[-1].properties.append((name, np.dtype(f"{order}{PLY_TYPES[kind]}"), None))
-            case ["property", "list", length, kind, name] if (
-                elements and kind in PLY_TYPES and length in PLY_TYPES
-            ):
-                kinds = [np.dtype(f"{order}{PLY_TYPES[word]}") for word in (kind, length)]
-                elements[-1].properties.append((name, kinds[0], kinds[1]))
+                is_text = word == "ascii"
+                kinds = {
+                    name: np.dtype("f8" if is_text else PLY_ORDERS[word] + kind)
+                    for name, kind in PLY_TYPES.items()
+                }
+            case ["element", name, count] if kinds and count.isdecimal():
+                elements.append((name, int(count), []))
+            case ["property", kind, name] if elements and kind in kinds:
+                elements[-1][2].append((name, kinds[kind], None))
+            case ["property", "list", length, kind, name] if elements and {kind, length} <= {
+                *kinds
+            }:
+                elements[-1][2].append((name, kinds[kind], kinds[length]))
             case ["comment" | "obj_info", *_] | []:
                 pass
             case _:
                 problem = "is not a line of a header of PLY"
                 raise ModelError(problem, field=f"line {number}", value=line)
-    if order is None:
+    if not kinds:
         raise ModelError("must state its format", field="line 2")
-    names = [element.name for element in elements]
+    names = [name for name, *_ in elements]
     if len(set(names)) < len(names):
         raise ModelError("must name each element once", field="header", value=names)
-    return order, [element for element in elements if element.count]
+    return is_text, [element for element in elements if element[1]]
 
 
 TEXTS: Final[dict[str, Callable[[bytes], Mesh]]] = {

@@ -340,6 +340,9 @@ end_header
 0 1 0
 0 0 1
 """
+FACE = PLY_TEXT.replace(
+    b"end_header", b"element face 1\nproperty list uchar int vertex_indices\nend_header"
+)
 LIES = {
     "text for JSON": ("a.gltf", b"", "cannot be read as a mesh: it is malformed"),
     "a pipe": ("a.gltf", plain_gltf(buffers=[{"uri": "pipe", "byteLength": 72}]), "a pipe, not"),
@@ -368,6 +371,10 @@ LIES = {
     "a binary PLY cut off": ("a.ply", PLY[:-1], r"face\[11\].vertex_indices: must be 3.*got 2"),
     "faces of another name": ("a.ply", PLY.replace(b"t face", b"t fate"), "must be faces with"),
     "two lines for a point": ("a.ply", PLY_TEXT.replace(b"0 0 1", b"0 0\n1"), "lines: must be 4"),
+    "a list of half a corner more": ("a.ply", FACE + b"3.5 0 1 2\n",
+                                     r"face\[0\].vertex_indices: must have a whole number of"),
+    "half a corner": ("a.ply", FACE + b"3 0 1.5 2\n",
+                      "face: must be whole numbers"),
     "nothing placed": ("a.gltf", plain_gltf(nodes=[{}]), "places none of the triangles that it"),
     "a longer PLY": ("a.ply", PLY + b"x", "holds more than its header says"),
     "ten parts": ("a.dae", of_ten(COLLADA.encode()), "places more than 150 vertices and triangles"),
