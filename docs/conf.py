@@ -12,6 +12,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from docutils import nodes
+from sphinx.ext import autosummary
 from sphinx.util.nodes import make_refnode
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -71,6 +72,7 @@ napoleon_use_param = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True
 autosummary_generate = True  # api/names, at each build
+autosummary.WELL_KNOWN_ABBREVIATIONS += ("Eq.", "Eqs.")  # which end no sentence
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 autodoc_default_options = {"members": True, "show-inheritance": True}

@@ -57,10 +57,11 @@ RAW = """
     const words = text.currentNode.data.trim();
     if (!inside && markup.test(words)) raw.push(words.slice(0, 80));
   }
+  for (const formula of document.querySelectorAll('mjx-merror')) raw.push(formula.textContent);
   return raw;
 }
 """
-"""JavaScript: prose in which markup stands that nothing has read."""
+"""JavaScript: prose in which markup stands that nothing has read, and formulas with an error."""
 
 
 @contextmanager
