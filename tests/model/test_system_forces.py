@@ -16,12 +16,6 @@ CART = robot(
 )
 
 
-def test_m_u_of_a_free_body_beside_actuated_joints_is_the_same_everywhere():
-    system = System([Body("crane", CART, actuated="all"), Body("box", BOX, "floating")])
-    assert system.constant_mass_matrix
-    assert system.M_u(system.integrate(system.q_start, np.ones(8))) is system.M_u(system.q_start)
-
-
 def test_m_u_of_free_bodies_beside_free_joints_is_as_their_files_say_to_the_last_bit():
     alone = System([Body("box", BOX, "floating")]).mass_blocks[0]
     tilted = [Body(name, BOX, "floating", rpy=(0.3, 0.4, 0.5)) for name in ("one", "other")]

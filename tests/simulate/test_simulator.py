@@ -6,19 +6,15 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import (
-    Body,
     InputError,
     RunFailed,
-    Simulator,
     StepDataError,
-    System,
     load_scenario,
     rollout,
 )
 from tests.closeness import assert_close, assert_relative
-from tests.model.urdf.urdf_texts import joint, link, robot, urdf_of_text
 from tests.scenes import written_scenario
-from tests.tolerances import ROUNDING, STICKING
+from tests.tolerances import ROUNDING
 
 GRAVITY = 9.81
 
@@ -39,13 +35,6 @@ def test_a_result_is_no_others_to_change(fast):
     assert not result.q.flags.writeable
     listed = scenario.simulator().step(scenario.system.q_start.tolist(), [])
     assert (listed.forces_on("sphere") == before).all()
-
-
-@pytest.fixture
-def lift(tmp_path):
-    """A mass of 2 kg on a vertical slide."""
-    text = robot(link("post"), link("car"), joint("z", "post", "car", "prismatic", "0 0 1"))
-    return System([Body("lift", urdf_of_text(tmp_path, text), actuated=("z",))])
 
 
 def test_the_target_is_a_change_from_where_the_joints_are(scenario):
@@ -128,13 +117,3 @@ def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario):
         rollout(scenario.simulator(), q, scenario.targets, 3, force=force, progress=False)
     assert caught.value.trajectory.steps == 1
     assert isinstance(caught.value.__cause__, StepDataError)
-
-
-def test_an_uncompensated_joint_sags_by_its_weight_over_its_stiffness(lift):
-    feels = np.array([True])
-    K_q = np.array([[400.0]])
-    simulator = Simulator(lift, [], h=0.01, K_q=K_q, gravity_acts=feels)
-    run = rollout(simulator, lift.q_start, lift.q_start, 3, progress=False)
-    sag = 2 * GRAVITY / 400
-    assert_relative(run["tau_a"], [[-2 * GRAVITY]] * 3, ROUNDING)
-    np.testing.assert_allclose(run["q"][:, 0], [0, -sag, -sag, -sag], rtol=STICKING, atol=ROUNDING)

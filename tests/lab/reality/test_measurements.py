@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.folders import reality_folder
-from quasistatic_ref.lab.reality.errors import estimate, pose_errors
+from quasistatic_ref.lab.reality.errors import pose_errors
 from quasistatic_ref.lab.reality.measurements import Loads, loads_read, pairs_read, pushes_read
 from quasistatic_ref.lab.reality.report import certified_words
 
@@ -43,16 +43,6 @@ def test_a_load_means_the_same_about_another_point():
 def test_errors_of_angles_are_taken_the_short_way_round():
     found = pose_errors(np.array([[3.0, 4.0, 3.1]]), np.array([[0.0, 0.0, -3.1]]))
     assert found[0] == pytest.approx([5.0, 2 * np.pi - 6.2])
-
-
-def test_a_bootstrap_interval_is_that_of_the_mean():
-    # The mean of n numbers of standard deviation s has that of s / sqrt(n).
-    rng = np.random.default_rng(1)
-    groups = [rng.normal(2.0, 1.0, size=(400, 1)), rng.normal(4.0, 1.0, size=(400, 1))]
-    found = estimate(groups)
-    width = 2 * 1.96 / np.sqrt(800)
-    assert found["mean"][0] == pytest.approx(3.0, abs=0.15)
-    assert found["high"][0] - found["low"][0] == pytest.approx(width, rel=0.15)
 
 
 def test_steps_without_an_error_bound_are_said():
