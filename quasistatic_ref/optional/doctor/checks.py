@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor import (
     contradictions,
+    flush,
     grips,
     guides,
     placed,
@@ -84,6 +85,7 @@ OF_SCENE = (
     Check(placed.in_the_air),
     Check(placed.inside),
     Check(guides.guided, is_large, "guides"),
+    Check(flush.flush),
     Check(points.few_points, is_large, "points of faces"),
     Check(units.count),
 )
@@ -99,6 +101,7 @@ OF_RUN = (
     Check(grips.lost, has_own_terms),
     Check(task.short, is_cut_short),
     Check(guides.locked, is_beyond, "locked guides"),
+    Check(flush.pushed_back),
     Check(steps.sunk),
     Check(steps.crossed),
     Check(statics.out_of_balance, has_own_terms, "equilibrium"),

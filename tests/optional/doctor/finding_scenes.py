@@ -24,6 +24,7 @@ from quasistatic_ref import (
     Simulator,
     Sphere,
     System,
+    convex_hull,
     mujoco_scenario,
     rollout,
 )
@@ -113,8 +114,8 @@ def findings(
     """What is found in a short run of `contacts`: (alpha, beta, mu_v, k)."""
     system = System(bodies)
     shapes = {"floor": [PlacedShape.in_world("floor", HalfSpace((0, 0, 1.0), 0.0))]}
-    for name, shape, xyz in stands:
-        shapes[name] = [PlacedShape.in_world(name, shape, xyz)]
+    for name, shape, *where in stands:
+        shapes[name] = [PlacedShape.in_world(name, shape, *where)]
     for body in bodies:
         shapes[body.name] = [
             s for s in system.shapes if system.links[s.link].startswith(f"{body.name}/")
@@ -146,6 +147,20 @@ def findings(
     if seconds is not None:
         run = replace(run, seconds={part: np.array([time]) for part, time in seconds.items()})
     return run.findings
+
+
+TABLE = Box(size=(0.5, 0.4, 0.05))
+
+
+def over_a_joint(*right, steps=200):
+    """What is found of a crate that 1 N pushes from one table to another, without friction."""
+    return findings(
+        [box(xyz=(-0.06, 0, 0.05))],
+        [("left", "box", 0.0, 4), ("right", "box", 0.0, 4)],
+        [("left", TABLE, (-0.25, 0, -0.025)), ("right", *right)],
+        push={"box": (1, 0, 0)},
+        steps=steps,
+    )
 
 
 # %% unsupported body: a floor that only one of two boxes knows
@@ -222,6 +237,23 @@ found = findings([box()], lies(k=5), cloud={"box": FACE})
 
 # %% too few points: a cylinder on its end
 found = findings([TIN], lies("tin", k=2))
+
+# %% flush shapes: a crate stops at the next table, which bears 1 N along and 1 N up
+found = over_a_joint(TABLE, (0.25, 0, -0.025))
+(joint_of_two,) = (x for x in found if x.name == "flush shapes")
+assert joint_of_two.numbers["along_N"] == pytest.approx(1.0)
+assert joint_of_two.remedy == "make left and right one shape, or set right 10 um lower"
+
+# %% flush shapes: before a run
+found = over_a_joint(TABLE, (0.25, 0, -0.025), steps=0)
+
+# %% flush shapes: the next table is a mesh
+corners = [(x, y, z) for x in (0, 0.5) for y in (-0.3, 0.2) for z in (-0.05, 0)]
+found = over_a_joint(convex_hull(corners))
+
+# %% flush shapes: the next table is turned by a quarter of a turn
+turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+found = over_a_joint(TABLE, (0.2, 0, -0.025), turn)
 
 # %% density: half a gram in a litre
 found = findings([box(mass=5e-4)])

@@ -95,3 +95,7 @@ found = findings([box()], cloud={"box": raft})
 
 # %% nothing: a passive wheel that turns about itself, and touches nothing
 found = findings([Body("wheel", joint("continuous", "0 0 1"), positions={"joint": 1.0})], [])
+
+# %% nothing: a crate that goes from one table to another, which is 10 um lower
+found = over_a_joint(TABLE, (0.25, 0, -0.02501))
+assert "flush shapes" not in [x.name for x in found]
