@@ -42,9 +42,9 @@ def figure(*, gap=10.0):
     for axes, (name, phi) in zip(row, gaps.items(), strict=True):
         alpha, beta = points(phi)
         axes.add_patch(Circle((0, 0), RADIUS, facecolor="0.85", edgecolor="0.4"))
-        corner = beta - 45 * D1
-        axes.add_patch(Rectangle(corner, 90, 34, angle=turn, facecolor=BLUE, alpha=0.25))
-        axes.plot(*np.array([corner, beta + 45 * D1]).T, color=BLUE, linewidth=scaled(1.2))
+        corner = beta - 38 * D1
+        axes.add_patch(Rectangle(corner, 76, 28, angle=turn, facecolor=BLUE, alpha=0.25))
+        axes.plot(*np.array([corner, beta + 38 * D1]).T, color=BLUE, linewidth=scaled(1.2))
         axes.plot(*np.array([alpha, beta]).T, color=BLACK, linestyle=":", linewidth=scaled(1.2))
         axes.plot(*alpha, "D", linestyle="", color=BLACK, markersize=scaled(4))
         axes.text(*(alpha - 7 * D1 - 2 * np.sign(phi) * N), r"$\alpha$", ha="center", va="center")
@@ -62,11 +62,12 @@ def figure(*, gap=10.0):
                 markersize=scaled(9),
                 markerfacecolor="none",
             )
-        axes.text(*(beta + 15 * D1 - 5 * N), r"$d_2$", color=ORANGE, ha="center", va="center")
+        beside = 6 * D1 + 6 * np.sign(phi) * N
+        axes.text(*(beta + beside), r"$d_2$", color=ORANGE, ha="center", va="center")
         axes.text(0, -27, "first body", ha="center", va="center")
-        axes.text(*(beta + 27 * N - 12 * D1), "second body", color=BLUE, ha="center", va="center")
+        axes.text(*(beta + 23 * N - 15 * D1), "second body", color=BLUE, ha="center", va="center")
         axes.set(xlim=(-41, 63), ylim=(-34, 70), aspect="equal", xticks=[], yticks=[])
-        axes.grid(visible=False)
+        axes.set_axis_off()
         sign = ">" if phi > 0 else "<"
         label_axes(axes, title=rf"{name}: $\phi$ {sign} 0", key=False)
     return made
