@@ -23,7 +23,7 @@ from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.solve.solve import solve_step
 
 H = 0.01
-SEEDS = range(2)
+SEEDS = 0, pytest.param(1, marks=pytest.mark.long)
 SETTLED = 1e-5
 """rho of a state at rest, over the largest load, in the norm of H^-1. This is all that is asked of
 the random models, and no friction or damper is there to reach it: velocities are set to zero

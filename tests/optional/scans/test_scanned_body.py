@@ -35,8 +35,15 @@ def off(made, exact):
     return float(max(np.linalg.norm(made.centre - centre) / extent, moments))
 
 
-@pytest.mark.parametrize("scan", SCANS)
-@pytest.mark.parametrize("solid", SOLIDS)
+EACH = [
+    pytest.param(solid, scan, marks=() if i == j else pytest.mark.long)
+    for i, solid in enumerate(SOLIDS)
+    for j, scan in enumerate(SCANS)
+]
+"""README's line takes every solid and every scan once."""
+
+
+@pytest.mark.parametrize(("solid", "scan"), EACH)
 def test_a_scan_has_the_centre_and_inertia_of_its_solid(solid, scan, tmp_path):
     rng = np.random.default_rng(0)
     points, exact = SOLIDS[solid](rng, 3000)
