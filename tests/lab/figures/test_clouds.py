@@ -36,7 +36,12 @@ def test_a_grip_whose_numbers_are_known_has_the_margin_of_r14():
 
 @pytest.mark.parametrize(
     ("sampling", "change"),
-    [("random", "none"), ("farthest", "none"), ("scan", "none"), ("random", "stiffness")],
+    [
+        ("random", "none"),
+        pytest.param("farthest", "none", marks=pytest.mark.long),
+        ("scan", "none"),
+        pytest.param("random", "stiffness", marks=pytest.mark.long),
+    ],
 )
 def test_a_row_is_made_again_to_the_last_digit(sampling, change):
     of = {"sampling": sampling, "change": change, "count": 992, "seed": 3}
