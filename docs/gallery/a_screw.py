@@ -39,5 +39,5 @@ turned = 1e3 * (outline @ R.T + [ahead, 0, 0])[:, :2].T
 axes.fill(*turned, fill=False, linestyle=":", label="straight, then turned")
 axes.set(xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
 axes.set_title(f"it ends at ({1e3 * end[0]:.1f}, {1e3 * end[1]:.1f}) mm")
-axes.legend(loc="center right")
+figure.legend(loc="outside lower center", ncols=2)
 plt.show()
