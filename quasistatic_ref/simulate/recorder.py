@@ -153,7 +153,8 @@ class Recorder:
         self._latest.append(result)
         self._targets.append(q_bar_a)
         self.steps += 1
-        most = min(PACKED, 1 + LARGEST // max(1, result.step.contacts.J.size))
+        contacts = result.step.contacts
+        most = min(PACKED, 1 + LARGEST // max(1, 4 * contacts.n_c * contacts.n_v))
         if len(self._latest) >= most or any(each.every_step for each in self.observers):
             self.packed()
         now = time.perf_counter()

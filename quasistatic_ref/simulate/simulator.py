@@ -211,7 +211,11 @@ class Simulator(Settings, Shown):
         self.spares: dict[str, Solver] = {}
         self.working_set: tuple[int, ...] = ()
         # H of Eq. (13): refused where it leaves float64's range
-        hessian(self.h, self.K_q, system.M_u(system.q_start))
+        if system.constant_mass_matrix:
+            largest = np.abs(system.mass_blocks).max(axis=0, initial=0.0)
+        else:
+            largest = system.M_u(system.q_start)
+        hessian(self.h, self.K_q, largest)
 
     def __setattr__(self, name: str, value: object) -> None:
         try:

@@ -183,7 +183,7 @@ def answered(
     statistics = SolverStatistics(
         solver.name, "not called", None, None, accuracy, interface=solver.interface
     )
-    if not both.si_form.b.size:
+    if not both.si_step.m:
         return None, statistics._replace(status=FREE)
     if solver.name == NONE:
         return None, statistics

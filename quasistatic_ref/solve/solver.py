@@ -161,7 +161,7 @@ class BackendSolver(Solver):
         StepNotSolved
             If there is none; or, before any call, if the backend may not return from such rows.
         """
-        if not both.si_form.b.size:
+        if not both.si_step.m:
             form = both.natural_form
             x = np.linalg.solve(form.H, form.g).astype(np.float64)
             return Reply(x, np.zeros(0), True, FREE, accuracy=accuracy)

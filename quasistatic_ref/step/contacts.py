@@ -23,6 +23,7 @@ from quasistatic_ref.numbers.arrays import (
     column_count,
     read_only,
 )
+from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.step.cones import has_torsion
 from quasistatic_ref.tolerances import ORTHONORMAL
 
@@ -115,16 +116,20 @@ class Contacts(Plain, Shown):
 
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
-        return self.J @ delta_q
+        return product(self.J, delta_q) + 0.0  # in one order, whatever columns of J are kept
 
     def some(self, contacts: Indices, coordinates: Indices) -> Contacts:
         """Some of the contacts, (k,), with the columns of some coordinates, (n,), of J."""
         keys = ("phi", "n", "d1", "d2", "mu_v", "mu_omega", "rows")
         return Contacts.unchecked(
             name=tuple(self.name[j] for j in contacts.tolist()),
-            J=read_only(self.J[contacts][:, :, coordinates]),
+            J=read_only(self.columns(contacts, coordinates)),
             **{key: read_only(getattr(self, key)[contacts]) for key in keys},
         )
+
+    def columns(self, contacts: Indices, coordinates: Indices) -> Array:
+        """J of some contacts, (k,), and some coordinates, (n,): shape (k, 4, n)."""
+        return self.J[contacts][:, :, coordinates]
 
     @cached_property
     def n_c(self) -> int:

@@ -264,6 +264,10 @@ class StepData(Plain, HasPage):
         """M_u delta_q_u, shape (..., n_u) [kg m, kg m^2], of delta_q, shape (..., n_v) [m, rad]."""
         return np.asarray((self.M_u @ delta_q[..., self.n_a :, None])[..., 0])
 
+    def masses(self, some: Indices) -> Array:
+        """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
+        return self.M_u[np.ix_(some, some)]
+
     def coupled(self) -> Mask:
         """Which entries of H a term of it may have, shape (n_v, n_v)."""
         coupled = np.zeros((self.n_v, self.n_v), dtype=bool)

@@ -82,11 +82,30 @@ def _groups(
         Of the number of rows of each contact.
     """
     near = np.frombuffer(near_contacts, np.bool_)
+    coupling, coordinate = np.nonzero(np.frombuffer(couplings, np.bool_).reshape(shape))
+    return parted(coupling, coordinate, shape, near, np.frombuffer(row_counts, np.int64))
+
+
+def parted(
+    coupling: Indices, coordinate: Indices, shape: tuple[int, int], near: Mask, counts: Indices
+) -> tuple[Group, ...]:
+    """The groups of coordinates that couplings make.
+
+    Parameters
+    ----------
+    coupling, coordinate : ndarray of int, shape (k,)
+        Each coordinate of each coupling: of contacts, of a user's rows, of rows of H.
+    shape : (int, int)
+        Number of couplings and of coordinates.
+    near : ndarray of bool, shape (n_c,)
+        As of :func:`groups`.
+    counts : ndarray of int, shape (n_c,)
+        Number of rows of each contact.
+    """
     n_v = shape[1]
-    label, of_coupling = labels(np.frombuffer(couplings, np.bool_).reshape(shape))
+    label, of_coupling = linked(coupling, coordinate, shape)
     of_contacts = np.where(near, of_coupling[: len(near)], -1)
     of_extra_rows = of_coupling[len(near) : shape[0] - n_v]
-    counts = np.frombuffer(row_counts, np.int64)
     of_rows = np.concatenate([np.repeat(of_contacts, counts), of_extra_rows])
     parts = (label, of_contacts, of_extra_rows, of_rows)
     firsts = np.unique(label) if n_v else np.zeros(1, np.int64)
@@ -96,6 +115,14 @@ def _groups(
 
 
 def labels(couplings: Mask) -> tuple[Indices, Indices]:
+    """As :func:`linked`, of the coordinates of each coupling: a mask, shape (couplings, n)."""
+    coupling, coordinate = np.nonzero(couplings)
+    return linked(coupling, coordinate, couplings.shape)
+
+
+def linked(
+    coupling: Indices, coordinate: Indices, shape: tuple[int, ...]
+) -> tuple[Indices, Indices]:
     """The first coordinate of the group of each coordinate, (n,), and of each coupling.
 
     Each coordinate takes the least label among those that share a coupling with it, until no label
@@ -103,15 +130,16 @@ def labels(couplings: Mask) -> tuple[Indices, Indices]:
 
     Parameters
     ----------
-    couplings : ndarray of bool, shape (couplings, n)
-        Which coordinates each coupling has.
+    coupling, coordinate, shape
+        As of :func:`parted`.
     """
-    n = couplings.shape[1]
+    count, n = shape
     label = np.arange(n)
     while True:
-        least = np.where(couplings, label, n).min(axis=1, initial=n)
-        lower = np.where(couplings, least[:, None], n).min(axis=0, initial=n)
-        lower = np.minimum(label, lower)
+        least = np.full(count, n)
+        np.minimum.at(least, coupling, label[coordinate])
+        lower = label.copy()
+        np.minimum.at(lower, coordinate, least[coupling])
         lower = lower[lower]  # a label is a coordinate of the same group
         if np.array_equal(lower, label):
             return label, np.where(least < n, least, 0)
@@ -138,7 +166,7 @@ def group_step(step: StepData, group: Group) -> StepData:
     return StepData.unchecked(
         h=step.h,
         K_q=read_only(step.K_q[np.ix_(a, a)]),
-        M_u=read_only(step.M_u[np.ix_(u, u)]),
+        M_u=read_only(step.masses(u)),
         tau_a=read_only(step.tau_a[a]),
         tau_u=read_only(step.tau_u[u]),
         delta_q_bar_a=read_only(step.delta_q_bar_a[a]),

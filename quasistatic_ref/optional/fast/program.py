@@ -6,19 +6,18 @@ from typing import Any
 import daqp
 import numpy as np
 
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, read_only
+from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.steps import Steps
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.units import HessianInBothUnits, Units
+from quasistatic_ref.solve.units import Units, hessian_in_both_units
 from quasistatic_ref.step.groups import Group
 from quasistatic_ref.step.standard_form import StandardForm
 
 STATUS = {1: "optimal", 2: "soft optimal", -1: "infeasible", -2: "cycling", -3: "unbounded",
           -4: "iteration limit", -5: "not convex", -6: "overdetermined"}  # fmt: skip
-MOST = 1024
-"""Most coordinates for which ``OFF`` in natural.c is enough."""
 
 
 class Program:
@@ -48,7 +47,7 @@ class Program:
         self.heights = np.array([len(group.rows) for group in groups])
         sizes = self.widths * self.heights
         self.f = np.zeros(len(self.coordinates))
-        self.A = np.zeros(sizes.sum())
+        self.A = np.zeros(1 + sizes.sum())[:-1]  # there is a place for what is in no group
         self.b = np.zeros(len(self.rows))
         every_f = np.split(self.f, np.cumsum(self.widths)[:-1])
         every_A = np.split(self.A, np.cumsum(sizes)[:-1])
@@ -77,6 +76,11 @@ class Program:
         self.b[:] = natural.b[self.rows]
         for group, (_, A, _) in zip(self.groups, self.parts, strict=True):
             A[:] = natural.A[np.ix_(group.rows, group.coordinates)]
+
+    def blocks(self, H: Array) -> list[Array]:
+        """The block of each group of an H, shape (n_v, n_v), in natural units [-]."""
+        every = [group.coordinates for group in self.groups]
+        return [np.ascontiguousarray(H[np.ix_(i, i)]) for i in every]
 
     def joined(self, replies: Sequence[Reply]) -> Reply:
         """The reply to all of it from those to its groups: solved if all of them are."""
@@ -147,32 +151,21 @@ class Workspaces:
     Parameters
     ----------
     program : Program
-    hessian : HessianInBothUnits
+    blocks : list of ndarray, shape (n, n)
+        H of each group in natural units [-].
     options : dict
         DAQP's own.
     """
 
-    def __init__(self, program: Program, hessian: HessianInBothUnits, options: Options) -> None:
+    def __init__(self, program: Program, blocks: Sequence[Array], options: Options) -> None:
         self.program = program
-        self._hessian = hessian
-        self._blocks = self._blocks_of(hessian)
         self._each = [
-            Workspace(H, *part, options)
-            for H, part in zip(self._blocks, program.parts, strict=True)
+            Workspace(H, *part, options) for H, part in zip(blocks, program.parts, strict=True)
         ]
 
-    def _blocks_of(self, hessian: HessianInBothUnits) -> list[Array]:
-        """The block of each group of H in natural units."""
-        H = hessian.natural_H
-        every = [group.coordinates for group in self.program.groups]
-        return [np.ascontiguousarray(H[np.ix_(i, i)]) for i in every]
-
-    def reply(self, hessian: HessianInBothUnits) -> Reply:
-        """Solve the program as it stands, with that H."""
-        if hessian is not self._hessian:
-            self._hessian = hessian
-            self._blocks = self._blocks_of(hessian)
-        both = zip(self._each, self._blocks, strict=True)
+    def reply(self, blocks: Sequence[Array]) -> Reply:
+        """Solve the program as it stands, with these `blocks` of H, each of shape (n, n) [-]."""
+        both = zip(self._each, blocks, strict=True)
         return self.program.joined([one.reply(H) for one, H in both])
 
 
@@ -184,42 +177,72 @@ class NaturalProgram:
     steps : Steps
     program : Program
         Of their groups.
+
+    Attributes
+    ----------
+    blocks : list of ndarray, shape (n, n)
+        H of each group in natural units [-].
     """
 
     def __init__(self, steps: Steps, program: Program) -> None:
         self.program = program
-        self._hessian: HessianInBothUnits | None = None
+        self.blocks: list[Array] = []
+        self._masses: Masses | None = None
+        self._coordinate = np.zeros(0)
         n = len(program.coordinates)
         m = len(program.rows)
         rows = steps.rows
+        column = np.repeat(steps.column, rows["rows"], axis=0)
+        within = np.zeros(n + 1, np.int64)
+        start = np.zeros(m, np.int64)
+        first = 0
+        for group in program.groups:
+            width = len(group.coordinates)
+            within[group.coordinates] = np.arange(width)
+            start[group.rows] = first + width * np.arange(len(group.rows))
+            first += width * len(group.rows)
+        there = column < n
         self._structure = Structure(
             "Natural",
             {
-                "n": n, "m": m, "groups": len(program.groups),
-                "width": program.widths, "height": program.heights,
-                "coordinate": program.coordinates, "row": program.rows,
+                "n": n, "m": m, "groups": len(program.groups), "columns": column.shape[1],
+                "width": program.widths, "coordinate": program.coordinates, "row": program.rows,
+                "column": np.where(there, column, 0),
+                "place": np.where(there, start[:, None] + within[column], first),
                 "g": rows["g"], "A": rows["A"], "b": rows["b"],
-                "unit": np.zeros(n), "squared": np.zeros(n), "inverse": np.zeros((n, n)),
+                "unit": np.zeros(n), "squared": np.zeros(n),
+                "inverse": np.zeros(np.square(program.widths).sum()),
                 "squares": np.zeros(m), "units": np.zeros(2),
                 "f": program.f, "natural_A": program.A, "natural_b": program.b,
             },
         )  # fmt: skip
 
-    def write(self, hessian: HessianInBothUnits) -> Units | None:
-        """Write the program of the step that was formed last, and return its natural units.
+    def take(self, masses: Masses) -> None:
+        """Take the H of the steps that are written from here on."""
+        if masses is self._masses:
+            return
+        groups = self.program.groups
+        every = [hessian_in_both_units(masses.of(group.coordinates)) for group in groups]
+        structure = self._structure
+        coordinates = self.program.coordinates
+        structure["unit"][coordinates] = np.concatenate([H.coordinate for H in every])
+        structure["squared"][:] = np.square(structure["unit"])
+        structure["inverse"][:] = np.concatenate([H.H_inverse.ravel() for H in every])
+        self._coordinate = read_only(structure["unit"].copy())
+        self.blocks = [H.natural_H.copy() for H in every]  # DAQP takes what can be written
+        self._masses = masses
+
+    def units(self) -> Units | None:
+        """The natural units of the step that was formed last.
 
         None where the rounding of a sum, which depends on its order, decides on a unit.
         """
-        compiled = library()
-        structure = self._structure
-        pointer = structure.pointer
-        if hessian is not self._hessian:
-            self._hessian = hessian
-            structure["unit"][:] = hessian.coordinate
-            structure["squared"][:] = hessian.squared
-            structure["inverse"][:] = hessian.H_inverse
-        if len(hessian.coordinate) > MOST or not compiled.natural_units(pointer):
+        if not library().natural_units(self._structure.pointer):
             return None
-        compiled.natural_program(pointer)
-        length, size = structure["units"].tolist()
-        return Units(hessian.coordinate, length, size)
+        length, size = self._structure["units"].tolist()
+        return Units(self._coordinate, length, size)
+
+    def write(self, units: Units) -> None:
+        """Write the program of the step that was formed last, in its units."""
+        self._structure["units"][:] = units.length, units.size
+        library().natural_program(self._structure.pointer)

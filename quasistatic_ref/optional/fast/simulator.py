@@ -19,6 +19,7 @@ from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.numbers.arrays import Array, without_warnings
+from quasistatic_ref.optional.fast.guard import Plainly, program_is_plain
 from quasistatic_ref.optional.fast.library import ffi, library, missing
 from quasistatic_ref.optional.fast.poses import Poses
 from quasistatic_ref.optional.fast.program import NaturalProgram
@@ -31,14 +32,16 @@ from quasistatic_ref.simulate.simulator import Simulator, Stopwatch, by_one_thre
 from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import labels
-from quasistatic_ref.step.standard_form import StandardForm, standard_form
+from quasistatic_ref.step.groups import group_step, linked
 
 if TYPE_CHECKING:
     from quasistatic_ref.optional.extensions.extension import Extension
 
+MOST: Final = 1024
+"""Most coordinates of a step whose units are compared, which takes the inverse of all of H."""
 DENSE_BELOW: Final = 600_000
 """Entries of J, 4 n_c n_v, of the largest group of bodies below which `fast` asks DAQP, whose
 matrices are dense, where no backend is named."""
@@ -71,9 +74,8 @@ def default_backend(system: System, pairs: Sequence[ContactPair], cone_name: str
     moves = system.column_map.moves[:, 0] > 0
     moved = [moves[pair.alpha.link] | moves[pair.beta.link] for pair in pairs]
     pair, joint = np.nonzero(np.reshape(moved, (len(pairs), moves.shape[1])))
-    couplings = np.zeros((len(pairs), system.n_v), dtype=bool)
-    couplings[pair, system.column_map.owner[joint]] = True
-    of_coordinate, of_pair = labels(couplings)
+    shape = len(pairs), system.n_v
+    of_coordinate, of_pair = linked(pair, system.column_map.owner[joint], shape)
     n_c = np.array([one.n_c for one in pairs], dtype=np.int64)
     sizes = np.bincount(of_coordinate)
     entries = 4 * np.bincount(of_pair, n_c, len(sizes)) * sizes
@@ -151,7 +153,6 @@ class FastSimulator(Simulator):
         self._link_count = len(links)
         self._compared = False
         self._natural: NaturalProgram | None = None
-        self._last: FormedStep | None = None
         self._surely_within = SURELY * self.limits.reach**2
 
     @property
@@ -198,14 +199,14 @@ class FastSimulator(Simulator):
         self._poses.move(q)
         self._steps.closest()
         lap("distances")
-        step, form, points = self._steps.form(change, load)
+        formed, points = self._steps.form(change, load)
         written = self._natively and self.extension is None
-        both = self._in_both_units(step, form) if written else None
-        if not (self._compared or self._is_plain(q, q_bar_a, load, step, form, points, both)):
+        both = self._in_both_units(formed) if written else None
+        if not (self._compared or self._is_plain(q, q_bar_a, load, formed, points, both)):
             return None
         lap("rows")
-        solution = self._solution(step, both, q)
-        self.limits.check_penetration(step)  # after the solve, as on the plain path
+        solution = self._solution(formed, both, q)
+        self.limits.check_penetration(formed)  # after the solve, as on the plain path
         step = solution.step
         lap("solve")
         lap.separate("proof", solution.statistics.proof_time, "solve")
@@ -222,7 +223,7 @@ class FastSimulator(Simulator):
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
 
-    def _in_both_units(self, step: StepData, form: StandardForm) -> FormedStep:
+    def _in_both_units(self, step: StepData) -> FormedStep:
         """The step in both units, and its program written into DAQP's."""
         solver = self.solver
         natural = self._natural
@@ -231,20 +232,14 @@ class FastSimulator(Simulator):
             or not natural
             or natural.program is not solver.program
         ):
-            # The template's J has no zeros by chance.
-            self.solver = solver = FastSolver(self._steps.template)
-            self._natural = natural = NaturalProgram(self._steps, solver.program)
-        both = FormedStep(step, form)
-        last = self._last
-        units = None
-        if last is not None and last.si_form.H is form.H:
-            both.hessian = last.hessian
-            units = natural.write(both.hessian)
-        if units is None:
-            solver.program.write(without_warnings(lambda: both.natural_form))
-        else:
-            both.units = units
-        self._last = both
+            steps = self._steps
+            self.solver = solver = FastSolver(steps.template, parts=steps.groups)
+            self._natural = natural = NaturalProgram(steps, solver.program)
+        natural.take(self._steps.masses)
+        both = FormedStep(step, natural.blocks)
+        units = natural.units()
+        both.units = without_warnings(lambda: both.units) if units is None else units
+        natural.write(both.units)
         solver.written = both
         return both
 
@@ -254,26 +249,28 @@ class FastSimulator(Simulator):
         q_bar_a: ArrayLike,
         force: Array,
         step: StepData,
-        form: StandardForm,
         points: ClosestPoints,
         both: FormedStep | None,
     ) -> bool:
-        """Whether a step, its matrices and its program are those of the plain path."""
-        kinematics = self.system.kinematics(q)
-        plain_points = self.closest_points(kinematics)
-        plain = self.step_data(q, q_bar_a, force, plain_points, kinematics)
-        if plain != step or bits(points) != bits(plain_points):
+        """Whether a step, group by group, and its program are those of the plain path."""
+        change = self.system.actuated_difference(q, q_bar_a)
+        plain = Plainly(self.simulator, q, change, force)
+        if bits(points) != bits(plain.points):
             return False
-        if cone(self.cone).polyhedral and bits(form) != bits(standard_form(plain)):
-            return False
-        if both is None:
+        for i, group in enumerate(self._steps.groups):
+            part = plain.step(group)
+            if part != group_step(step, group):
+                return False
+            if both is None:
+                continue
+            assert self._natural is not None
+            program = self._natural.program.parts[i]
+            if not program_is_plain(part, both.units, both.blocks[i], program):
+                return False
+        # H^-1 of more is not formed: what decides on its units is in natural.c.
+        if both is None or step.n_v > MOST:
             return True
-        assert self._natural is not None
-        program = self._natural.program
-        by_core = bits((program.f, program.A, program.b))
-        units = self._natural.write(both.hessian)
-        by_c = bits((program.f, program.A, program.b))
-        return units is None or (by_c == by_core and units[1:] == both.units[1:])
+        return StepInBothUnits(step).units[1:] == both.units[1:]
 
     def _solution(self, step: StepData, both: FormedStep | None, q: Array) -> StepSolution:
         """The solution of a step from q, (n_q,); errors as of the plain path."""

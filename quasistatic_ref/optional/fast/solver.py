@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.fast.program import Program, Workspaces
 from quasistatic_ref.solve.backends import Options, check_backend
 from quasistatic_ref.solve.choice import solver_for
@@ -10,8 +13,7 @@ from quasistatic_ref.solve.solver import BackendSolver, Solver
 from quasistatic_ref.solve.units import HessianInBothUnits, StepInBothUnits
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import groups
-from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.step.groups import Group, groups
 
 DAQP = "daqp"
 
@@ -34,18 +36,18 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
 
 
 class FormedStep(StepInBothUnits):
-    """A step whose matrices are formed already; what else is known of it may be set.
+    """A step whose units and program are written already.
 
     Parameters
     ----------
     step : StepData
-    form : StandardForm
-        Its H, g, A and b.
+    blocks : list of ndarray, shape (n, n)
+        H of each group in natural units [-].
     """
 
-    def __init__(self, step: StepData, form: StandardForm) -> None:
+    def __init__(self, step: StepData, blocks: Sequence[Array]) -> None:
         super().__init__(step)
-        self.si_form = form
+        self.blocks = blocks
 
 
 class FastSolver(BackendSolver):
@@ -57,6 +59,8 @@ class FastSolver(BackendSolver):
         A step of that kind, in a polyhedral cone.
     name : str
         ``"daqp"``.
+    parts : sequence of Group, optional
+        Its groups, where they are known.
 
     Attributes
     ----------
@@ -70,28 +74,36 @@ class FastSolver(BackendSolver):
     remembers = True
     fixed = ("n_a", "n_u", "cone", "contacts.rows", "extra")
 
-    def __init__(self, template: StepData, name: str = DAQP) -> None:
+    def __init__(
+        self, template: StepData, name: str = DAQP, parts: Sequence[Group] | None = None
+    ) -> None:
         super().__init__(template, name)
-        self.program = Program(groups(template))
+        self.program = Program(groups(template) if parts is None else parts)
         self.written: FormedStep | None = None
         self._kept: dict[int, Workspaces] = {}
         self._hessian: HessianInBothUnits | None = None
+        self._blocks: Sequence[Array] = ()
 
     def write(self, both: StepInBothUnits) -> None:
         """Write the program, unless a simulator has."""
-        self._hessian = both.hessian
-        if self.written is not both:
+        if self.written is both:
+            self._blocks = self.written.blocks
+            self._hessian = None
+        else:
             if not self.program.has_all_of(both.natural_form):
                 self.program = Program(groups(both.si_step))
+                self._hessian = None
             self.program.write(both.natural_form)
+            if both.hessian is not self._hessian:
+                self._hessian = both.hessian
+                self._blocks = self.program.blocks(both.hessian.natural_H)
         self.written = None
 
     def reply(self, options: Options, both: StepInBothUnits) -> Reply:
         """One attempt, by the workspaces that are kept if the groups are those of before."""
-        assert self._hessian is not None
         kept = self._kept.pop(id(options), None)  # what has raised is set up again
         if kept is None or kept.program is not self.program:
-            kept = Workspaces(self.program, self._hessian, options)
-        reply = kept.reply(self._hessian)
+            kept = Workspaces(self.program, self._blocks, options)
+        reply = kept.reply(self._blocks)
         self._kept[id(options)] = kept
         return reply

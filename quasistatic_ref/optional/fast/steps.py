@@ -10,17 +10,18 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
 from quasistatic_ref.numbers.pivots import positive_definite
 from quasistatic_ref.optional.fast.closest import Closest
+from quasistatic_ref.optional.fast.joined import JoinedContacts, JoinedStep, Masses
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone, cone_function, cone_matrix
-from quasistatic_ref.step.contacts import Contacts, friction_coefficients
-from quasistatic_ref.step.data import StepData, hessian, no_rows, row_layout
-from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.step.contacts import friction_coefficients
+from quasistatic_ref.step.data import no_rows, row_layout
+from quasistatic_ref.step.groups import parted
 
 FRAMES = ("d1", "d2", "J", "tau", "g")
-PARTS = itemgetter(*ClosestPoints._fields, *FRAMES)
-"""What C writes of a step."""
+"""What C writes of a step, beside its closest points."""
+CLOSEST = itemgetter(*ClosestPoints._fields)
 
 
 class Columns:
@@ -32,31 +33,35 @@ class Columns:
 
     Attributes
     ----------
+    column : ndarray of int, shape (n_c, most)
+        Which these are, ascending; n_v where a contact has fewer.
     fields : dict
         Of ``Rows`` of fast.h.
-    pattern : ndarray, shape (n_c, 4, n_v)
-        1.0 in these columns, else 0.0.
     """
 
     def __init__(self, simulator: Simulator) -> None:
         layout = simulator.layout
         column_map = simulator.system.column_map
         moves = column_map.moves[:, 0]
-        n_c = len(layout.rows)
-        both = zip(moves[layout.link_alpha], moves[layout.link_beta], strict=True)
-        joints = [np.flatnonzero((a > 0) | (b > 0)) for a, b in both]
+        of_link = [np.flatnonzero(one) for one in moves]
+        both = zip(layout.link_alpha.tolist(), layout.link_beta.tolist(), strict=True)
+        joints = [np.union1d(of_link[a], of_link[b]) for a, b in both]
+        n_c = len(joints)
         counts = np.array(list(map(len, joints)), np.int64)
-        self.most = int(counts.max(initial=0))
+        self.most = int(counts.max(initial=1))
         joint = np.zeros((n_c, self.most), np.int64)
-        self.pattern = np.zeros((n_c, 4, simulator.system.n_v))
+        own = np.zeros((n_c, self.most), np.int64)
+        self.column = np.full((n_c, self.most), simulator.system.n_v)
         for c, of_contact in enumerate(joints):
-            joint[c, : len(of_contact)] = of_contact
-            self.pattern[c, :, column_map.owner[of_contact]] = 1.0
+            count = len(of_contact)
+            joint[c, :count] = of_contact
+            every, own[c, :count] = np.unique(column_map.owner[of_contact], return_inverse=True)
+            self.column[c, : len(every)] = every
         self.fields: dict[str, int | NDArray[Any]] = {
             "most_joints": self.most,
             "joints": counts,
             "joint": joint,
-            "coordinate": column_map.owner[joint],
+            "coordinate": own,
             "moves_alpha": moves[layout.link_alpha[:, None], joint],
             "moves_beta": moves[layout.link_beta[:, None], joint],
         }
@@ -83,8 +88,14 @@ class Steps:
 
     Attributes
     ----------
-    template : StepData
+    template : JoinedStep
         A step of that kind, whose J has 1.0 where it can differ from zero.
+    groups : tuple of Group
+        Those of its steps.
+    column : ndarray of int, shape (n_c, w)
+        The columns that J and A have, as of :class:`Columns`.
+    masses : Masses
+        Those of the last step.
     rows : Structure
         ``Rows`` of fast.h; what C writes is overwritten by the next step.
     """
@@ -100,30 +111,34 @@ class Steps:
         self._mass = system.varying_mass
         self._gravity = tuple(simulator.gravity.tolist())
         self._polyhedral = cone(simulator.cone).polyhedral
-        M_u = read_only(system.M_u(system.q_start) + 0.0)
+        constant = system.constant_mass_matrix
+        blocks = system.mass_blocks if constant else system.M_u(system.q_start)
+        blocks = positive_definite("M_u", blocks + 0.0)
         rows = row_layout(simulator.cone, layout.rows.tobytes())
+        self.masses = Masses(simulator.h, simulator.K_q, blocks)
         self._of_all: dict[str, object] = {
             "h": simulator.h,
             "cone": simulator.cone,
             "K_q": simulator.K_q,
-            "M_u": positive_definite("M_u", M_u),
             "extra": no_rows(n_v),
-            "H": hessian(simulator.h, simulator.K_q, M_u),
             "row_layout": rows,
         }
+        columns = Columns(simulator)
         mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
         self._of_contacts = {
             "mu_v": layout.mu_v,
             "mu_omega": layout.mu_omega,
             "rows": layout.rows,
             "mu": mu,
+            "column": columns.column,
+            "n_v": n_v,
         }
         self._dtype = np.dtype(
             [
                 *((name, np.int64, (n_c,)) for name in ("point", "tie")),
                 ("phi", np.float64, (n_c,)),
                 *((name, np.float64, (n_c, 3)) for name in ("n", "alpha", "beta", "d1", "d2")),
-                ("J", np.float64, (n_c, 4, n_v)),
+                ("J", np.float64, (n_c, 4, columns.most)),
                 ("tau", np.float64, (n_v,)),
                 ("g", np.float64, (n_v,)),
             ]
@@ -135,7 +150,6 @@ class Steps:
             poses,
             ClosestPoints._make(written[name] for name in ClosestPoints._fields),
         )
-        columns = Columns(simulator)
         counts = rows.counts if self._polyhedral else np.zeros(n_c, np.int64)
         m = int(counts.sum())
         self.rows = Structure(
@@ -148,22 +162,32 @@ class Steps:
                 "h": np.array([simulator.h]), "weighs": simulator.gravity_factor,
                 "force": np.zeros(n_v), "K_q": simulator.K_q, "delta_q_bar_a": np.zeros(n_a),
                 **{name: written[name] for name in ("phi", "n", "alpha", "beta", *FRAMES)},
-                "work": np.zeros(23 * columns.most), "A": np.zeros((m, n_v)), "b": np.zeros(m),
+                "work": np.zeros(23 * columns.most), "A": np.zeros((m, columns.most)),
+                "b": np.zeros(m),
             },
         )  # fmt: skip
         self._names: tuple[list[int], tuple[str, ...]] = [], ()
-        self.template = self._step(
-            self._names_of([0] * n_c), written, np.zeros(n_a), columns.pattern
-        )
+        self.column = columns.column
+        of_mass = blocks != 0
+        if self._mass is not None:
+            of_mass.flat[self._mass.entry] = True
+        *block, i, j = np.nonzero(of_mass)
+        first = n_a + (6 * block[0] if block else 0)
+        c, k = np.nonzero(self.column < n_v)
+        of_K = np.nonzero(simulator.K_q)
+        coupling = np.concatenate([c, n_c + of_K[0], n_c + first + i])
+        coordinate = np.concatenate([self.column[c, k], of_K[1], first + j])
+        shape = n_c + n_v, n_v
+        self.groups = parted(coupling, coordinate, shape, np.ones(n_c, np.bool_), rows.counts)
+        there = np.where(self.column[:, None] < n_v, np.ones((4, 1)), 0.0)
+        self.template = self._step(self._names_of([0] * n_c), written, np.zeros(n_a), there)
 
     def closest(self) -> None:
         """Write the closest points at the poses; ContactError as of ``closest_points``."""
         self._closest.write()
 
-    def form(self, change: Array, force: Array) -> tuple[StepData, StandardForm, ClosestPoints]:
-        """The step from the poses and their closest points, with its matrices.
-
-        A and b of the matrices are overwritten by the next step; in a curved cone they are empty.
+    def form(self, change: Array, force: Array) -> tuple[JoinedStep, ClosestPoints]:
+        """The step from the poses and their closest points.
 
         Parameters
         ----------
@@ -187,11 +211,9 @@ class Steps:
             self._with_mass(self._mass.at(self._poses.kinematics()))
         # A copy of the bytes is read-only; copying field by field takes ten times as long.
         written = np.ndarray((), self._dtype, self._bytes.tobytes())
-        *closest, _, _, J, _, g = PARTS(written)
-        points = ClosestPoints(*closest)
+        points = ClosestPoints(*CLOSEST(written))
         names = self._names_of(points.point.tolist())
-        step = self._step(names, written, read_only(change), J)
-        return step, StandardForm(step.H, g, self.rows["A"], self.rows["b"]), points
+        return self._step(names, written, read_only(change), written["J"]), points
 
     def _names_of(self, point: list[int]) -> tuple[str, ...]:
         names = self._names
@@ -201,23 +223,22 @@ class Steps:
 
     def _with_mass(self, M_u: Array) -> None:
         """Take over an M_u, (n_u, n_u) [kg, kg m^2]; StepDataError if it is not definite."""
-        of_all = self._of_all
-        if M_u is not of_all["M_u"]:
+        if M_u is not self.masses.blocks:
             positive_definite("M_u", M_u)
-            H = hessian(self.template.h, self.template.K_q, M_u)
-            self._of_all = {**of_all, "M_u": M_u, "H": H}
+            self.masses = Masses(self.template.h, self.template.K_q, M_u)
 
     def _step(
         self, names: tuple[str, ...], written: NDArray[Any], change: Array, J: Array
-    ) -> StepData:
+    ) -> JoinedStep:
         frames = {name: written[name] for name in ("phi", "n", "d1", "d2")}
-        contacts = Contacts.unchecked(name=names, J=J, **frames, **self._of_contacts)
+        contacts = JoinedContacts.unchecked(name=names, own_J=J, **frames, **self._of_contacts)
         tau = written["tau"]
         n_a = len(change)
-        return StepData.unchecked(
+        return JoinedStep.unchecked(
             tau_a=tau[:n_a],
             tau_u=tau[n_a:],
             delta_q_bar_a=change,
             contacts=contacts,
+            of_masses=self.masses,
             **self._of_all,
         )

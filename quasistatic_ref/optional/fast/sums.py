@@ -29,7 +29,6 @@ class Sums:
         self._system = system
         self._q = poses.q
         self._known = all(joint.in_c is not None for joint in joints)
-        self._turning = [i for i, joint in enumerate(joints) if joint.unit]
         kinds = [-1 if joint.in_c is None else joint.in_c for joint in joints]
         self.structure = Structure(
             "Sums",
@@ -57,7 +56,7 @@ class Sums:
         s = self.structure
         s["delta_q"][:] = delta_q
         if not compiled.half_turns(s.pointer):
-            for i in self._turning:
+            for i in np.flatnonzero(np.isnan(s["cosine"])).tolist():
                 s["cosine"][i], s["sine"][i] = cos_sin(float(s["angle"][i]) / 2)
         compiled.sums(s.pointer)
         return s["q_next"].copy()

@@ -8,6 +8,7 @@ import pytest
 from quasistatic_ref import Extra, solve_step
 from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.optional.fast.program import NaturalProgram, Program, Workspace
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.reply import Reply
@@ -27,9 +28,15 @@ def units(H, g, A, b):
     m, n = A.shape
     each = np.arange(m)
     program = Program([Group(np.arange(n), each, each[:0], each)])
-    steps = SimpleNamespace(rows={"g": g, "A": A, "b": b})
+    rows = {"g": g, "A": A, "b": b, "rows": np.ones(m, np.int64)}
+    natural = NaturalProgram(
+        SimpleNamespace(rows=rows, column=np.tile(np.arange(n), (m, 1))), program
+    )
+    natural.take(Masses(1.0, np.zeros((0, 0)), H))
+    in_c = natural.units()
+    if in_c is not None:
+        natural.write(in_c)
     hessian = hessian_in_both_units(H)
-    in_c = NaturalProgram(steps, program).write(hessian)
     with np.errstate(all="ignore"):
         expected = units_of(StandardForm(H, g, A, b), hessian)
     return in_c, expected, program

@@ -23,14 +23,15 @@ typedef struct {
 
 int closest_of_cloud(const Cloud *s);
 
-/* Contacts, and the load. Of J and A those columns are written that can differ from zero. */
+/* Contacts, and the load. J and A have a contact's own columns, `most_joints` of them: the first ones are
+   written, the last ones stay zero where fewer coordinates move it. */
 typedef struct {
     /* Contacts; coordinates, actuated ones; the most joint columns of a contact. */
     int64_t n_c, n_v, n_a, most_joints;
     /* Addresses of pinocchio's columns, and of its gravity on the left of M dv + g = tau. */
     const double *const *column, *const *gravity;
-    /* Of each contact: how many columns of joints move it, which, of which coordinate each is, and whether
-       it moves alpha's body or beta's; its number of rows and its friction. */
+    /* Of each contact: how many columns of joints move it, which, to which of its own columns each is
+       added, and whether it moves alpha's body or beta's; its number of rows and its friction. */
     const int64_t *joints, *joint, *coordinate;
     const double *moves_alpha, *moves_beta;
     const int64_t *rows;
@@ -50,11 +51,14 @@ void load(const Rows *s);
 
 /* A program in natural units, group by group: coordinates and rows of a group stand next to each other. */
 typedef struct {
-    int64_t n, m, groups;
-    /* Of each group how many coordinates and rows it has, and which, group after group. */
-    const int64_t *width, *height, *coordinate, *row;
+    int64_t n, m, groups, columns;
+    /* Of each group how many coordinates it has, and which, group after group; which rows. */
+    const int64_t *width, *coordinate, *row;
+    /* Of each row of A its columns' coordinates, and where they are in natural_A; (m, columns). A
+       column that stands for none is zero, and is in the last place, which no group has. */
+    const int64_t *column, *place;
     const double *g, *A, *b;
-    /* The units S of coordinates, their squares, and H^-1. */
+    /* The units S of coordinates, their squares, and H^-1 of each group. */
     const double *unit, *squared, *inverse;
     double *squares; /* m: a workspace */
     /* Written: {length, size}; -g, A and b in natural units. */

@@ -7,7 +7,8 @@
 
 #define LARGEST 0x1p400 /* squares, and products of two units, stay far inside of float64 */
 #define UNMOVED 1e-6     /* that of tolerances.py */
-#define OFF 0x1p-38     /* sums of n terms and n such sums, n <= 4096, differ by less: 4 n 2^-53 */
+#define OFF 0x1p-32     /* sums of n terms and n such sums, n <= 2^16, differ by less: 4 n 2^-53 = 2^-35;
+                           the rest is for H^-1, which NumPy takes of all groups at once */
 
 /* The k-th smallest of n numbers, which change places. */
 static double ranked(double *x, int64_t n, int64_t k)
@@ -58,21 +59,18 @@ static double power_of_two(double low, double high)
 static double length_unit(const Natural *s)
 {
     int64_t count = 0;
-    const int64_t *row = s->row, *coordinate = s->coordinate;
-    for (int64_t group = 0; group < s->groups; coordinate += s->width[group++])
-        for (int64_t i = 0; i < s->height[group]; i++) {
-            const double *A = s->A + *row++ * s->n;
-            double sum = 0.0;
-            for (int64_t k = 0; k < s->width[group]; k++) {
-                int64_t v = coordinate[k];
-                sum += A[v] * A[v] * s->squared[v];
-            }
-            if (sum == 0.0)
-                continue;
-            if (!(sum > 1 / LARGEST && sum < LARGEST))
-                return 0.0;
-            s->squares[count++] = sum;
-        }
+    const double *A = s->A;
+    const int64_t *column = s->column;
+    for (int64_t row = 0; row < s->m; row++, A += s->columns, column += s->columns) {
+        double sum = 0.0;
+        for (int64_t k = 0; k < s->columns; k++)
+            sum += A[k] * A[k] * s->squared[column[k]];
+        if (sum == 0.0)
+            continue;
+        if (!(sum > 1 / LARGEST && sum < LARGEST))
+            return 0.0;
+        s->squares[count++] = sum;
+    }
     if (!count)
         return 1.0;
     double upper = ranked(s->squares, count, count / 2);
@@ -85,17 +83,20 @@ static double length_unit(const Natural *s)
 static double size_unit(const Natural *s, double length)
 {
     double energy = 0.0, off = 0.0, most = 0.0, load = 0.0;
-    for (int64_t i = 0; i < s->n; i++) {
-        double sum = 0.0, size = 0.0;
-        for (int64_t j = 0; j < s->n; j++) {
-            double term = s->inverse[i * s->n + j] * s->g[j];
-            sum += term;
-            size += fabs(term);
+    const double *inverse = s->inverse;
+    const int64_t *coordinate = s->coordinate;
+    for (int64_t group = 0; group < s->groups; coordinate += s->width[group++])
+        for (int64_t i = 0; i < s->width[group]; i++) {
+            double g = s->g[coordinate[i]], sum = 0.0, size = 0.0;
+            for (int64_t j = 0; j < s->width[group]; j++) {
+                double term = *inverse++ * s->g[coordinate[j]];
+                sum += term;
+                size += fabs(term);
+            }
+            energy += g * sum;
+            off += fabs(g) * size;
+            load += fabs(g);
         }
-        energy += s->g[i] * sum;
-        off += fabs(s->g[i]) * size;
-        load += fabs(s->g[i]);
-    }
     for (int64_t r = 0; r < s->m; r++) {
         if (!(fabs(s->b[r]) < LARGEST))
             return 0.0;
@@ -130,14 +131,10 @@ int natural_units(Natural *s)
 void natural_program(Natural *s)
 {
     double length = s->units[0], size = s->units[1], unit = 1 / (size * length);
-    double *to = s->natural_A, *to_b = s->natural_b;
-    const int64_t *row = s->row, *coordinate = s->coordinate;
     for (int64_t k = 0; k < s->n; k++)
-        s->f[k] = s->g[coordinate[k]] * (s->unit[coordinate[k]] / -size);
-    for (int64_t group = 0; group < s->groups; coordinate += s->width[group++])
-        for (int64_t i = 0; i < s->height[group]; i++, row++) {
-            for (int64_t k = 0; k < s->width[group]; k++)
-                *to++ = s->A[*row * s->n + coordinate[k]] * (s->unit[coordinate[k]] / length);
-            *to_b++ = s->b[*row] * unit;
-        }
+        s->f[k] = s->g[s->coordinate[k]] * (s->unit[s->coordinate[k]] / -size);
+    for (int64_t k = 0; k < s->m * s->columns; k++)
+        s->natural_A[s->place[k]] = s->A[k] * (s->unit[s->column[k]] / length);
+    for (int64_t i = 0; i < s->m; i++)
+        s->natural_b[i] = s->b[s->row[i]] * unit;
 }

@@ -47,7 +47,7 @@ static void jacobian(const Rows *s, int64_t c, double *restrict col, double *sid
     columns_at(col, n_x, s->alpha + 3 * c, s->n + 3 * c, of_alpha);
     columns_at(col, n_x, s->beta + 3 * c, s->n + 3 * c, of_beta);
     for (int i = 0; i < 4; i++) { /* Eqs. (2)-(3) */
-        double *row = s->J + (4 * c + i) * s->n_v;
+        double *row = s->J + (4 * c + i) * s->most_joints;
         for (int64_t x = 0; x < n_x; x++)
             row[coordinate[x]] = 0.0;
         for (int64_t x = 0; x < n_x; x++) /* added to 0.0, so that zero is never -0.0 */
@@ -93,7 +93,7 @@ void contact_rows(const Rows *s)
                     a[v] = a[v] + coefficient * along[v];
             }
             for (int64_t v = 0; v < n; v++)
-                s->A[row * s->n_v + coordinate[v]] = a[v];
+                s->A[row * s->most_joints + coordinate[v]] = a[v];
             s->b[row] = -s->phi[c];
         }
     }

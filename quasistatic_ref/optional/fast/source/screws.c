@@ -84,11 +84,14 @@ static int nearest(long double found, double *out)
     return one + 0x1p-62L != one && *out == (double)(found + margin);
 }
 
-/* Cosine and sine of half of a joint's angle; 0 if they are in doubt. */
+/* Cosine and sine of half of a joint's angle; 0, and no cosine, if they are in doubt. */
 static int half_turn(Sums *s, int64_t joint)
 {
     long double b = s->angle[joint] / 2;
-    return nearest(cosl(b), s->cosine + joint) & nearest(sinl(b), s->sine + joint);
+    int sure = nearest(cosl(b), s->cosine + joint) & nearest(sinl(b), s->sine + joint);
+    if (!sure)
+        s->cosine[joint] = NAN;
+    return sure;
 }
 
 /* model/screw, `half_turn`: how far each joint turns, with cosine and sine of half of that; 0 if one is in doubt. */

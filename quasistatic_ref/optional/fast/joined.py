@@ -1,0 +1,148 @@
+"""Steps of many bodies, kept by contact and by body; whole arrays are formed when they are read."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.model.mass import whole
+from quasistatic_ref.numbers.arrays import Array, Indices, read_only
+from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.data import StepData, hessian
+
+
+def spread(rows: Array, column: Indices, n: int) -> Array:
+    """Rows in all of n columns, shape (..., n).
+
+    Parameters
+    ----------
+    rows : ndarray, shape (..., w)
+        [any unit].
+    column : ndarray of int, shape (..., w), or one that is broadcast to it
+        Which columns these are; n stands for none.
+    n : int
+    """
+    every = np.zeros((*rows.shape[:-1], n + 1))
+    np.put_along_axis(every, column, rows, axis=-1)
+    return every[..., :n].copy()
+
+
+class JoinedContacts(Contacts):
+    """Contacts whose J is formed when it is read.
+
+    Attributes
+    ----------
+    own_J : ndarray, shape (n_c, 4, w)
+        The columns of J that can differ from zero [m, rad].
+    column : ndarray of int, shape (n_c, w)
+        Which these are, ascending; n_v where a contact has fewer.
+    """
+
+    own_J: Array
+    column: Indices
+
+    def __new__(cls, *_: object, **fields: Any) -> Any:
+        """Contacts as any other where all fields are given, as by ``dataclasses.replace``."""
+        return Contacts(**fields) if fields else super().__new__(cls)
+
+    @classmethod
+    def kept(cls) -> tuple[str, ...]:
+        """As of Contacts, without J."""
+        fields = (name for name in super().kept() if name != "J")
+        return *fields, "own_J", "column", "n_v"
+
+    @cached_property
+    def J(self) -> Array:
+        """J of Eq. :eq:`eq-3`, shape (n_c, 4, n_v)."""
+        return read_only(spread(self.own_J, self.column[:, None], self.n_v))
+
+    def motion(self, delta_q: Array) -> Array:
+        """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
+        own = np.append(delta_q, 0.0)[self.column]
+        return np.asarray(np.add.accumulate(self.own_J * own[:, None], axis=-1)[..., -1]) + 0.0
+
+    def columns(self, contacts: Indices, coordinates: Indices) -> Array:
+        """J of some contacts, (k,), and some coordinates, (n,): shape (k, 4, n)."""
+        place = np.full(self.n_v + 1, len(coordinates))
+        place[coordinates] = np.arange(len(coordinates))
+        column = place[self.column[contacts]][:, None]
+        return spread(self.own_J[contacts], column, len(coordinates))
+
+
+class Masses:
+    """M_u and H of a simulator's steps, of which M_u may be kept by its blocks.
+
+    Parameters
+    ----------
+    h : float
+        [s]
+    K_q : ndarray, shape (n_a, n_a)
+        [N/m, N m/rad]
+    blocks : ndarray, shape (k, n_u / k, n_u / k), or (n_u, n_u)
+        Diagonal blocks of M_u, or all of it [kg, kg m, kg m^2].
+    """
+
+    def __init__(self, h: float, K_q: Array, blocks: Array) -> None:
+        self.h = h
+        self.K_q = K_q
+        self.blocks = blocks
+
+    @cached_property
+    def M_u(self) -> Array:
+        """Shape (n_u, n_u) [kg, kg m, kg m^2]."""
+        return whole(self.blocks)
+
+    @cached_property
+    def H(self) -> Array:
+        """H of Eq. :eq:`eq-13`, shape (n_v, n_v)."""
+        return hessian(self.h, self.K_q, self.M_u)
+
+    def some(self, u: Indices) -> Array:
+        """M_u of some un-actuated coordinates, counted from the first, shape (k, k)."""
+        if self.blocks.ndim == 2:
+            return np.asarray(self.blocks[np.ix_(u, u)])
+        body, i = np.divmod(u, self.blocks.shape[-1])
+        return np.where(body[:, None] == body, self.blocks[body[:, None], i[:, None], i], 0.0)
+
+    def of(self, coordinates: Indices) -> Array:
+        """H of some coordinates, shape (k, k)."""
+        n_a = len(self.K_q)
+        a = coordinates[coordinates < n_a]
+        u = coordinates[coordinates >= n_a] - n_a
+        return hessian(self.h, self.K_q[np.ix_(a, a)], self.some(u))
+
+
+class JoinedStep(StepData):
+    """A step whose M_u and H are formed when they are read.
+
+    Attributes
+    ----------
+    of_masses : Masses
+    """
+
+    of_masses: Masses
+
+    def __new__(cls, *_: object, **fields: Any) -> Any:
+        """A StepData as any other where all fields are given."""
+        return StepData(**fields) if fields else super().__new__(cls)
+
+    @classmethod
+    def kept(cls) -> tuple[str, ...]:
+        """As of StepData, without M_u."""
+        return *(name for name in super().kept() if name != "M_u"), "of_masses"
+
+    @cached_property
+    def M_u(self) -> Array:
+        """Shape (n_u, n_u) [kg, kg m, kg m^2]."""
+        return self.of_masses.M_u
+
+    @cached_property
+    def H(self) -> Array:
+        """H of Eq. :eq:`eq-13`, shape (n_v, n_v)."""
+        return self.of_masses.H
+
+    def masses(self, some: Indices) -> Array:
+        """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
+        return self.of_masses.some(some)
