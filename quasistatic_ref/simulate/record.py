@@ -101,15 +101,16 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
             raise InputError(problem, field=name, value=arrays[name].shape)
     n_c = arrays["rows"].size
     of_steps = {name: (steps, n_c, *shape) for name, shape in OF_CONTACT.items()}
-    of_steps |= dict.fromkeys(OF_STEP, (steps,))
-    shapes = {**dict.fromkeys(CONSTANT, (n_c,)), **(of_steps if steps else {})}
+    of_steps |= dict.fromkeys(OF_STEP, (steps,)) | {"delta_q": (steps, n_v)}
+    shapes: dict[str, tuple[int, ...]] = dict.fromkeys(CONSTANT, (n_c,))
+    if steps:
+        shapes |= of_steps | {n: (steps, arrays[n].shape[-1]) for n in ("q_bar_a", "lam")}
+    if steps and full:  # an extension may have coordinates of its own
+        shapes["J"] = (steps, n_c, 4, max(n_v, arrays["g"].shape[-1]))
     for name, shape in shapes.items():
         if name in arrays and arrays[name].shape != shape:
             problem = f"must have shape {shape}"
             raise InputError(problem, field=name, value=arrays[name].shape)
-    if steps and full and arrays["J"].shape[:3] != (steps, n_c, 4):
-        problem = f"must have shape {(steps, n_c, 4, 'n_v')}"
-        raise InputError(problem, field="J", value=arrays["J"].shape)
     multipliers = sum(friction.counts(arrays["rows"]).tolist())
     if steps and arrays["lam"][0].size < multipliers:
         problem = f"must have {multipliers} multipliers a step, as the rows of contacts say"

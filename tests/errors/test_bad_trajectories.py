@@ -126,14 +126,16 @@ CAUSES = {
         lambda run: rewritten(run, header={"extra": ["a"]}), "has no array named 'extra_A'",
     ),
     **{
-        f"{name} of another shape": (
+        f"{name} of shape {array.shape}": (
             lambda run, name=name, array=array: rewritten(run, {name: npy(array)}),
             f" {name}: must have shape ",
         )
-        for name, array in {
-            "phi": np.zeros((3, 5)), "wrench": np.zeros((3, 1, 4)), "J": np.zeros((3, 2, 3, 8)),
-            "t": np.zeros((3, 1)), "mu_v": ZEROS[:1], "rows": np.full((2, 1), 6),
-        }.items()
+        for name, array in (
+            ("phi", np.zeros((3, 5))), ("wrench", np.zeros((3, 1, 4))), ("mu_v", ZEROS[:1]),
+            ("J", np.zeros((3, 2, 3, 8))), ("J", np.zeros((3, 2, 4, 6))), ("t", np.zeros((3, 1))),
+            ("rows", np.full((2, 1), 6)), ("delta_q", np.zeros((3, 7, 1))),
+            ("q_bar_a", np.zeros((3, 1, 1))), ("lam", np.zeros((3, 10, 1))),
+        )
     },
 }  # fmt: skip
 
