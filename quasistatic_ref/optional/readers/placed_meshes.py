@@ -139,19 +139,19 @@ def _gltf(path: Path, content: bytes) -> _Stated:
             counts = [_primitive(one, accessors) for one in mesh["primitives"]]
             triangles = sum(count for _, count in counts)
             size = triangles + sum(PART + count for count, _ in counts)
-            parts["mesh", number] = _Part(size, triangles, ())
+            parts[f"meshes[{number}]"] = _Part(size, triangles, ())
     nodes = tree.get("nodes", ())
     for number, node in enumerate(nodes):
-        below: list[Hashable] = [("node", one) for one in node.get("children", ())]
-        below += [("mesh", node["mesh"])] if "mesh" in node else []
-        parts["node", number] = _Part(0, 0, below)
+        below: list[Hashable] = [f"nodes[{one}]" for one in node.get("children", ())]
+        below += [f"meshes[{node['mesh']}]"] if "mesh" in node else []
+        parts[f"nodes[{number}]"] = _Part(0, 0, below)
     scenes = tree.get("scenes", ())
     top = scenes[tree.get("scene", 0)].get("nodes", ()) if scenes else ()
     once = [*top, *(one for node in nodes for one in node.get("children", ()))]
     if len(set(once)) < len(once):
         raise ModelError("must stand in one place each", field="nodes")
     with about_field("nodes"):
-        count = _placed_triangles(parts, [("node", one) for one in top])
+        count = _placed_triangles(parts, [f"nodes[{one}]" for one in top])
     return _Stated("gltf", json.dumps(tree).encode(), count, UP)
 
 

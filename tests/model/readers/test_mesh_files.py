@@ -375,6 +375,7 @@ LIES = {
                                      r"face\[0\].vertex_indices: must have a whole number of"),
     "half a corner": ("a.ply", FACE + b"3 0 1.5 2\n",
                       "face: must be whole numbers"),
+    "no such mesh": ("a.gltf", plain_gltf(nodes=[{"mesh": 1}]), r"nodes: is placed.*'meshes\[1\]'"),
     "nothing placed": ("a.gltf", plain_gltf(nodes=[{}]), "places none of the triangles that it"),
     "a longer PLY": ("a.ply", PLY + b"x", "holds more than its header says"),
     "ten parts": ("a.dae", of_ten(COLLADA.encode()), "places more than 150 vertices and triangles"),
