@@ -131,6 +131,10 @@ class ExactForm(ABC):
             At least `|x|` [m, rad].
         """
 
+    @abstractmethod
+    def float_rows(self, some: Sequence[int]) -> Array:
+        """Some rows [a, c] in float64, shape (rows, n + 1) [m] per unit of x: no proof."""
+
     def implied_by_cone(self, working: Sequence[int], some: Iterable[int]) -> list[int]:
         """Those of some rows that W implies wherever its contacts are: their slacks are zero."""
         return []
@@ -196,10 +200,14 @@ class MatrixForm(ExactForm):
         """Some rows [a, c]."""
         return [self._rows[i] for i in some]
 
+    def float_rows(self, some: Sequence[int]) -> Array:
+        """As of the base, shape (rows, n + 1) [m] per unit of x."""
+        rows = [[float(v) for v in self._rows[i]] for i in some]
+        return np.array(rows).reshape(-1, self.n + 1)
+
     def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
         """As of the base, from `x` and `most`, shape (n,) [any unit]."""
-        rows = [[float(v) for v in row] for row in self._rows]
-        return row_slacks(np.array(rows).reshape(self.m, self.n + 1), x, most)
+        return row_slacks(self.float_rows(range(self.m)), x, most)
 
 
 class StepForm(ExactForm):
@@ -252,6 +260,26 @@ class StepForm(ExactForm):
         shift, force, pull = map(exact_matrix, loads)
         with working_precision(EXACT):
             self.g = springs * shift + (force * self.h + pull) * self.h  # Eq. (1), times h^2
+
+    @cached_property
+    def _turn(self) -> Array:
+        """The frames of all contacts with friction in float64, shape (n_c, 4, 4)."""
+        frame = self._frame.copy()
+        frame[:, 1:] *= self._mu[:, :, None]
+        return frame
+
+    def float_rows(self, some: Sequence[int]) -> Array:
+        """As of the base, shape (rows, n + 1) [m] per unit of x."""
+        n_c = len(self._phi)
+        places = np.array([self._places[i] for i in some], np.int64).reshape(-1, 2)
+        rows = np.empty((len(places), self.n + 1))
+        own = places[:, 0] >= n_c
+        rows[own] = self._extra[places[own, 0] - n_c]
+        c, kind = places[~own].T
+        turn = self._cone_matrix[kind][:, None] @ self._turn[c]
+        rows[~own, :-1] = (turn @ self._J[c])[:, 0]
+        rows[~own, -1] = self._cone_matrix[kind, 0] * self._phi[c]
+        return rows
 
     def motion(self, c: int) -> arb_mat:
         """Gap, slips and spin of a contact as rows [a, c], friction included: shape (4, n + 1)."""
@@ -332,8 +360,7 @@ class StepForm(ExactForm):
         the rounding of s itself. Each underflow takes 2^-1074 at most, times F or R if it is in a
         factor of theirs; TINY, added to both and to the bound, is more.
         """
-        frame = self._frame.copy()
-        frame[:, 1:] *= self._mu[:, :, None]
+        frame = self._turn
         motion = (frame @ (self._J @ x)[:, :, None])[:, :, 0]
         motion[:, 0] += self._phi
         R = (np.abs(self._J) @ most).max(axis=1, initial=0.0) + TINY

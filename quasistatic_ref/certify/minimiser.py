@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import compress
-from typing import Protocol, TypeAlias, cast
+from typing import Final, Protocol, TypeAlias, cast
 
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz_mat
@@ -28,6 +28,7 @@ from quasistatic_ref.certify.form import (
     UNIT,
     ExactForm,
     columns,
+    exact_matrix,
     fraction,
     whole_numbers,
 )
@@ -126,6 +127,9 @@ class Relation:
         assert self.exact is not None  # it is a relation
         return self.exact[j]
 
+
+NEAR: Final = 1e-9
+"""Error of a guessed sum of rows over the largest entry of W; a wrong guess costs time alone."""
 
 Numbers: TypeAlias = Callable[[Solution], "list[arb]"]
 """Some numbers of a solution, times its denominator."""
@@ -287,29 +291,65 @@ class Minimiser:
         """All [x; t] with A_W x + c_W t = 0: a basis, shape (n + 1, d)."""
         return null_space(self.form.integers(self.working), self.form.n + 1)
 
+    def doubtful(self, some: Sequence[int]) -> list[int]:
+        """Those of some rows that neither their contact's cone nor a guess shows to be implied.
+
+        The guess is that a row is the sum of rows of W, each some halves of times.
+        """
+        by_cone = {*self.form.implied_by_cone(self.working, some)}
+        some = [i for i in some if i not in by_cone]
+        k = len(self.working)
+        if not (k and some):
+            return some
+        with np.errstate(all="ignore"):
+            rows = self.form.float_rows([*self.working, *some])[:, :-1]
+            A = rows[:k]
+            try:
+                halves = np.rint(2 * np.linalg.solve(A @ A.T, A @ rows[k:].T).T) / 2
+            except np.linalg.LinAlgError:
+                return some
+            near = np.abs(halves @ A - rows[k:]).max(axis=1) <= NEAR * np.abs(A).max()
+        guess = np.hstack([halves, -np.eye(len(some))])[near]
+        if not len(guess):
+            return some
+        every = columns(self.form.exact_rows([*self.working, *some]), slice(0, self.form.n + 1))
+        with working_precision(EXACT):
+            differences = (exact_matrix(guess) * every).tolist()
+        of_guess = compress(some, near.tolist())
+        proved = {i for i, d in zip(of_guess, differences, strict=True) if _vanishes(d)}
+        return [i for i in some if i not in proved]
+
     def implied(self, some: Sequence[int]) -> list[int]:
         """Those of some rows, in increasing order, that are combinations [a, c] of rows of W."""
-        by_cone = self.form.implied_by_cone(self.working, some)
-        others = sorted({*some} - {*by_cone})
-        if not others:
-            return sorted(by_cone)
-        with working_precision(EXACT):
-            values = self.form.values(others, arb_mat(self.null_space))
-        zero = [all(v.is_zero() for v in row) for row in values]
-        return sorted([*by_cone, *compress(others, zero)])
+        return self._implied(some, self.doubtful(some))
+
+    def _implied(self, some: Sequence[int], doubtful: Sequence[int]) -> list[int]:
+        """The same, from those that are in doubt, which the null space decides."""
+        values = []
+        if doubtful:
+            with working_precision(EXACT):
+                values = self.form.values(doubtful, arb_mat(self.null_space))
+        no = {i for i, row in zip(doubtful, values, strict=True) if not _vanishes(row)}
+        return sorted({*some} - no)
+
+    @cached_property
+    def doubtful_rows(self) -> list[int]:
+        """The open rows that are in doubt."""
+        return self.doubtful(self.open_rows)
+
+    @cached_property
+    def slack_balls(self) -> dict[int, arb]:
+        """The slacks of these in balls."""
+        rows = self.doubtful_rows
+        with working_precision(PRECISION):
+            return dict(zip(rows, self.form.slacks(rows, self.balls.z), strict=True))
 
     @cached_property
     def implied_rows(self) -> list[int]:
         """The open rows that W implies, in increasing order: their slacks are zero."""
-        return self.implied(self.open_rows)
-
-    @cached_property
-    def slack_balls(self) -> dict[int, arb]:
-        """The slacks in balls of all open rows that the cones of contacts leave in doubt."""
-        by_cone = {*self.form.implied_by_cone(self.working, self.open_rows)}
-        rows = [i for i in self.open_rows if i not in by_cone]
-        with working_precision(PRECISION):
-            return dict(zip(rows, self.form.slacks(rows, self.balls.z), strict=True))
+        balls = self.slack_balls
+        maybe = [i for i, ball in balls.items() if ball.contains(0)]
+        return self._implied([i for i in self.open_rows if i in maybe or i not in balls], maybe)
 
     @cached_property
     def slack_signs(self) -> dict[int, int]:
@@ -392,12 +432,14 @@ class Minimiser:
 
         From their balls; where a ball holds numbers of different rounding, from the fractions.
         """
-        with working_precision(PRECISION):
-            balls = numbers(self.settled)
-            balls = balls if unit is None else [ball / unit for ball in balls]
-            values = all_nearest(balls)
-        if values is not None:
-            return np.array(values, dtype=np.float64)
+        for settled in (False, True):
+            solution = self.settled if settled else self.balls
+            with working_precision(PRECISION):
+                balls = numbers(solution)
+                balls = balls if unit is None else [ball / unit for ball in balls]
+                values = all_nearest(balls)
+            if values is not None:
+                return np.array(values, dtype=np.float64)
         exact = self.fractions
         with working_precision(EXACT):
             below = exact.denominator if unit is None else exact.denominator * unit
@@ -434,6 +476,10 @@ def rounded_quotients(numerators: Iterable[arb], denominator: arb) -> Array:
 def _chosen(where: Sequence[bool], here: Sequence[arb], elsewhere: Sequence[arb]) -> list[arb]:
     """Numbers of two lists: the first `where` it is true."""
     return [a if first else b for first, a, b in zip(where, here, elsewhere, strict=True)]
+
+
+def _vanishes(numbers: Iterable[arb]) -> bool:
+    return all(v.is_zero() for v in numbers)
 
 
 def _sign(number: arb) -> int:

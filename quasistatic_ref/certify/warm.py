@@ -40,6 +40,11 @@ def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:
     return [int(i) for i in pressed[kept][order]]
 
 
+def basic_rows(lam: Array) -> list[int]:
+    """The rows of multipliers that belong to independent rows already, in that order, (m,) [-]."""
+    return [int(i) for i in np.argsort(-lam, kind="stable")[: np.count_nonzero(lam > 0)]]
+
+
 def _basic(A: Array, lam: Array) -> Array:
     """Return lam >= 0 of the same A'lam whose positive entries belong to independent rows.
 

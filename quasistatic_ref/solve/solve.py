@@ -16,7 +16,7 @@ from quasistatic_ref.certify.exact import ExactOptimum, check_length, step_optim
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
-from quasistatic_ref.certify.warm import warm_rows
+from quasistatic_ref.certify.warm import basic_rows, warm_rows
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import finite, without_warnings
 from quasistatic_ref.parts import extended_step
@@ -249,8 +249,11 @@ def proved(
     else:
         if reply is not None and claimed:
             x, y = reply.answer
-            form = both.natural_form
-            start = warm_rows(form.A, y, form.A @ x - form.b)
+            if solver.basic:
+                start = basic_rows(y)
+            else:
+                form = both.natural_form
+                start = warm_rows(form.A, y, form.A @ x - form.b)
         optimum = step_optimum(step, start)
     delta_q = optimum.delta_q
     lam = optimum.lam

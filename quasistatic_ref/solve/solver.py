@@ -63,6 +63,8 @@ class Solver(ABC):
         What the steps that it solves have in common, of ``KIND`` of ``step/data.py``.
     remembers : bool
         Whether its answer to a step may depend on the steps before.
+    basic : bool
+        Whether the rows of its positive multipliers are independent.
     unsafe : bool
         Whether its backend may not return from steps whose rows are unlike each other.
     """
@@ -70,6 +72,7 @@ class Solver(ABC):
     interface: ClassVar[str]
     fixed: ClassVar[tuple[str, ...]]
     remembers: ClassVar[bool] = False
+    basic: ClassVar[bool] = False
 
     def __init__(self, template: StepData, name: str) -> None:
         self.template = template

@@ -124,6 +124,9 @@ def test_rows_are_implied_across_contacts_by_elimination_alone():
     assert form.implied_by_cone([0], [6, 12]) == []
     assert Minimiser(form, (0,)).implied([6, 7, 12]) == [6, 12]
     assert Minimiser(form, ()).implied([6]) == []
+    guessed = Minimiser(form, (0,))
+    assert guessed.implied([6, 12]) == [6, 12]
+    assert "null_space" not in vars(guessed)  # a guess in halves, which is proved
 
 
 def test_row_that_differs_in_the_last_bit_is_not_implied():

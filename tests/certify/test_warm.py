@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import standard_form
-from quasistatic_ref.certify.warm import BLOCK, warm_rows
+from quasistatic_ref.certify.warm import BLOCK, basic_rows, warm_rows
 from tests.certify.test_exact import resting_point
 from tests.tolerances import ROUNDING
 
@@ -13,6 +13,7 @@ def test_open_rows_are_left_out_and_the_most_pressed_comes_first():
     lam = np.array([1e-9, 2.0, 1.0, 1e-12])
     slack = np.array([1.0, 1e-9, 1e-12, 3.0])
     assert warm_rows(np.eye(4), lam, slack) == [1, 2]
+    assert basic_rows(np.array([0.0, 1.0, 1.0, 3.0, -2.0])) == [3, 1, 2]
     for m in (0, 3):  # a row without coefficients depends on none
         assert warm_rows(np.zeros((m, 4)), np.ones(m), np.zeros(m)) == []
 

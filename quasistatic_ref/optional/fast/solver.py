@@ -72,6 +72,7 @@ class FastSolver(BackendSolver):
 
     interface = "native"
     remembers = True
+    basic = True
     fixed = ("n_a", "n_u", "cone", "contacts.rows", "extra")
 
     def __init__(
