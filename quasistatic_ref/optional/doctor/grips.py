@@ -51,10 +51,12 @@ def lost(run: Run) -> Iterator[Finding]:
 
 def _closed(n: Array) -> bool:
     """Whether normals, (n_c, 3), nearly cancel with weights >= 0 of sum 1."""
+    if len(n) < 2 or (n @ n.sum(axis=0)).min() > CLOSED * np.linalg.norm(n.sum(axis=0)):
+        return False  # all of them have that much along their mean
+    if np.linalg.norm(n[:, None] + n, axis=2).min() < 2 * CLOSED:
+        return True  # two of them do it
     from scipy.optimize import nnls  # takes as long as a short run
 
-    if len(n) < 2:
-        return False
     _, left = nnls(np.vstack([n.T, np.ones(len(n))]), np.array([0.0, 0.0, 0.0, 1.0]))
     return bool(left < CLOSED)
 

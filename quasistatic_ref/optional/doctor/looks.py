@@ -55,6 +55,8 @@ class Look:
         By law, of each body of which something is missing.
     live, asked : ndarray of bool, shape (n_c,)
         Contacts that touch or press, and those of groups that were looked at.
+    groups : list of ndarray of int
+        The contacts of each of these.
     bodies : set of str
         That were looked at, and of which the answer is not open.
     lost : set of str
@@ -67,6 +69,7 @@ class Look:
     live: Mask
     asked: Mask
     missing: dict[str, dict[str, Missing]] = field(default_factory=lambda: {SLOW: {}, ROUND: {}})
+    groups: list[Indices] = field(default_factory=list)
     bodies: set[str] = field(default_factory=set)
     lost: set[str] = field(default_factory=set)
 
@@ -76,37 +79,45 @@ class Look:
 
     @cached_property
     def undetermined(self) -> Array:
-        """Resultants of inner loads that nothing but contacts feels, shape (n_c, 4, dimensions).
+        """How far inner loads that nothing but contacts feels change forces, shape (n_c, 4, ...).
 
         They are z with J'z = 0, of contacts with load in the slow step; what slips keeps its ray
-        (n, -mu slip).
+        (n, -mu slip). Along d1, d2 and n, and about n; a column a dimension of a group.
         """
-        law = self.laws[SLOW]
-        forces = np.nan_to_num(law.forces)
-        n_c = len(forces)
+        each = [(at, self._inner(at)) for at in self.groups if self.knows(SLOW, at)]
+        most = max((z.shape[2] for _, z in each), default=0)
+        inner = np.zeros((len(self.live), 4, most))
+        for at, z in each:
+            inner[at, :, : z.shape[2]] = z
+        return inner
+
+    def _inner(self, at: Indices) -> Array:
+        """Of one group, shape (len(at), 4, dimensions)."""
+        forces = self.laws[SLOW].forces[at]
         loaded = np.flatnonzero(forces[:, 2] > NULL * forces[:, 2].max(initial=0.0))
         if not loaded.size:
-            return np.zeros((n_c, 4, 0))
+            return np.zeros((len(at), 4, 0))
         contacts = self.step.contacts
         J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
-        frames = np.stack([J_1, J_2, J_n, J_w], axis=1)  # as forces are
-        mu = contacts.mu
+        frames = np.stack([J_1, J_2, J_n, J_w], axis=1)[at]  # as forces are
+        moves = frames.any(axis=(0, 1))
+        mu = contacts.mu[at]
         columns = []
         for j in loaded.tolist():
-            if mu[j].any() and self._slips(j):
+            if mu[j].any() and self._slips(at[j]):
                 columns.append((j, forces[j] / forces[j, 2]))
             else:
                 rubs = [0, 1] if mu[j, 0] > 0 else []
                 rubs = [*rubs, 2, *([3] if mu[j, 2] > 0 else [])]
                 columns += [(j, np.eye(4)[i]) for i in rubs]
         z = np.array([column for _, column in columns])
-        at = np.array([j for j, _ in columns])
-        rows = np.einsum("ki,kiv->kv", z, frames[at])
+        of = np.array([j for j, _ in columns])
+        rows = np.einsum("ki,kiv->kv", z, frames[of][..., moves])
         rows = rows / np.maximum(np.abs(rows).max(axis=0), 1e-300)
         _, sizes, vt = np.linalg.svd(rows.T)
         null = vt[int((sizes > NULL * sizes[0]).sum()) :].T
-        inner = np.zeros((n_c, 4, null.shape[1]))
-        np.add.at(inner, at, z[:, :, None] * null[:, None, :])
+        inner = np.zeros((len(at), 4, null.shape[1]))
+        np.add.at(inner, of, z[:, :, None] * null[:, None, :])
         return inner
 
     def _slips(self, j: int) -> bool:
@@ -167,7 +178,6 @@ class Looking:
         reach = np.abs(extra.A) @ np.abs(delta_q)
         near = np.flatnonzero(-extra.b <= reach + 1e-12)
         kept = whole.replace(contacts=whole.contacts.some(live, every), extra=extra.of(near, every))
-        kept = slowly.landed(kept, run.presses[look.k, live], delta_q)
         for group in groups(kept):
             at = live[group.contacts]
             bodies = [b for b in run.bodies_of if np.isin(b.coordinates, group.coordinates).any()]
@@ -176,8 +186,11 @@ class Looking:
             if asked or not names & ({b.name for b in bodies} | pairs):
                 continue
             look.asked[at] = True
+            look.groups.append(at)
             part = group_step(kept, group)
             try:
+                of_run = delta_q[group.coordinates]
+                part = slowly.landed(part, run.presses[look.k, at], of_run)
                 self._group(look, part, group.coordinates, at, bodies, corners)
             except QuasistaticError:  # a step that has no solution, or no float64
                 look.lost |= {b.name for b in bodies}

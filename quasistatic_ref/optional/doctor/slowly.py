@@ -26,12 +26,14 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+from quasistatic_ref.formats.plain import field_values
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.numbers.fixed_point import Iterate, fixed_point
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.friction import frame_jacobian, slip_norm
 
@@ -51,6 +53,8 @@ MOST = {"floats": 20, "proved": 8, "round": 40}
 """Their iterates after which no fixed point is expected."""
 AGREES = 0.01
 """Change of r that is none, where no T beyond it has a fixed point [-]."""
+FEW = 16
+"""Of floats, where s is not predicted by a smaller T."""
 CUTS, ROUND = 20, 1e-8
 """Rounds of tangents to a round cone, and the part of a slip that they may leave [-]."""
 
@@ -177,11 +181,11 @@ def slip_of(step: StepData, delta_q: Array) -> Array:
 
 
 def by_coulomb(
-    step: StepData, solvers: Solvers, start: Array, *, proved: bool
-) -> tuple[Iterate[Answer], int]:
+    step: StepData, solvers: Solvers, start: Array, *, proved: bool, most: int | None = None
+) -> Iterate[Answer]:
     """The step by Coulomb's law: phi is raised by the slip that comes of it.
 
-    The iteration starts at start, shape (n_c,) [m].
+    The iteration starts at start, shape (n_c,) [m], and has at most as many iterates.
     """
     J = np.abs(step.contacts.J)
     mu = step.contacts.mu
@@ -191,8 +195,7 @@ def by_coulomb(
         kind = "round"
 
     def at(s: Array) -> Iterate[Answer]:
-        raised = step.replace(contacts=step.contacts.raised(s))
-        answer = solvers(raised, proved=proved, tangents=tangents)
+        answer = solvers(_raised(step, s), proved=proved, tangents=tangents)
         slip = slip_of(step, answer.delta_q)
         moves = J @ np.abs(answer.delta_q)
         longest = (mu[:, 0] * moves[:, :3].sum(axis=1) + mu[:, 2] * moves[:, 3]).max(initial=0.0)
@@ -200,7 +203,16 @@ def by_coulomb(
         limit = CLOSE[kind] * longest if proved else max(CLOSE[kind] * longest, NOISE)
         return Iterate(s, slip, residual, bool(residual <= limit), answer)
 
-    return fixed_point(at, start, MOST[kind])
+    found, _ = fixed_point(at, start, most or MOST[kind])
+    return found
+
+
+def _raised(step: StepData, s: Array) -> StepData:
+    """A step with phi + s, shape (n_c,) [m], in the place of phi: nothing else of it changes."""
+    contacts = step.contacts
+    phi = read_only(contacts.phi + s)
+    raised = Contacts.unchecked(**(field_values(contacts) | {"phi": phi}))
+    return StepData.unchecked(**(field_values(step) | {"contacts": raised}))
 
 
 class Rung(NamedTuple):
@@ -244,9 +256,13 @@ def rung(step: StepData, T: float, solvers: Solvers, sizes: Array, start: Array)
 
     The iteration starts at start [m], and shapes have sizes [m], each of shape (n_c,).
     """
-    at, _ = by_coulomb(step.replace(h=T), solvers, start, proved=False)
+    at = by_coulomb(step.replace(h=T), solvers, start, proved=False)
     if not at.converged and cone(step.cone).polyhedral:
-        at, _ = by_coulomb(step.replace(h=T), solvers, at.image, proved=True)
+        at = by_coulomb(step.replace(h=T), solvers, at.image, proved=True)
+    return _rung(step, T, sizes, at)
+
+
+def _rung(step: StepData, T: float, sizes: Array, at: Iterate[Answer]) -> Rung | None:
     if not at.converged:
         return None
     return Rung(T, at.of, at.image, _moves(step, at.of.delta_q, sizes))
@@ -267,17 +283,23 @@ def climb(step: StepData, solvers: Solvers, sizes: Array, first: Rung | None) ->
     """
     end = max(SLOWLY, 1000 * step.h)
     nothing = np.zeros(step.contacts.n_c)
-    far = (
-        rung(step, end, solvers, sizes, nothing) if first is None or _sticks(first, sizes) else None
-    )
-    if far is not None and _sticks(far, sizes) and far.moves <= 1:
-        before = rung(step, end / 3, solvers, sizes, nothing)
-        if before is not None and _sticks(before, sizes):
-            return Climb([before, far], False)
+    s = nothing if first is None else first.s
+    ends: list[Rung] = []
+    for T in (end, end / 3):  # where targets alone move bodies, s is that of h
+        at = by_coulomb(step.replace(h=T), solvers, s, proved=False, most=FEW)
+        far = _rung(step, T, sizes, at)
+        if far is None or far.moves > 1:
+            break
+        ends.insert(0, far)
+        s = far.s
+    if len(ends) == 2:
+        if all(_sticks(one, sizes) for one in ends):
+            return Climb(ends, False)
+        climbed = _confirmed(step, solvers, sizes, ends, False)
+        if not climbed.open:
+            return climbed
     kept = [] if first is None else [first]
-    straight = (
-        max(1.0, 2 * kept[0].moves) if kept else 1.0
-    )  # what moves far at h, too, is asked for
+    straight = max(1.0, 2 * first.moves) if first else 1.0  # what moves far at h is asked for
     T = step.h
     lost = first is None
     while end > T:
@@ -320,7 +342,7 @@ def _confirmed(
     sure: list[Rung] = []
     for one in kept[::-1]:
         if not _sticks(one, sizes):
-            at, _ = by_coulomb(step.replace(h=one.T), solvers, one.s, proved=True)
+            at = by_coulomb(step.replace(h=one.T), solvers, one.s, proved=True)
             if not at.converged:
                 lost = True
                 continue

@@ -7,7 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import pair_closest_points
+from quasistatic_ref.contact.distance import in_world, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
@@ -18,7 +18,7 @@ from quasistatic_ref.optional.doctor.placed import inside
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import joining, least
 from quasistatic_ref.optional.doctor.telling import amount, length
-from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Shape
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import BEYOND, FILLED, LAGS, SLIPPED, STALLED, SUNK
@@ -158,7 +158,8 @@ def through(run: Run) -> Iterator[Finding]:
     if not apart or len(apart) > MOST:
         return
     steps = np.unique(np.linspace(0, run.steps, 1 + LOOKED).round().astype(int)).tolist()
-    depths = np.array([_depths(run, k, apart) for k in steps])
+    radii = {name: _radius(placed.shape) for name, placed in shapes.items()}
+    depths = np.array([_depths(run, k, apart, radii) for k in steps])
     sizes = np.array([least(pair) for pair in apart])
     deepest: dict[frozenset[str], Finding] = {}
     for i, j in np.argwhere((depths[0] <= 0) & (depths > SUNK * sizes)).tolist():
@@ -182,16 +183,30 @@ def _who(placed: PlacedShape) -> str | int:
     return placed.link or placed.name
 
 
-def _depths(run: Run, k: int, pairs: list[ContactPair]) -> list[float]:
+def _depths(run: Run, k: int, pairs: list[ContactPair], radii: dict[str, float]) -> list[float]:
     """How deep each of some pairs is where step k starts [m]; NaN where that is not known."""
     at = run.system.kinematics(run["q"][k])
     depths = []
     for pair in pairs:
         depth = np.nan
+        alpha, beta = in_world(pair, at.R, at.t)
+        if np.linalg.norm(alpha.t - beta.t) > radii[pair.alpha.name] + radii[pair.beta.name]:
+            depths.append(-np.inf)
+            continue
         with suppress(ContactError):  # of bodies so deep that no normal is known
             depth = -float(pair_closest_points(pair, at.R, at.t).phi[0])
         depths.append(depth)
     return depths
+
+
+def _radius(shape: Shape | PointCloud) -> float:
+    """Of a ball about its origin that has all of it [m]."""
+    if isinstance(shape, PointCloud):
+        return float(np.linalg.norm(shape.points, axis=1).max())
+    if not np.isfinite(shape.extent):
+        return np.inf
+    axes = np.vstack([np.eye(3), -np.eye(3)])
+    return float(np.linalg.norm(shape.support_value(axes).reshape(2, 3).max(axis=0)))
 
 
 def idle(run: Run) -> Iterator[Finding]:
