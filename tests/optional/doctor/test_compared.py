@@ -6,7 +6,6 @@ import pytest
 from quasistatic_ref import Sphere
 from tests.model.urdf.urdf_texts import link, robot
 from tests.optional.doctor.words import (
-    TIP,
     block,
     driven,
     fingers,
@@ -26,32 +25,6 @@ def run_of(*parts, **more):
 
 def found(run):
     return [finding for finding in run.findings if finding.name in ARTIFACTS]
-
-
-def wiper(h, speed=0.05):
-    """A finger that is to press with 5 N."""
-    depth = 0.25e-3
-    targets = [{"t": 0.0, "x": 0.0, "z": -depth}, {"t": 1.0, "x": speed, "z": -depth}]
-    finger = driven(slides("xz", TIP), (0, 0, 0.01), {"x": 20000, "z": 20000}, targets)
-    wipe = {"wipe": ("floor", "finger/tip", 0.5, 1)}
-    return run_of({"finger": finger}, wipe, round(1 / h), h=h)
-
-
-@pytest.mark.parametrize("h", [0.01, 0.05, 0.1])
-def test_what_a_spring_presses_presses_harder_while_it_slides(h):
-    """N = K_q (e + mu_v h v), (R13): 10, 30 and 55 N where Coulomb's law has 5."""
-    (finding,) = found(wiper(h))
-    assert finding.name == "boundary layer"
-    np.testing.assert_allclose(
-        finding.numbers["normal_N"], 20000 * (0.25e-3 + 0.5 * h * 0.05), rtol=1e-5
-    )
-    np.testing.assert_allclose(finding.numbers["coulomb_N"], 5.0, rtol=0.01)
-    assert f"{finding.numbers['normal_N']:.3g} N" in finding.cause
-
-
-def test_a_layer_of_less_than_a_tenth_of_the_force_is_not_said():
-    """mu_v h v over e is 0.8 %."""
-    assert found(wiper(0.01, 4e-4)) == []
 
 
 def plates(mu_top, h, steps):
@@ -141,28 +114,6 @@ def loaded(urdf, z, force=(0, 0, 0), mu_v=0.5, steps=1, **more):
 
 
 BOX = block(1.0, (0.1, 0.1, 0.1))
-TALL = block(1.0, (0.1, 0.1, 0.3))
-
-
-def test_a_box_that_topples_is_not_in_equilibrium():
-    """About its edge 3.4 N 150 mm - 9.81 N 50 mm are missing: it starts with that over I."""
-    run = loaded(TALL, 0.15, (3.4, 0, 0), mu_v=0.9)
-    (finding,) = run.findings
-    reach = 0.05**2 + 0.15**2
-    at_centre = (0.1**2 + 0.3**2) / 12
-    turns = (3.4 * 0.15 - 9.81 * 0.05) / (at_centre + reach)
-    np.testing.assert_allclose(finding.numbers["missing_N"], turns * np.sqrt(reach), rtol=1e-3)
-    np.testing.assert_allclose(finding.numbers["missing_Nm"], turns * at_centre, rtol=1e-3)
-    assert loaded(TALL, 0.15, (3.2, 0, 0), mu_v=0.9).findings == ()
-
-
-def test_a_stack_beyond_its_overhang_is_not_in_equilibrium():
-    """Two equal boxes, the upper one over the edge by 60 % of its width, and by 40 %."""
-    for out, falls in ((0.06, True), (0.04, False)):
-        bodies = {"low": free(BOX, (0, 0, 0.05)), "high": free(BOX, (out, 0, 0.15))}
-        tables = {"floor": ("floor", "low", 0.5, 4), "stack": ("low", "high", 0.5, 8)}
-        names = [finding.name for finding in found(run_of(bodies, tables, 3))]
-        assert names == ["not in equilibrium"] * falls
 
 
 def test_a_slide_in_the_ellipsoid_is_judged_in_it():

@@ -49,53 +49,6 @@ def found(bodies, contacts, steps, h=0.01, **more):
     }
 
 
-def pressed(N, K=1e6):
-    """1 kg is pressed on a wall, mu_v = 0.5 on both sides."""
-    tip = finger("f", (0.11, 0, 0), [K, 1e6, 1e6], [(0, (0.11 - N / K, 0, 0))], 1e4)
-    bodies = {"b": cube(xyz=(0.05, 0, 0)), "f": tip}
-    contacts = {"wall": pair("wall", "b", 0.5, 4), "f": pair("f", "b", 0.5)}
-    return found(bodies, contacts, 20, 0.05, shapes={"wall": qr.HalfSpace((1, 0, 0), 0.0)})
-
-
-@pytest.mark.parametrize("N", [2.0, 4.5, 7.0, 9.0])
-def test_a_press_that_is_too_weak_lacks_what_it_cannot_bear(N):
-    """Friction of both sides bears 2 mu N; the layer of the creep must not."""
-    assert pressed(N)["not in equilibrium"]["missing_N"] == pytest.approx(G - N, rel=1e-3)
-
-
-def test_a_press_that_is_strong_enough_lacks_nothing():
-    assert pressed(11.0) == {}
-
-
-@pytest.mark.parametrize("M", [10.0, 20.0, 200.0])
-def test_what_is_missing_does_not_depend_on_what_stands_beside_it(M):
-    """50 g on a slope of 30 degrees, mu_v = 0.2."""
-    a = np.radians(30)
-    n = (-np.sin(a), 0, np.cos(a))
-    small = box("s", (0.01, 0.01, 0.01), 0.05, tuple(0.01 * np.array(n)), rpy=(0, -a, 0))
-    bodies = {"s": small, "big": box("big", (0.1, 0.1, 0.1), M, (0, 1, -0.9))}
-    contacts = {"s": pair("slope", "s", 0.2, 4), "t": pair("table", "big", 0.5, 4)}
-    shapes = {"slope": qr.HalfSpace(n, 0.0), "table": qr.HalfSpace((0, 0, 1), -1.0)}
-    numbers = found(bodies, contacts, 20, shapes=shapes)["not in equilibrium"]
-    lacks = 0.05 * G * (np.sin(a) - 0.2 * np.cos(a))
-    assert numbers["missing_N"] == pytest.approx(lacks, rel=1e-3)
-
-
-def test_a_ball_that_settles_on_a_spring_lacks_nothing():
-    ball = qr.Body.of_shape("b", qr.Sphere(0.05), mass=1.0, xyz=(0, 0, 0.05))
-    bodies = {"p": plate(1e3, [(0, (0, 0, -0.01))]), "b": ball}
-    assert found(bodies, {"c": pair("p", "b", 0.5)}, 60) == {}
-
-
-@pytest.mark.parametrize("v", [0.1, 0.5, 2.0])
-def test_a_plate_that_lifts_presses_with_the_weight_without_drag(v):
-    """N = m g + m v / h."""
-    bodies = {"p": plate(1e5, [(0, (0, 0, -0.01)), (0.6, (0, 0, 0.6 * v - 0.01))]), "b": cube()}
-    numbers = found(bodies, {"c": pair("p", "b", 0.0, 4)}, 60)["drag"]
-    assert numbers["without_drag_N"] == pytest.approx(G, rel=1e-3)
-    assert numbers["normal_N"] == pytest.approx(G + v / 0.01, rel=1e-2)
-
-
 def grip(N, steps, way, tables=(("l", "r"),), wrenches=(), h=0.01, K=1e3):
     b = {
         "urdf": cube(xyz=(0, 0, 1)),
@@ -199,20 +152,6 @@ def test_a_layer_that_follows_from_drag_is_named_after_drag():
     assert {"drag", "boundary layer"} & names.keys() == {"drag"}
 
 
-@pytest.mark.parametrize(
-    ("force", "pyramid", "round"), [((6, 2, 0), 2.88, 2.401), ((4, 4, 0), 2.882, 1.733)]
-)
-def test_corners_take_friction_between_the_axes(force, pyramid, round):
-    """mu_v m g = 3.924 N: along a face of the pyramid, or all around."""
-    flat = {
-        "urdf": box("b", (0.3, 0.3, 0.001), 1.0, (0, 0, 0.001)),
-        "wrenches": [{"t": 0, "force": list(force)}],
-    }
-    numbers = found({"b": flat}, {"f": pair("floor", "b", 0.4, 4)}, 20, shapes=FLOOR)
-    assert numbers["not in equilibrium"]["missing_N"] == pytest.approx(pyramid, rel=1e-2)
-    assert numbers["corners of the cone"]["ellipsoid_N"] == pytest.approx(round, rel=1e-2)
-
-
 HINGED = """<robot name="d"><link name="w"/><link name="base"><inertial><mass value="10"/>
 <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
 <link name="lid"><inertial><origin xyz="0.1 0 0"/><mass value="0.1"/>
@@ -264,12 +203,6 @@ def test_a_box_that_fingers_stroke_is_not_lost():
         bodies[n] = finger(n, (-0.1, s * 0.06, 0.05), [1e5, 1e3, 1e5], way)
     contacts = {"c": pair(["l", "r"], "b", 0.5, mu_omega=0.005), "g": pair("floor", "b", 0.5, 4)}
     assert found(bodies, contacts, 100, shapes=FLOOR) == {}
-
-
-def test_a_box_that_is_put_down_tilted_settles():
-    t = 0.03
-    tilted = cube(xyz=(0, 0, 0.05 * (np.cos(t) + np.sin(t))), rpy=(0, t, 0))
-    assert found({"b": tilted}, {"g": pair("floor", "b", 0.5, 4)}, 40, shapes=FLOOR) == {}
 
 
 def test_a_soft_palm_bears_a_box_that_still_sinks():
