@@ -3,11 +3,12 @@
 A force in a contact's cone is a combination, with multipliers lam >= 0, of the cone's rows a_i, so
 that the generalised force of all contacts on the un-actuated coordinates is A_u' lam. The step is
 in equilibrium if A_u' lam + tau_u = 0 for some lam. Where no lam does it, what is missing is the
-least r, in the sum of its sizes, with A_u' lam + tau_u + r = 0: of a free body along the normals
-that press on it, along the rest of its load, and across both.
+least r with A_u' lam + tau_u + r = 0, in the sum of sizes of L^-1 r, M_u = L L'.
+
+It agrees with the slow step (:mod:`~quasistatic_ref.optional.doctor.slowly`) where all sticks, and
+says of a guide what that cannot: whether a body is borne without a squeeze.
 """
 
-from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple
 
@@ -32,15 +33,13 @@ TORSIONS = np.linspace(-0.5, 0.5, 13) * np.pi
 """Latitudes at which they stand, from torsion alone to torsion alone [rad]."""
 
 
-class Statics(NamedTuple):
+class Bearing(NamedTuple):
     """Forces by which contacts bear a load, and what is missing.
 
     Parameters
     ----------
     missing : ndarray, shape (n_u,)
-        [N], zero if the load is borne. Its entries are along axes in which the kinetic energy of a
-        body is a sum of squares: of a free body first those of its translation, then torques about
-        its centre of mass over its radii of gyration.
+        [N, N m], zero if the load is borne.
     normal : ndarray, shape (n_c,)
         Normal forces [N] with the least sum that bear the rest.
     """
@@ -49,13 +48,10 @@ class Statics(NamedTuple):
     normal: Array
 
 
-def statics(
-    step: StepData, touching: Mask, at_most: Array, masses: Array, free: Sequence[slice] = ()
-) -> Statics:
+def bearing(step: StepData, touching: Mask, at_most: Array) -> Bearing:
     """What the contacts of a step cannot bear of its loads on the un-actuated coordinates.
 
     Forces lie in the cones of the touching contacts. Lever arms count, since a row of A holds them.
-    A contact of an actuated body presses with its normal force in the step at most.
 
     Parameters
     ----------
@@ -63,38 +59,24 @@ def statics(
         In any cone.
     touching : ndarray of bool, shape (n_c,)
     at_most : ndarray, shape (n_c,)
-        Largest normal force of each contact [N]; infinite where no spring limits it.
-    masses : ndarray, shape (n_u,)
-        Of the body of each un-actuated coordinate [kg].
-    free : sequence of slice
-        Un-actuated coordinates that translate a free body, three each.
+        Largest normal force of each contact [N]; infinite where nothing limits it.
 
     Examples
     --------
     >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> lacks = statics(step, np.array([True]), np.array([np.inf]), np.full(6, 0.3)).missing
+    >>> lacks = bearing(step, np.array([True]), np.array([np.inf])).missing
     >>> bool(np.abs(lacks).sum() > 0)  # it spins: its torque is beyond mu_omega m g
     True
     """
     from scipy.optimize import linprog  # takes as long as a short run
 
     n_u = step.n_u
-    n_c = step.contacts.n_c
     rows, contact = _cone_rows(step, touching)
-    root = np.linalg.cholesky(step.M_u)
-    scale = np.sqrt(masses)
+    root = np.linalg.cholesky(step.M_u)  # of a free body forces, and torques about its centre
     along = np.linalg.solve(root, np.column_stack([rows[:, step.n_a :].T, step.tau_u]))
-    along *= scale[:, None]
-    J_n = frame_jacobian(step.contacts, step.contacts.J)[0][touching, step.n_a :]
-    normals = scale * np.linalg.solve(root, J_n.T).T
-    axes = [_axes(normals[:, body], along[body, -1]) for body in free]
-    for body, axis in zip(free, axes, strict=True):
-        along[body] = axis.T @ along[body]
     load = along[:, -1]
-    size = float(np.abs(load).max(initial=0.0))
-    if not size:
-        return Statics(np.zeros(n_u), np.zeros(n_c))
-    pressing = np.zeros((n_c, len(rows) + 2 * n_u))
+    size = float(np.abs(load).max(initial=0.0)) or 1.0
+    pressing = np.zeros((step.contacts.n_c, len(rows) + 2 * n_u))
     pressing[contact, np.arange(len(rows))] = 1.0  # a row pushes by 1 along n
     limited = np.isfinite(at_most) & touching
     answer = linprog(
@@ -105,23 +87,13 @@ def statics(
         b_eq=-load / size,
     )
     if answer.x is None:  # with r it has a solution: only where HiGHS fails
-        return Statics(np.zeros(n_u), np.zeros(n_c))
+        return Bearing(np.zeros(n_u), np.zeros(step.contacts.n_c))
     plus, minus = answer.x[len(rows) :].reshape(2, n_u)
-    missing = np.asarray(size * (plus - minus))
-    for body, axis in zip(free, axes, strict=True):
-        missing[body] = axis @ missing[body]
-    return Statics(missing, np.asarray(size * (pressing @ answer.x)))
+    missing = np.asarray(size * (root @ (plus - minus)))
+    return Bearing(missing, np.asarray(size * (pressing @ answer.x)))
 
 
-def _axes(normals: Array, load: Array) -> Array:
-    """Orthonormal columns, shape (3, 3): along what presses, along the rest of a load, across."""
-    presses = normals.sum(axis=0)
-    if np.linalg.norm(presses) <= SAME_NORMAL * len(normals):  # from opposite sides
-        presses = load
-    return np.asarray(np.linalg.qr(np.column_stack([presses, load, np.eye(3)]))[0])
-
-
-def unsqueezed(start: Start, step: StepData, touching: Mask) -> Array:
+def unsqueezed(step: StepData, touching: Mask) -> Array:
     """Normal forces, shape (n_c,) [N], that bear the loads of a step and are no mere squeeze.
 
     A squeeze, of forces in the cones with A_u' w = 0, moves nothing. In a rigid guide it may have
@@ -129,14 +101,13 @@ def unsqueezed(start: Start, step: StepData, touching: Mask) -> Array:
 
     Parameters
     ----------
-    start : Start
     step : StepData
     touching : ndarray of bool, shape (n_c,)
     """
     from scipy.optimize import linprog  # takes as long as a short run
 
     no_limit = np.full(step.contacts.n_c, np.inf)
-    normal = statics(step, touching, no_limit, start.masses, start.translations).normal
+    normal = bearing(step, touching, no_limit).normal
     presses = normal > CHEAP * normal.max(initial=0.0)
     if not presses.any():
         return np.zeros_like(normal)
@@ -211,7 +182,8 @@ def borne(start: Start, q: Array, contacts: Contacts, name: str, squeezed: bool 
     touching = start.touching(contacts)
     at_most = np.full(contacts.n_c, np.inf)
     if not squeezed:
-        at_most = unsqueezed(start, step, touching)
-    missing = statics(step, touching, at_most, start.masses, start.translations).missing
-    lacks = float(np.linalg.norm(missing[[owner == name for owner in start.owners]]))
+        at_most = unsqueezed(step, touching)
+    missing = bearing(step, touching, at_most).missing
+    base = start.free_bases[name].v
+    lacks = float(np.linalg.norm(missing[base.start - step.n_a : base.stop - step.n_a]))
     return lacks <= LIGHT * start.system.mass(name) * start.g

@@ -147,23 +147,6 @@ class Start:
         return free_bases(self.system)
 
     @cached_property
-    def translations(self) -> list[slice]:
-        """The un-actuated coordinates that translate each free body, three each."""
-        starts = [base.v.start - self.system.n_a for base in self.free_bases.values()]
-        return [slice(start, start + 3) for start in starts]
-
-    @cached_property
-    def owners(self) -> tuple[str, ...]:
-        """The body of each un-actuated coordinate."""
-        coordinates = self.system.coordinates[self.system.n_a :]
-        return tuple(coordinate.joint.partition("/")[0] for coordinate in coordinates)
-
-    @cached_property
-    def masses(self) -> Array:
-        """Their masses, shape (n_u,) [kg]."""
-        return np.array([self.system.mass(name) for name in self.owners])
-
-    @cached_property
     def pair_of(self) -> Indices:
         """Number of the pair of each contact, shape (n_c,)."""
         counts = np.array([pair.n_c for pair in self.pairs], dtype=np.int64)

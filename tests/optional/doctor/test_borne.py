@@ -44,7 +44,7 @@ def test_friction_bears_what_lever_arms_press(reach, offset, balls):
     start = Start(clamp.simulator(), clamp.system.q_start)
     contacts = start.contacts_at_start
     step = at_rest(start, start.q_start, contacts)
-    normal = unsqueezed(start, step, start.touching(contacts))
+    normal = unsqueezed(step, start.touching(contacts))
     by_hand = 2 * MU_V * WEIGHT * reach / offset
     if balls == CLAMP and by_hand < WEIGHT:
         by_hand = 0.0  # it falls, and turns away from the post
