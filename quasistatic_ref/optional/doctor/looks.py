@@ -73,7 +73,7 @@ class Look:
     bodies: set[str] = field(default_factory=set)
     lost: set[str] = field(default_factory=set)
 
-    def knows(self, law: str, contacts: Mask) -> bool:
+    def knows(self, law: str, contacts: Mask | Indices) -> bool:
         """Whether a law has an answer for some contacts, shape (n_c,)."""
         return law in self.laws and bool(np.isfinite(self.laws[law].forces[contacts]).all())
 
