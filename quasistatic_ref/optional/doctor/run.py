@@ -258,8 +258,12 @@ class RunStep:
         polyhedral = cone(self.run.simulator.cone).polyhedral
         if not (self.run.searched and polyhedral and is_there("forces")):
             return None
-        near = self.run["delta_q"][self.k], self.run["wrench"][self.k]
-        return contact_forces(self.step, near)
+        return contact_forces(self.step, self.near)
+
+    @property
+    def near(self) -> tuple[Array, Array]:
+        """delta_q, shape (n_v,) [m, rad], and forces of contacts, (n_c, 4) [N, N m], of the run."""
+        return self.run["delta_q"][self.k], self.run["wrench"][self.k]
 
     @property
     def forces(self) -> Array:

@@ -1,20 +1,29 @@
 """How the steps of a run were solved: failing backends, uncertain forces, and time of proofs."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from contextlib import suppress
 from math import log10
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.doctor.run import Run, RunStep
+from quasistatic_ref.parts import contact_forces
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import NONE, QPSOLVERS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.groups import group_steps
 from quasistatic_ref.tolerances import BORNE, SURE
+
+if TYPE_CHECKING:
+    from quasistatic_ref.certify.contact_forces import ContactForces
 
 WORTH = 10.0
 """Least time of a run whose proofs are named [s]."""
@@ -109,14 +118,36 @@ def unborne(run: Run) -> Iterator[Finding]:
             f"forces of single contacts leave {compliant.imbalance:.1e} of the load",
             {"left": compliant.imbalance},
         )
-    bit = float(np.spacing(np.abs(run["beta"][k]).max(initial=0.0)))
-    noise = compliant.sensitivity * bit
+    bits = np.spacing(np.abs(run["beta"][k]).max(axis=1))
+    bit = float(bits.max(initial=0.0))
+    if compliant.sensitivity * bit <= SURE:  # a bound
+        return
+    noise = _noise(run.at(k), compliant, bits)
     if noise > SURE:
         yield Finding(
             "uncertain forces",
             False,
             "read the sum of forces of each pair in the place of single ones, or take a softer K_q",
-            f"rounding of a gap, by {bit:.1e} m, may change forces of single contacts by "
-            f"{noise:.1e} of the load of their group",
+            f"rounding of a gap, by {bit:.1e} m, changes forces of single contacts by {noise:.1e} "
+            "of the largest of their group",
             {"noise": noise},
         )
+
+
+def _noise(at: RunStep, compliant: ContactForces, bits: Array) -> float:
+    """By how much forces change if each gap is off by a drawn part of a bit, over the largest.
+
+    Of each group of contacts that share coordinates, the most [-].
+    """
+    step = at.step
+    off = bits * np.random.default_rng(0).uniform(-1.0, 1.0, len(bits))
+    raised = step.replace(contacts=step.contacts.raised(off))
+    changed = contact_forces(raised, at.near).wrench
+    change = np.abs(changed - compliant.wrench)
+    groups = [group.contacts for group, _ in group_steps(step)]
+    shares = [
+        change[of].max(initial=0.0) / np.abs(compliant.wrench[of]).max(initial=0.0)
+        for of in groups
+        if compliant.wrench[of].any()
+    ]
+    return float(max(shares, default=0.0))

@@ -28,7 +28,7 @@ G = 9.81
 TIP_RADIUS = 0.01
 STIFF = 1e6
 """Of springs across the direction in which a finger presses [N/m]: they give way by micrometres."""
-SLAB = "<box size='2 2 0.02'/>"
+SLAB = "<box size='1 1 0.02'/>"
 H = (0.005, 0.01, 0.02)
 
 
@@ -62,7 +62,7 @@ class Draw:
         """
         for i in range(self.rng.integers(3)):
             mass = self.between(0.02, 20.0)
-            bodies[f"other{i}"] = free(block(mass, (0.1,) * 3), (5, i, 0.05))
+            bodies[f"other{i}"] = free(block(mass, (0.1,) * 3), (1, 0.2 * i, 0.05))
             contacts[f"other{i}"] = ("floor", f"other{i}", 0.5, 4)
         run = scene(bodies, contacts, steps, fast=True, **({"h": self.h} | more))
         return run, hand or {}, pressed or {}, {*also}
@@ -247,7 +247,8 @@ def pressed_on_a_wall(d):
     bodies = {"b": d.cube(d.edge / 2, 0, 0), "f": tip}
     contacts = {"wall": ("wall", "b", d.mu, 4), "f": ("f/tip", "b", d.mu, 1)}
     hand = lacks(d.m * G - 2 * d.mu * N)
-    return d.scene(bodies, contacts, 3, hand, {"f": N}, shapes=wall)
+    also = ["uncertain forces"]  # of its four corners on the wall
+    return d.scene(bodies, contacts, 3, hand, {"f": N}, also, shapes=wall)
 
 
 def weak_grip(d):

@@ -93,3 +93,16 @@ def test_hand_values_are_said_and_hold_in_the_run_or_in_a_step_that_converges(ki
     assert force == pytest.approx(lacks["missing_N"], rel=1e-3)
     assert torque == pytest.approx(lacks["missing_Nm"], rel=1e-3, abs=1e-9)
     assert not bears(run, 0, pressed)
+
+
+@pytest.mark.parametrize(("kind", "seed"), [*drawn(HEALTHY), *drawn(BROKEN)])
+def test_what_is_said_is_what_is_right_by_hand(kind, seed):
+    """No look is left open, and no number is off by more than 1 %."""
+    scenario, hand, _, also = kind(Draw(seed))
+    run = scenario.run(progress=False)
+    numbers = {finding.name: finding.numbers for finding in run.findings}
+    assert hand.keys() <= numbers.keys() <= hand.keys() | also
+    for name, expected in hand.items():
+        said = {key: numbers[name][key] for key in expected}
+        assert said == pytest.approx(expected, rel=0.01, abs=1e-9)
+    assert "fixed point" not in run.header.get("not_looked_at", "")
