@@ -21,7 +21,7 @@ from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Shape
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.tolerances import BEYOND, FILLED, LAGS, SLIPPED, STALLED, SUNK
+from quasistatic_ref.tolerances import FILLED, LAGS, SLIPPED, STALLED, SUNK
 
 OPPOSITE = -0.5
 """Cosine of two normals that grip [-]."""
@@ -382,10 +382,12 @@ def _rounded_up(x: float) -> float:
 
 
 def _at_a_stop(run: Run, joint: Joint) -> bool:
-    """Whether a joint ends at a limit at which it stops."""
-    if joint.limits is None or joint.v.start not in run.bounded:
+    """Whether a joint ends at a limit that bears it, or at another row of an extension."""
+    rows = run.rows
+    if rows is None:
         return False
-    return bool(abs(run["q"][-1, joint.q] - joint.limits).min() <= BEYOND)
+    bears = run["lam_extra"][-1, : len(rows.A)] > 0
+    return bool(rows.A[bears, joint.v.start].any())
 
 
 def _stalled(task: Task, contact: int, error: float, unit: str) -> bool:

@@ -7,7 +7,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.simulate.target import JointTrack, Targets
 from tests.model.urdf.urdf_texts import collision, link, robot
-from tests.optional.doctor.words import block, driven, free, joint, scene
+from tests.optional.doctor.words import TIP, block, driven, free, joint, scene, slides
 
 
 def grasp(kind="prismatic", axis="0 -1 0", at=0.0):
@@ -109,3 +109,13 @@ def test_a_base_on_springs_that_ends_far_from_its_target_is_named(K, far):
     said = [one for one in found if one.name == "far from target"]
     assert [one.remedy for one in said] == ["raise K_q of p/base to 2e+03 or more"] * far
     assert all(one.numbers["error_m"] == pytest.approx(9.81 / K, rel=1e-3) for one in said)
+
+
+@pytest.mark.parametrize("limits", [[-0.002, 0.0], [0.0, 0.0]])
+def test_a_joint_at_a_limit_of_its_table_is_not_short_of_its_target(limits):
+    """No spring is stiff enough: of 10 mm the limit leaves 2 mm, or nothing."""
+    targets = [{"t": 0.0, "z": 0.0}, {"t": 0.05, "z": -0.01}]
+    finger = driven(slides("z", TIP), (0, 0, 1), {"z": 10.0}, targets)
+    run = scene({"finger": finger | {"joint_limits": {"z": limits}}}, {}, 10).run(progress=False)
+    assert run.q[-1] == limits[0]
+    assert "far from target" not in [one.name for one in run.findings]
