@@ -14,7 +14,7 @@ import pytest
 from hypothesis import settings
 
 from quasistatic_ref import load_scenario
-from tests.extras import is_missing, reason
+from tests.extras import is_in_test, is_missing, reason
 from tests.scenes import PUSH, chain_scene, written_scenario
 
 settings.register_profile("ci", derandomize=True, deadline=None, max_examples=15, database=None)
@@ -32,14 +32,17 @@ def pytest_configure(config):
     """Declare the markers of tests that need an extra, and of those that only ``.ci/run`` takes."""
     config.addinivalue_line("markers", "extra(name): a test that needs an extra of pyproject.toml")
     config.addinivalue_line("markers", "long: one of many of its kind; pytest -m long takes them")
+    config.addinivalue_line("markers", "ci: what README's line leaves to .ci/run, marked by itself")
 
 
 def pytest_collection_modifyitems(items):
-    """Skip what needs an extra that is not installed."""
+    """Skip what needs an extra that is not installed, and mark what README's line does not run."""
     for item in items:
-        for mark in item.iter_markers("extra"):
-            if is_missing(*mark.args):
-                item.add_marker(pytest.mark.skip(reason=reason(*mark.args)))
+        extras = [extra for mark in item.iter_markers("extra") for extra in mark.args]
+        for extra in filter(is_missing, extras):
+            item.add_marker(pytest.mark.skip(reason=reason(extra)))
+        if item.get_closest_marker("long") or not all(map(is_in_test, extras)):
+            item.add_marker(pytest.mark.ci)
 
 
 @pytest.hookimpl(wrapper=True)

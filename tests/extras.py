@@ -18,14 +18,25 @@ OF_EXTRA = re.compile(r"""([\w.-]+).*\bextra *== *['"]([\w-]+)['"]""")
 
 
 @cache
+def packages_of(extra):
+    """The packages of an extra."""
+    matches = filter(None, map(OF_EXTRA.match, requires("quasistatic-ref") or ()))
+    packages = {match[1] for match in matches if match[2] == extra}
+    assert packages, f"pyproject.toml declares no extra {extra}"
+    return packages
+
+
+@cache
 def is_missing(extra):
     """Whether a package of an extra is not installed; of ``fast``, whether C was not compiled."""
     if extra == "fast":
         return missing() is not None
-    matches = filter(None, map(OF_EXTRA.match, requires("quasistatic-ref") or ()))
-    packages = [match[1] for match in matches if match[2] == extra]
-    assert packages, f"pyproject.toml declares no extra {extra}"
-    return not all(map(_is_installed, packages))
+    return not all(map(_is_installed, packages_of(extra)))
+
+
+def is_in_test(extra):
+    """Whether README's line, which installs the extra ``test``, has an extra."""
+    return extra == "fast" or packages_of(extra) <= packages_of("test")
 
 
 def _is_installed(package):

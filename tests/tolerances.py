@@ -15,9 +15,6 @@ ACTIVE_SET = 1e-9
 MULTIPLIERS = 1e-6
 """Forces and multipliers against their largest: they carry a conditioning more than delta_q."""
 
-STICKING = 1e-6
-"""A motion that the closed form says is zero, relative to the unconstrained one."""
-
 WRONG = 1e-2
 """A relative residual above this is another equation, not a rounding of the same one."""
 

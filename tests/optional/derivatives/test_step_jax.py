@@ -23,6 +23,7 @@ from tests.optional.derivatives.free_bodies import BOX, FLOOR, free, vector_scen
 from tests.tolerances import JAX_GRADIENT, JAX_STEP
 
 jax = pytest.importorskip("jax", reason=needs("jax"))
+pytestmark = pytest.mark.extra("jax")
 check_grads = import_module("jax.test_util").check_grads
 
 G = 9.81
