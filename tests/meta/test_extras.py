@@ -44,6 +44,13 @@ def test_nothing_is_skipped_but_for_want_of_an_extra_or_of_a_count():
     assert found == {"conftest.py"}, "it skips by the marker"
 
 
+def test_a_file_that_is_skipped_whole_has_the_marker_by_which_ci_takes_it():
+    for path in ROOT.glob("tests/**/*.py"):
+        skipped = re.search(r"^\w+ = pytest\.importorskip\(", path.read_text("utf-8"), re.MULTILINE)
+        marked = "pytestmark = pytest.mark.extra(" in path.read_text("utf-8")
+        assert marked or not skipped, f"write pytestmark = pytest.mark.extra(...) in {path}"
+
+
 def test_every_marker_names_an_extra(request):
     marks = [mark.args for item in request.session.items for mark in item.iter_markers("extra")]
     assert {extra for (extra,) in marks} <= EXTRAS.keys() | {"fast"}  # compiled steps
