@@ -110,13 +110,13 @@ def of_pinocchio(path: Path) -> dict[str, float]:
 
 
 def of_mesh(path: Path) -> dict[str, float]:
-    """Its ends [m], and the volume of its hull [m^3] if it has one."""
-    mesh = loaded_mesh(path)
-    if not len(mesh.vertices):
+    """Its ends without vertices that no triangle uses [m], and the volume of its hull [m^3]."""
+    corners = loaded_mesh(path).corners
+    if not len(corners):
         mesh_hull(path, np.ones(3))  # says so
-    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    low, high = corners.min(axis=0), corners.max(axis=0)
     ends = dict(zip("abcdef", [*low, *high], strict=True))
-    flat = np.linalg.matrix_rank(mesh.vertices - low) < 3
+    flat = np.linalg.matrix_rank(corners - low) < 3
     return ends if flat else ends | {"hull": mesh_hull(path, np.ones(3)).volume}
 
 
