@@ -32,8 +32,8 @@ def beyond_limits(run: Run) -> Iterator[Finding]:
             yield Finding(
                 "target beyond a limit",
                 True,
-                f"change the target of {joint.name}, {target:.3g} {unit} at step {k}, or the "
-                f"limit in its URDF, {limit:.3g} {unit}",
+                f"change the target of {joint.name}, {target:.6g} {unit} at step {k}, or the "
+                f"limit in its URDF, {limit:.6g} {unit}",
                 "the model ignores limits, the robot does not",
                 {f"target_{unit}": target, f"limit_{unit}": limit, "step": k},
             )
@@ -66,8 +66,8 @@ def joints_beyond(run: Run) -> Iterator[Finding]:
                 "joint beyond a limit",
                 True,
                 f'say bodies.{body}.joint_limits = "urdf", for stops at the limits',
-                f"{joint.name} is at {position:.3g} {unit} at step {k}, beyond its limit, "
-                f"{limit:.3g} {unit}, which the model ignores",
+                f"{joint.name} is at {position:.6g} {unit} at step {k}, beyond its limit, "
+                f"{limit:.6g} {unit}, which the model ignores",
                 {f"position_{unit}": position, f"limit_{unit}": limit, "step": k},
             )
 

@@ -106,6 +106,16 @@ def test_a_joint_may_be_beyond_its_limit_by_little(lower, upper, beyond, found):
         assert any(one.name == name for one in run.findings) == found
 
 
+def test_a_target_beyond_a_limit_by_little_is_said_with_the_digits_that_differ():
+    fields = {
+        "actuated": ["slide"],
+        "K_q": {"slide": 100.0},
+        "targets": [{"t": 0, "slide": 0.5002}],
+    }
+    run = qr.load_scenario(scene(drawer(0, 0.5), None, **fields)).run(progress=False)
+    assert "0.5002 m at step 0, or the limit in its URDF, 0.5 m" in str(run.findings)
+
+
 @pytest.mark.parametrize("start", [0.0, 0.005])
 def test_an_actuated_joint_presses_against_its_stop(start):
     """Its spring of 100 N/m towards 5 mm bears 100 N/m (5 mm - 2 mm) = 0.3 N on the stop.
