@@ -180,7 +180,8 @@ class Looking:
         kept = whole.replace(contacts=whole.contacts.some(live, every), extra=extra.of(near, every))
         for group in groups(kept):
             at = live[group.contacts]
-            bodies = [b for b in run.bodies_of if np.isin(b.coordinates, group.coordinates).any()]
+            moved = set(group.coordinates.tolist())
+            bodies = [b for b in run.bodies_of if not moved.isdisjoint(b.coordinates.tolist())]
             pairs = {run.pairs[i].name for i in run.pair_of[at]}
             asked = look.asked[at].any() or {b.name for b in bodies} & (look.bodies | look.lost)
             if asked or not names & ({b.name for b in bodies} | pairs):

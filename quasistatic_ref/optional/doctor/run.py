@@ -194,6 +194,11 @@ class Run(Start):
         """Whether a user's own costs or constraints are more than rows and rises."""
         return self.extension is not None and not posed(self.at(0).step, self.extension)[1]
 
+    @property
+    def compared(self) -> bool:
+        """Whether steps of it are compared by several laws."""
+        return self.small and not self.own_terms
+
     def at(self, k: int) -> RunStep:
         """Step k, which is kept."""
         if k not in self._steps:
