@@ -15,6 +15,7 @@ from quasistatic_ref.optional.doctor import chosen
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
 from quasistatic_ref.optional.doctor.looks import COULOMB, MODEL, ROUND, RUN, SLOW, Look
 from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.start import least
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.optional.doctor.unsupported import falls
 from quasistatic_ref.simulate.finding import Finding
@@ -312,7 +313,8 @@ class Change(NamedTuple):
     def says(self, where: str) -> str:
         """What it does by each."""
         if self.stops:
-            if self.slips_here > 0 and self.slips_there < COUNTS * self.slips_here:
+            slides = self.slips_here >= least(self.pair) * self.spins_here
+            if slides and self.slips_there < COUNTS * self.slips_here:
                 return f"slips by {1e3 * self.slips_here:.2g} mm, and not {where}"
             return f"turns by {np.degrees(self.spins_here):.2g} degrees, and not {where}"
         unit = "N m" if self.what == "torque" else "N"
