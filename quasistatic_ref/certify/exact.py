@@ -32,7 +32,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import Group, group_step, group_steps, groups
+from quasistatic_ref.step.groups import Group, group_steps
 from quasistatic_ref.step.standard_form import standard_form
 
 ILL_POSED: Final = 1e6
@@ -42,6 +42,8 @@ fourth is that of the longest push-out b_i / ||a_i|| of a single row, in the nor
 
 Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
 
+Parts = Sequence[tuple[Group, StepData]]
+"""The groups of a step, each as a step."""
 MIDDLE = 1e-100, 1e100
 """Numbers whose products of three are in the range of float64."""
 
@@ -161,21 +163,34 @@ def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     """
     if not cone(step.cone).polyhedral:
         raise InputError("has no rational optimum", field="cone", value=step.cone)
-    parts = groups(step)
-    optimum = optimum_by_groups(step, parts, warm)
+    parts = group_steps(step)
+    starts = [group.within(warm) for group, _ in parts]
+    optimum = optimum_by_groups(step, parts, starts)
     check_length(step, optimum.delta_q, parts)
     return optimum
 
 
 def optimum_by_groups(
-    step: StepData, parts: Sequence[Group], warm: Sequence[int] = ()
+    step: StepData, parts: Parts, starts: Sequence[Sequence[int]]
 ) -> ExactOptimum:
-    """The exact optimum, however long it is, by the groups of the step; or StepInfeasible."""
+    """The exact optimum, however long it is, by the groups of the step.
+
+    Parameters
+    ----------
+    step : StepData
+    parts : sequence of (Group, StepData)
+        Its groups.
+    starts : sequence of sequence of int
+        Of each group, counted in it: rows that a solver found active.
+
+    Raises
+    ------
+    StepInfeasible
+    """
     optima: list[tuple[Group, ExactOptimum]] = []
-    for group in parts:
-        part = group_step(step, group)
+    for (group, part), start in zip(parts, starts, strict=True):
         form = StepForm(part)
-        optimum = form_optimum(form, group.within(warm))
+        optimum = form_optimum(form, start)
         if isinstance(optimum, Farkas):
             raise StepInfeasible(step, farkas_vector(step, form, optimum, group.rows))
         if part is step:
@@ -215,32 +230,31 @@ def optimum_by_groups(
     )
 
 
-def check_length(step: StepData, delta_q: Array, parts: Sequence[Group]) -> None:
+def check_length(step: StepData, delta_q: Array, parts: Parts) -> None:
     """Refuse a delta_q, shape (n_v,) [m, rad], that is absurdly long in one of the step's groups.
 
     Parameters
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
-    parts : sequence of Group
-        Those of the step.
+    parts : sequence of (Group, StepData)
+        The groups of the step.
 
     Raises
     ------
     StepIllPosed
     """
-    if surely_short(step, delta_q, parts):
+    of_parts = [(part, delta_q[group.coordinates]) for group, part in parts]
+    lengths = [relative_length(*one) for one in of_parts if not surely_short(*one)]
+    if not lengths:
         return
-    lengths = [
-        relative_length(part, delta_q[group.coordinates]) for group, part in group_steps(step)
-    ]
     longest = max(lengths, key=lambda length: math.inf if math.isnan(length) else length)
     if not longest <= ILL_POSED:
         raise StepIllPosed(step, delta_q, longest)
 
 
-def surely_short(step: StepData, delta_q: Array, parts: Sequence[Group]) -> bool:
-    """Whether :func:`relative_length` is seen to be far below ``ILL_POSED`` in each group.
+def surely_short(step: StepData, delta_q: Array) -> bool:
+    """Whether :func:`relative_length` is seen to be far below ``ILL_POSED``.
 
     With s_i = H_ii^1/2 the triangle inequality says ||v||_H <= sum_i |v_i| s_i, and Cauchy's, of
     e_i and H^-1 p, ||p||_H^-1 >= |p_i| / s_i. A tenth is for rounding. Numbers whose products might
@@ -250,7 +264,6 @@ def surely_short(step: StepData, delta_q: Array, parts: Sequence[Group]) -> bool
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
-    parts : sequence of Group
     """
     s = np.sqrt(np.diag(step.H))
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
@@ -258,8 +271,8 @@ def surely_short(step: StepData, delta_q: Array, parts: Sequence[Group]) -> bool
         length = np.abs(delta_q) * s
         if not MIDDLE[0] < s.min(initial=1.0) <= s.max(initial=1.0) < MIDDLE[1]:
             return False
-        lengths = [(length[rows].sum(), least[rows].max(initial=0.0)) for rows, *_ in parts]
-    return all(MIDDLE[0] < b and a <= 0.1 * ILL_POSED * b < MIDDLE[1] for a, b in lengths)
+        most = 0.1 * ILL_POSED * least.max(initial=0.0)
+    return bool(0.1 * ILL_POSED * MIDDLE[0] < most < MIDDLE[1] and length.sum() <= most)
 
 
 def relative_length(step: StepData, delta_q: Array) -> float:

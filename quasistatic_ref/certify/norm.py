@@ -13,7 +13,7 @@ measured as the displacements that they stand for, so that the three can be comp
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -23,6 +23,7 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.numbers.pivots import exact_factor
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.groups import Group
 from quasistatic_ref.step.standard_form import linear_term
 from quasistatic_ref.tolerances import UNMOVED
 
@@ -155,33 +156,49 @@ def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()
         The step's :func:`single_loads` [N s, N m s], where they are known.
     """
     moved = energy_norm(H).of_displacement(optimum)
-    length = max(moved, loads_length(H, (g, *loads)), UNMOVED * math.sqrt(H.diagonal().min()))
+    moved_by = map(energy_norm(H).of_impulse, (g, *loads))
+    length = max(moved, *moved_by, UNMOVED * math.sqrt(H.diagonal().min()))
     return length if length < math.inf else math.nan
 
 
-def loads_length(H: Array, loads: Iterable[Array]) -> float:
-    """The longest of the unconstrained steps that loads would cause alone [(N m s)^0.5].
+def single_lengths(parts: Iterable[StepData]) -> list[float]:
+    """Lengths of the unconstrained steps of :func:`single_loads` and of all of them together, last.
 
     Parameters
     ----------
-    H : ndarray, shape (n_v, n_v)
-        [N m s/m^2].
-    loads : iterable of ndarray, shape (n_v,)
-        [N s, N m s].
+    parts : iterable of StepData
+        The groups of a step.
+
+    Returns
+    -------
+    list of float
+        [(N m s)^0.5].
     """
-    return max(map(energy_norm(H).of_impulse, loads))
+    every = [
+        [energy_norm(part.H).of_impulse(p) for p in (*single_loads(part), linear_term(part))]
+        for part in parts
+    ]
+    return [math.hypot(*lengths) for lengths in zip(*every, strict=True)]
 
 
-def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> float:
+def correct_digits(
+    parts: Sequence[tuple[Group, StepData]], delta_q: Array, exact_delta_q: Array
+) -> float:
     """Correct digits of a displacement [-], 0 to 16.
 
     Parameters
     ----------
-    step : StepData
-        SI units.
+    parts : sequence of (Group, StepData)
+        The groups of a step in SI units.
     delta_q, exact_delta_q : ndarray, shape (n_v,)
         The answer, and the optimum [m, rad].
     """
-    off = energy_norm(step.H).of_displacement(delta_q - exact_delta_q)
-    length = error_length(step.H, linear_term(step), exact_delta_q, single_loads(step))
-    return digits_of_error(off / length)
+    norms = [(group.coordinates, energy_norm(part.H)) for group, part in parts]
+    off, moved = (
+        math.hypot(*(norm.of_displacement(v[c]) for c, norm in norms))
+        for v in (delta_q - exact_delta_q, exact_delta_q)
+    )
+    softest = min(part.H.diagonal().min() for _, part in parts)
+    loads = single_lengths(part for _, part in parts)
+    length = max(moved, *loads, UNMOVED * math.sqrt(softest))
+    return digits_of_error(off / length) if length < math.inf else 0.0

@@ -12,13 +12,13 @@ import numpy as np
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate, exact_certificate
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
-from quasistatic_ref.certify.exact import ExactOptimum, check_length, step_optimum
+from quasistatic_ref.certify.exact import ExactOptimum, check_length, optimum_by_groups
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.certify.warm import basic_rows, warm_rows
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import finite, without_warnings
+from quasistatic_ref.numbers.arrays import Array, finite, without_warnings
 from quasistatic_ref.parts import extended_step
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.choice import solver_for
@@ -26,7 +26,6 @@ from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import FREE, Solver
 from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import groups
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
 
 if TYPE_CHECKING:
@@ -34,6 +33,9 @@ if TYPE_CHECKING:
 
 FACTOR_LIMIT = 2.0**200
 """Three such factors are far from 2^1024, where the range of float64 ends."""
+FEW = 100
+"""Most rows of which a start is chosen from all groups at once, and not from each. Where lam is not
+unique, the start decides on it; that of small scenes is in committed runs."""
 NOTHING_CLAIMED = Certificate("none")
 
 
@@ -245,19 +247,21 @@ def proved(
         if optimum is None:
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, statistics.accuracy)
-        check_length(step, optimum.delta_q, groups(step))
+        check_length(step, optimum.delta_q, both.parts)
     else:
         if reply is not None and claimed:
             x, y = reply.answer
             if solver.basic:
-                start = basic_rows(y)
+                starts = [basic_rows(y[group.rows]) for group, _ in both.parts]
             else:
-                form = both.natural_form
-                start = warm_rows(form.A, y, form.A @ x - form.b)
-        optimum = step_optimum(step, start)
+                starts = warm_starts(both, x, y)
+        else:
+            starts = [group.within(start) for group, _ in both.parts]
+        optimum = optimum_by_groups(step, both.parts, starts)
+        check_length(step, optimum.delta_q, both.parts)
     delta_q = optimum.delta_q
     lam = optimum.lam
-    digits = None if answer is None else correct_digits(step, answer[0], delta_q)
+    digits = None if answer is None else correct_digits(both.parts, answer[0], delta_q)
     residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, both.units)))
     statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
     if isinstance(optimum, ExactOptimum):
@@ -265,6 +269,26 @@ def proved(
     else:
         certificate = optimum.certificate(step, residuals)
     return StepSolution(delta_q, lam, step, certificate, statistics, optimum.net)
+
+
+def warm_starts(both: StepInBothUnits, x: Array, y: Array) -> list[list[int]]:
+    """The rows that an answer shows to be active, of each group, counted in it.
+
+    Parameters
+    ----------
+    both : StepInBothUnits
+    x, y : ndarray, shapes (n_v,) and (m,)
+        The backend's answer in natural units [-].
+    """
+    if len(both.parts) > 1 and both.si_step.m <= FEW:
+        form = both.natural_form
+        rows = warm_rows(form.A, y, form.A @ x - form.b)
+        return [group.within(rows) for group, _ in both.parts]
+    starts = []
+    for (group, _), form in zip(both.parts, both.natural_forms, strict=True):
+        slack = form.A @ x[group.coordinates] - form.b
+        starts.append(warm_rows(form.A, y[group.rows], slack))
+    return starts
 
 
 def judged(both: StepInBothUnits, solver: Solver, reply: Reply, certify: str) -> StepSolution:

@@ -19,14 +19,15 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import energy_norm, loads_length, single_loads
-from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
+from quasistatic_ref.certify.norm import energy_norm, single_lengths
+from quasistatic_ref.certify.residuals import Residuals, largest, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, Mask, finite, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Extra, StepData
+from quasistatic_ref.step.groups import Group, group_steps
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import UNMOVED
 
@@ -309,6 +310,15 @@ def _power_of_two(x: float) -> float:
     return 2.0**exponent if exponent < 1024 else math.inf
 
 
+def of_group(form: StandardForm, group: Group) -> StandardForm:
+    """Those matrices of a program that are of one group."""
+    c = group.coordinates
+    if len(c) == len(form.g) and len(group.rows) == len(form.b):
+        return form
+    block = form.H[np.ix_(c, c)]
+    return StandardForm(block, form.g[c], form.A[np.ix_(group.rows, c)], form.b[group.rows])
+
+
 class StepInBothUnits:
     """A step with its standard form, in SI units and in natural units, in which it is judged.
 
@@ -357,6 +367,17 @@ class StepInBothUnits:
         """Its standard form in natural units."""
         return natural_form(self.si_form, self.units, self.hessian.natural_H)
 
+    @cached_property
+    def parts(self) -> list[tuple[Group, StepData]]:
+        """Its groups, each as a step in SI units."""
+        return group_steps(self.si_step)
+
+    @cached_property
+    def natural_forms(self) -> list[StandardForm]:
+        """The standard form of each group in the natural units of the step."""
+        form = self.natural_form
+        return [of_group(form, group) for group, _ in self.parts]
+
     @property
     def row_ratio(self) -> float:
         """Length of the longest row over that of the shortest, rows of zeros left out [-]."""
@@ -370,12 +391,20 @@ class StepInBothUnits:
         The unit of size is at least the step that targets, tau_a or tau_u would cause alone: at
         rest they cancel but for rounding, and the size of the step is that of noise.
         """
-        step = self.si_step
-        judge = cone(step.cone).judge(step.contacts.mu)
-        residuals = optimality_residuals(self.natural_form, delta_q, lam, judge)
-        if not step.n_v:
+        each = [
+            optimality_residuals(
+                form,
+                delta_q[group.coordinates],
+                lam[group.rows],
+                cone(part.cone).judge(part.contacts.mu),
+            )
+            for (group, part), form in zip(self.parts, self.natural_forms, strict=True)
+        ]
+        worst = np.array([[*vars(residuals).values()] for residuals in each])
+        residuals = Residuals(*map(largest, worst.T))
+        if not self.si_step.n_v:
             return residuals
-        length = loads_length(step.H, single_loads(step))
+        length = max(single_lengths(part for _, part in self.parts)[:-1])
         size = self.units.size
         return residuals.in_size(length / size if size < length < math.inf else 1.0)
 

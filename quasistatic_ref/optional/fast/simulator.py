@@ -236,7 +236,7 @@ class FastSimulator(Simulator):
             self.solver = solver = FastSolver(steps.template, parts=steps.groups)
             self._natural = natural = NaturalProgram(steps, solver.program)
         natural.take(self._steps.masses)
-        both = FormedStep(step, natural.blocks)
+        both = FormedStep(step, natural.blocks, natural.program)
         units = natural.units()
         both.units = without_warnings(lambda: both.units) if units is None else units
         natural.write(both.units)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.fast.program import Program, Workspaces
@@ -10,10 +11,11 @@ from quasistatic_ref.solve.backends import Options, check_backend
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, Solver
-from quasistatic_ref.solve.units import HessianInBothUnits, StepInBothUnits
+from quasistatic_ref.solve.units import HessianInBothUnits, StepInBothUnits, of_group
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import Group, groups
+from quasistatic_ref.step.groups import Group, group_step, group_steps, groups
+from quasistatic_ref.step.standard_form import StandardForm
 
 DAQP = "daqp"
 
@@ -43,11 +45,42 @@ class FormedStep(StepInBothUnits):
     step : StepData
     blocks : list of ndarray, shape (n, n)
         H of each group in natural units [-].
+    program : Program
+        Overwritten by the next step.
     """
 
-    def __init__(self, step: StepData, blocks: Sequence[Array]) -> None:
+    def __init__(self, step: StepData, blocks: Sequence[Array], program: Program) -> None:
         super().__init__(step)
         self.blocks = blocks
+        self.program = program
+
+    @cached_property
+    def _finer(self) -> list[tuple[int, Group, Group, StepData]]:
+        """The groups of each group of the program: J may have zeros by chance.
+
+        Each with the number of that, counted in that, counted in the step, and as a step.
+        """
+        found = []
+        for i, group in enumerate(self.program.groups):
+            whole = group_step(self.si_step, group)
+            for part, step in group_steps(whole):
+                of_step = Group(*(of_all[some] for of_all, some in zip(group, part, strict=True)))
+                found.append((i, part, of_step, step))
+        return found
+
+    @cached_property
+    def parts(self) -> list[tuple[Group, StepData]]:
+        """Its groups, each as a step in SI units."""
+        return [(group, step) for _, _, group, step in self._finer]
+
+    @cached_property
+    def natural_forms(self) -> list[StandardForm]:
+        """The standard form of each group in the natural units of the step."""
+        forms = []
+        for i, part, _, _ in self._finer:
+            f, A, b = self.program.parts[i]
+            forms.append(of_group(StandardForm(self.blocks[i], -f, A, b), part))
+        return forms
 
 
 class FastSolver(BackendSolver):

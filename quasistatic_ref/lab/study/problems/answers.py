@@ -8,7 +8,7 @@ from quasistatic_ref.certify.exact import optimum_by_groups
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.lab.scenes.rigid import program_step
 from quasistatic_ref.lab.study.problems.problem import EXACT, Answer
-from quasistatic_ref.step.groups import groups
+from quasistatic_ref.step.groups import group_steps
 from quasistatic_ref.step.standard_form import StandardForm
 
 NONE = np.zeros(0)
@@ -29,7 +29,8 @@ def exact_answer(form: StandardForm, warm: Sequence[int] = ()) -> Answer:
     """
     step = program_step(*form)
     try:
-        optimum = optimum_by_groups(step, groups(step), warm)
+        parts = group_steps(step)
+        optimum = optimum_by_groups(step, parts, [group.within(warm) for group, _ in parts])
     except StepInfeasible as none:
         farkas = {i: y for i, y in enumerate(none.farkas.exact) if y != "0"}
         return Answer(EXACT, 0.0, NONE, NONE, NONE, NONE, farkas)
