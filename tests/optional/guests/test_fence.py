@@ -76,7 +76,12 @@ REFUSED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("case", REFUSED)
+LIKE_OTHERS = "a height field", "a size", "an unknown mesh", "user data"
+"""Cases that take a process of their own, as others do that ask for the same."""
+EACH = [pytest.param(c, marks=pytest.mark.long if c in LIKE_OTHERS else ()) for c in REFUSED]
+
+
+@pytest.mark.parametrize("case", EACH)
 def test_a_model_that_reads_elsewhere_or_asks_for_too_much_is_refused(home, case, monkeypatch):
     if case == "a mesh":
         monkeypatch.setattr(compiler, "SECONDS", 1)
