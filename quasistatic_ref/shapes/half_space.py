@@ -18,7 +18,7 @@ from quasistatic_ref.shapes.shape import Shape
 
 @dataclass(frozen=True, eq=False)
 class HalfSpace(Shape):
-    """The solid {x : normal . x <= offset}; the normal points out of it.
+    """The solid {x : normal'x <= offset}; the normal points out of it.
 
     Parameters
     ----------
