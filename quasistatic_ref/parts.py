@@ -115,11 +115,11 @@ def doctors(printed: bool = False) -> list[Observer]:
     return [Doctor(printed)]
 
 
-def findings_of_scene(simulator: Simulator, q: Array) -> list[Finding]:
-    """``findings``: what is wrong with the scene of a simulator that is to start at q, (n_q,)."""
+def findings_of_scene(simulator: Simulator, q: Array, force: Array) -> list[Finding]:
+    """``findings``: what is wrong with a scene that is to start at q, (n_q,), under a force."""
     with needing("findings"):
         from quasistatic_ref.optional.doctor.checks import scene_findings
-    return scene_findings(simulator, q)
+    return scene_findings(simulator, q, force)
 
 
 def findings_of_time(trajectory: Trajectory) -> list[Finding]:

@@ -110,7 +110,9 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
         from quasistatic_ref.optional.doctor.time_step import time_step_record
 
         record["time_step"] = time_step_record(scenario)
-        start = Start(scenario.simulator(), scenario.system.q_start)
+        q = scenario.system.q_start
+        force = None if scenario.force is None else scenario.force(0.0, q)
+        start = Start(scenario.simulator(), q, force)
         findings = checks.findings(checks.OF_SCENE, start)
         record["findings"] = [finding_table(finding) for finding in findings]
         record["not_looked_at"] = checks.not_looked_at(checks.OF_SCENE, start)

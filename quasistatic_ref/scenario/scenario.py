@@ -125,7 +125,8 @@ class Scenario(Settings, Plain, Shown):
         InputError
             If there is no ``optional/doctor``.
         """
-        return self.simulator().findings()
+        force = None if self.force is None else self.force(0.0, self.system.q_start)
+        return self.simulator().findings(force=force)
 
     def run(
         self,

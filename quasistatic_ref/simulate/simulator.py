@@ -346,8 +346,12 @@ class Simulator(Settings, Shown):
         tau: Array = self.gravity_factor * self.system.gravity_force(q, self.gravity) + force
         return tau
 
-    def findings(self, q: ArrayLike | None = None) -> tuple[Finding, ...]:
-        """What is wrong with the scene at q, shape (n_q,); by default where the system starts.
+    def findings(
+        self, q: ArrayLike | None = None, force: ArrayLike | None = None
+    ) -> tuple[Finding, ...]:
+        """What is wrong with the scene at q, shape (n_q,), by default where the system starts.
+
+        A `force`, shape (n_v,) [N, N m], pushes there.
 
         Raises
         ------
@@ -355,7 +359,7 @@ class Simulator(Settings, Shown):
             If there is no ``optional/doctor``.
         """
         q = self.system.q_start if q is None else self.system.checked(q)
-        return tuple(findings_of_scene(self, q))
+        return tuple(findings_of_scene(self, q, checked_force(self.system, force)))
 
     def extended(self, step: StepData, q: Array) -> StepSolution:
         """A step solved with the user's own constraints and costs at q, shape (n_q,)."""

@@ -49,9 +49,11 @@ def scene_notes(recorder: Recording) -> dict[str, Any]:
     -------
     dict
         ``pairs`` (of each its name, what alpha is and what beta is: a link, or a shape of the
-        world) and ``stiffness`` (the diagonal of K_q, empty where K_q has other entries).
+        world), ``stiffness`` (the diagonal of K_q, empty where K_q has other entries) and
+        ``gravity`` [m/s^2].
     """
     return {
+        "gravity": [float(x) for x in recorder.simulator.gravity],
         "pairs": [sides(recorder.system, pair) for pair in recorder.simulator.pairs],
         "stiffness": stiffness(recorder.simulator.K_q).tolist(),
     }
@@ -113,6 +115,9 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
     stops = list(_stops(trajectory, {joint.name for joint in joints}))
     t = trajectory["t"]
     h = float(header["h"])
+    down = np.array(scene.sequence("gravity"), dtype=np.float64)
+    down = down if down.any() else np.array([0.0, 0.0, -1.0])
+    up = -down / np.linalg.norm(down)
     return Account(
         t=t,
         h=h,
@@ -123,7 +128,7 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
         missing=tuple(missing),
         numbers={
             "bodies": {
-                each.of.name.removesuffix("/base"): motion_numbers(each) for each in motions
+                each.of.name.removesuffix("/base"): motion_numbers(each, up) for each in motions
             },
             "joints": {one.of.name: drive_numbers(one) for one in drives},
             "stops": {one.name: stop_numbers(one, h) for one in stops},

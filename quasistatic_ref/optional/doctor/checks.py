@@ -147,6 +147,6 @@ def not_looked_at(checks: Iterable[Check], of: Start) -> str:
     return "; ".join(f"{', '.join(each)}: {reason}" for reason, each in names.items())
 
 
-def scene_findings(simulator: Simulator, q: Array) -> list[Finding]:
-    """The findings on the scene of a simulator that is to start at q, shape (n_q,)."""
-    return findings(OF_SCENE, Start(simulator, q))
+def scene_findings(simulator: Simulator, q: Array, force: Array | None = None) -> list[Finding]:
+    """The findings on a scene that is to start at q, (n_q,), under a force, (n_v,) [N, N m]."""
+    return findings(OF_SCENE, Start(simulator, q, force))

@@ -13,6 +13,7 @@ from quasistatic_ref.optional.doctor.artifacts import pressing
 from quasistatic_ref.optional.doctor.equilibrium import borne, unsqueezed
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.optional.doctor.telling import amount
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.contacts import Contacts
@@ -263,12 +264,13 @@ def locked(run: Run) -> Iterator[Finding]:
         name = run.simulator.layout.names[j]
         coordinate = run.system.coordinates[n_a + i]
         unit = "N" if coordinate.unit == "m" else "N m"
+        moved = amount(abs(float(run["delta_q"][k, n_a + i])), coordinate.unit)
         yield Finding(
             "locked guide",
             True,
             _remedy(run, guide, run["q"][k], contacts),
-            f"{coordinate.name} does not move under {abs(force[i]):.3g} {unit} in step {k}, where "
-            f"its contacts could bear {could[i]:.3g} {unit}: {name} presses with "
+            f"{coordinate.name} moves by {moved} under {abs(force[i]):.3g} {unit} in step {k}, "
+            f"where its contacts could bear {could[i]:.3g} {unit}: {name} presses with "
             f"{wrench[j, 2]:.3g} N, because a contact that slides has to rise and it cannot",
             {"force": float(abs(force[i])), "could_bear": float(could[i]), "step": k},
         )

@@ -11,7 +11,7 @@ from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor.contradictions import farthest_points, hull_of
 from quasistatic_ref.optional.doctor.equilibrium import borne
 from quasistatic_ref.optional.doctor.start import Start, body, joining, least, slices, table
-from quasistatic_ref.optional.doctor.unsupported import fall, held
+from quasistatic_ref.optional.doctor.unsupported import fall, held, sinks
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import NEAR, SAME_NORMAL, SUNK
@@ -53,7 +53,7 @@ def in_the_air(start: Start) -> Iterator[Finding]:
         if all(gap > max(NEAR, SUNK * least(pair)) for pair, gap, _ in of_body)
     }
     holds = held(start, loose)
-    for name in [x for x in loose if x not in holds]:
+    for name in [x for x in loose if x not in holds and sinks(start, x)]:
         with suppress(ContactError):  # of a pose that no step has
             falls = [(pair, fall(start, pair, name)) for pair, *_ in loose[name]]
             pair, gap = min(falls, key=lambda x: x[1])

@@ -70,6 +70,11 @@ class Run(Start):
         self.looking = Looking(self)
         self.statics: Statics | None = None
 
+    @property
+    def load_at_start(self) -> Array:
+        """Gravity and what else pushes in the first step, shape (n_v,) [N, N m]."""
+        return np.asarray(self.noted("tau")[0])
+
     @cached_property
     def pair_accounts(self) -> list[PairAccount]:
         """What its pairs did, whatever the record holds; without forces."""

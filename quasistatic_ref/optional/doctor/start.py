@@ -45,16 +45,24 @@ class Start:
     ----------
     simulator : Simulator
     q : ndarray, shape (n_q,)
+    force : ndarray, shape (n_v,), optional
+        What pushes there, without gravity [N, N m].
     """
 
-    def __init__(self, simulator: Simulator, q: Array) -> None:
+    def __init__(self, simulator: Simulator, q: Array, force: Array | None = None) -> None:
         self.simulator = simulator
+        self.force = force
         self.q_start = q
         self.system = simulator.system
         self.pairs = simulator.pairs
         self.h = simulator.h
         self.gravity = np.array(simulator.gravity)
         self.g = float(np.linalg.norm(self.gravity))  # 0 where its square vanishes
+
+    @property
+    def load_at_start(self) -> Array:
+        """Gravity and what else pushes, shape (n_v,) [N, N m]."""
+        return self.simulator.generalised_force(self.q_start, self.force)
 
     @cached_property
     def kinematics(self) -> Kinematics:

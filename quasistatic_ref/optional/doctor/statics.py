@@ -226,8 +226,8 @@ def layer(run: Run) -> Iterator[Finding]:
         return
     look = best.look
     of_pair = run.pair_of == run.pairs.index(best.pair)
-    spins = best.what == "torque" and bool((run.mu[of_pair, 2] > 0).any())
-    rises = "mu_omega h omega" if spins and not (run.mu[of_pair, 0] > 0).any() else "mu_v h v"
+    slides = bool((run.mu[of_pair, 0] > 0).any())
+    rises = "slides rises by mu_v h v" if slides else "spins rises by mu_omega h omega"
     what = {"normal": "presses with", "friction": "rubs with", "torque": "bears"}[best.what]
     unit = "N m" if best.what == "torque" else "N"
     does = f"{what} {best.here[best.what]:.3g} {unit}, where Coulomb's law allows "
@@ -238,8 +238,7 @@ def layer(run: Run) -> Iterator[Finding]:
         "boundary layer",
         False,
         'move more slowly, take a smaller h, or set law = "coulomb"',
-        f"{best.pair.name} {does}, in step {look.k}: what slides rises by {rises}, against what "
-        "presses it",
+        f"{best.pair.name} {does}, in step {look.k}: what {rises}, against what presses it",
         {
             **best.numbers(),
             "coulomb_N": best.there["normal"],

@@ -8,7 +8,8 @@ from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.account import drive, stiffness
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.telling import amount
+from quasistatic_ref.optional.doctor.slowly import SLOWLY
+from quasistatic_ref.optional.doctor.telling import amount, rounded_down, rounded_up
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import BEYOND, IN_METRES
 
@@ -85,16 +86,43 @@ def beyond_effort(run: Run) -> Iterator[Finding]:
             continue
         k = int(did.spring.argmax())
         unit = "N" if did.unit == "m" else "N m"
+        softer = rounded_down(joint.effort / float(did.error[k]))
+        remedy = f"lower K_q of {joint.name} to {softer:.3g} {unit}/{did.unit}, move its target "
+        remedy += "nearer, or correct its effort in the URDF"
+        why = ""
+        if (bears := _bears(run, joint, k)) > joint.effort:
+            needed = f"{rounded_up(bears):.3g} {unit} or more"
+            remedy = f"carry less by {joint.name}, or correct its effort in the URDF to {needed}"
+            why = "; no K_q changes what it bears"
         yield Finding(
             "force beyond a limit",
             bool(did.spring[k] > GROSS * joint.effort),
-            f"lower K_q of {joint.name} to {joint.effort / did.error[k]:.2g} {unit}/{did.unit}, "
-            "move its target nearer, or correct its effort in the URDF",
+            remedy,
             f"its spring pushes with {did.spring[k]:.3g} {unit} at step {k}, "
             f"{amount(did.error[k], did.unit)} from its target, and its motor with "
-            f"{joint.effort:.3g} {unit} at most, which the model ignores",
+            f"{joint.effort:.3g} {unit} at most, which the model ignores{why}",
             {"force": float(did.spring[k]), "effort": joint.effort, "step": k},
         )
+
+
+def _bears(run: Run, joint: Joint, k: int) -> float:
+    """What the spring of a joint pushes with, slowly, if it is a tenth as stiff [N, N m].
+
+    What it presses on is then pressed with a tenth, and what it carries is as heavy. 0 where the
+    step is not solved.
+    """
+    if not run.searched:
+        return 0.0
+    step = run.at(k).step
+    v = joint.v.start
+    softer = np.ones(step.n_a)
+    softer[v] = np.sqrt(0.1)
+    K_q = step.K_q * np.outer(softer, softer)
+    solved = run.solved(step.replace(K_q=K_q, h=max(SLOWLY, 1000 * step.h)))
+    if solved is None:
+        return 0.0
+    off = step.delta_q_bar_a - solved.delta_q[: step.n_a]
+    return float(abs(K_q[v] @ off))
 
 
 def _limited(run: Run) -> Iterator[tuple[Joint, str]]:

@@ -17,7 +17,7 @@ from quasistatic_ref.optional.doctor.account import side
 from quasistatic_ref.optional.doctor.placed import inside
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import joining, least
-from quasistatic_ref.optional.doctor.telling import amount, length
+from quasistatic_ref.optional.doctor.telling import amount, length, rounded_up
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Shape
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.friction import frame_jacobian
@@ -321,7 +321,7 @@ def short(run: Run) -> Iterator[Finding]:
         unit = joint.coordinates[0].unit
         if stopped and not _stalled(task, int(np.abs(pushes[:, v]).argmax()), error, unit):
             continue
-        needed = _rounded_up(abs(float(spring[v])) / (LAGS * ways[joint]))
+        needed = rounded_up(abs(float(spring[v])) / (LAGS * ways[joint]))
         yield Finding(
             "far from target",
             True,
@@ -365,7 +365,7 @@ def _short_bases(task: Task, lag: Array) -> Iterator[Finding]:
             push = (forces[of_pair, 2:3] * run["n"][k, of_pair]).sum(axis=0)
             stopped += abs(float(push @ error)) / far
         if stopped <= spring / 2:
-            needed = _rounded_up(spring / (LAGS * way))
+            needed = rounded_up(spring / (LAGS * way))
             yield Finding(
                 "far from target",
                 True,
@@ -373,12 +373,6 @@ def _short_bases(task: Task, lag: Array) -> Iterator[Finding]:
                 f"it ends {length(far)} from its last target, with {spring:.3g} N on its spring",
                 {"error_m": far, "K_q": needed},
             )
-
-
-def _rounded_up(x: float) -> float:
-    """A number with two digits that is at least x."""
-    digits = 10.0 ** np.floor(np.log10(x) - 1)
-    return float(np.ceil(x / digits) * digits)
 
 
 def _at_a_stop(run: Run, joint: Joint) -> bool:

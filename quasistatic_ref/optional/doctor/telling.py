@@ -18,15 +18,15 @@ def stop_numbers(stop: Stop, h: float) -> dict[str, float]:
     return {"bears_s": bears, "largest_force": float(stop.force.max())}
 
 
-def motion_numbers(motion: Motion) -> dict[str, float]:
-    """How far a body or joint turned, ended and rose."""
+def motion_numbers(motion: Motion, up: Array) -> dict[str, float]:
+    """How far a body or joint turned, ended and rose along a unit vector `up`, (3,) [-]."""
     numbers = {"largest_rotation_deg": float(np.degrees(motion.turned.max()))}
     for hand, angle in motion.turned_in.items():
         numbers[f"largest_turn_in_{hand}_deg"] = float(np.degrees(angle.max()))
     if motion.of.lengths:
         numbers["ends_from_start_m"] = float(np.linalg.norm(motion.moved[-1]))
     if motion.of.free:
-        numbers["largest_rise_mm"] = 1e3 * float(motion.moved[:, 2].max())
+        numbers["largest_rise_mm"] = 1e3 * float((motion.moved @ up).max())
     return numbers
 
 
@@ -99,6 +99,18 @@ def measures(account: Account) -> dict[str, float]:
 def amount(x: float, unit: str) -> str:
     """A length [m] or an angle [rad], as its unit says."""
     return length(x) if unit == "m" else f"{np.degrees(x):.3g} deg"
+
+
+def rounded_up(x: float) -> float:
+    """A number with two digits that is at least x > 0 [any unit]."""
+    digits = 10.0 ** np.floor(np.log10(x) - 1)
+    return float(np.ceil(x / digits) * digits)
+
+
+def rounded_down(x: float) -> float:
+    """A number with two digits that is at most x > 0 [any unit]."""
+    digits = 10.0 ** np.floor(np.log10(x) - 1)
+    return float(np.floor(x / digits) * digits)
 
 
 def length(x: float) -> str:

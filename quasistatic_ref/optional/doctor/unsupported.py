@@ -28,6 +28,18 @@ LEVEL = 1e-9
 """Cosine between a fall and a normal up to which the fall goes past a surface [-]."""
 
 
+def sinks(start: Start, name: str) -> bool:
+    """Whether the loads of a free body pull it down at the start, by 1e-3 of its weight or more.
+
+    Others than gravity may bear it.
+    """
+    base = start.free_bases[name]
+    columns = slice(base.v.start, base.v.start + base.lengths)
+    link = next(i for i, of in enumerate(start.system.links) if of.startswith(f"{name}/"))
+    down = start.gravity @ start.kinematics.J[link][:3, columns] / start.g
+    return bool(start.load_at_start[columns] @ down > LIGHT * start.system.mass(name) * start.g)
+
+
 def alone(start: Start) -> set[str]:
     """Free bodies that no chain of contact tables, welds or tendons joins to what stands."""
     left = {*start.free_bases}
@@ -47,6 +59,8 @@ def unsupported(start: Start) -> Iterator[Finding]:
     joint = "pair of geoms" if start.system.of_mjcf else "table"
     for name in sorted(alone(start)) if start.g else ():
         touching = [pair - {name} for pair in joined if name in pair]
+        if not sinks(start, name):
+            continue
         others = " but to bodies that fall as well" if any(touching) else ""
         weight = start.system.mass(name) * start.g
         yield Finding(

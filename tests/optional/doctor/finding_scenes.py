@@ -92,6 +92,7 @@ TIP = (0.02, 0.02, 0.02)
 """Of a finger [m]."""
 FACE = [(x, y, -0.05) for x in np.linspace(-0.05, 0.05, 10) for y in np.linspace(-0.05, 0.05, 10)]
 """A hundred points on the lower face of a box."""
+weak = joint("prismatic", "0 0 1").replace('effort="1"', 'effort="2"')
 TIN = Body.of_shape("tin", Cylinder(0.04, 0.05), 0.4, xyz=(0, 0, 0.05))
 DRAWER = Body("drawer", joint("prismatic", "1 0 0"))
 RAIL = ("rail", Box(size=(2, 0.04, 0.04)), (0, 0, -0.07))
@@ -219,6 +220,8 @@ found = findings([DRAWER], [("rail", "drawer", 0.2, 4)], [RAIL], gravity=(43.5, 
 
 # %% guided friction, locked guide: a slot with a clearance of 0.1 mm, under 100 N
 found = findings([box()], IN_SLOT, walls(0.1001), push={"box": (100, 0, 0)}, steps=5)
+(locked,) = (x for x in found if x.name == "locked guide")
+assert "box/base.x moves by 0.2 mm under 100 N" in locked.cause
 
 # %% locked guide: a finger that pushes a drawer which touches its rail
 finger = motor("finger", size=TIP, xyz=(-0.06, 0, 0))
@@ -296,9 +299,15 @@ found = findings(
 found = findings([box()], mu_omega=3.0)
 
 # %% force beyond a limit: a spring presses with 5 N, and its motor has 2 N
-weak = joint("prismatic", "0 0 1").replace('effort="1"', 'effort="2"')
 press = Body("press", weak, actuated="all", xyz=(0, 0, 0.15))
 found = findings([box(), press], [*STANDS, ("box", "press", 0.5, 4)], target=[-0.01])
+
+# %% force beyond a limit: a palm of 2 N bears 9.81 N, whatever its K_q is
+palm = Body("palm", weak, actuated="all", xyz=(0, 0, -0.05))
+found = findings([box(), palm], [("palm", "box", 0.5, 4)], steps=60)
+(effort,) = (x for x in found if x.name == "force beyond a limit")
+assert effort.remedy.endswith("correct its effort in the URDF to 9.9 N or more")
+assert effort.cause.endswith("; no K_q changes what it bears")
 
 # %% target without effect: the group of the actuator is switched off
 found = of_mujoco('<option actuatorgroupdisable="3"/>', '<position joint="j" kp="9" group="3"/>')

@@ -76,6 +76,10 @@ found = findings([box()], lies(k=100), cloud={"box": FACE})
 # %% nothing: a box without weight
 found = findings([box(xyz=(0, 0, 1))], [], gravity=(0, 0, 0))
 
+# %% nothing: a box in the air that a force bears
+found = findings([box(xyz=(0, 0, 1))], push={"box": (0, 0, 9.81)})
+assert found == ()
+
 # %% nothing: a box that a step moves by a fifth of its size
 found = findings([box(mass=0.1)], lies(mu_v=0.0), push={"box": (20, 0, 0)}, steps=1)
 

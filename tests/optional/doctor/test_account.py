@@ -17,7 +17,7 @@ from quasistatic_ref import (
 from quasistatic_ref.optional.doctor.telling import lines, measures
 from quasistatic_ref.tolerances import SLIDES, SPINS, TOUCHES
 from tests.closeness import assert_relative
-from tests.optional.doctor.words import TIP, driven, scene, slides
+from tests.optional.doctor.words import TIP, block, driven, free, scene, slides
 from tests.tolerances import ROUNDING
 
 RUNS = {"bunny_grasp": 110, "door": 120}
@@ -175,3 +175,10 @@ def test_the_commands_print_the_table_and_draw_it(tmp_path, cli):
 def test_a_shape_that_is_not_of_a_pair_is_answered_by_the_pairs(run):
     with pytest.raises(InputError, match=r"^nothing: is no pair; known: .*\("):
         run.pair_forces()["nothing"]
+
+
+def test_a_body_rises_against_gravity():
+    """1 kg, which 10 N push along -x, against 4 N of gravity: 6 N h^2 / m = 0.6 mm a step."""
+    box = {"box": free(block(1.0, (0.1, 0.1, 0.1)), (0, 0, 1), (-10, 0, 0))}
+    run = scene(box, {"floor": ("floor", "box", 0.5, 4)}, 5, gravity=[4, 0, 0]).run(progress=False)
+    assert run.account().numbers["bodies"]["box"]["largest_rise_mm"] == pytest.approx(3.0)

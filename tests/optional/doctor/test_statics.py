@@ -146,6 +146,18 @@ def test_a_layer_is_seen_though_it_lifts_off_obliquely(up):
     assert numbers["coulomb_N"] == pytest.approx(5.0, rel=1e-2)
 
 
+def test_what_spins_without_sliding_rises_by_its_torsion():
+    """N = K (e + mu_omega h omega) = 8 N for 5 N."""
+    tip = qr.Body.of_shape("w", qr.Sphere(0.01), mass=0.1, xyz=(0, 0, 0.01), actuated=["base"])
+    way = [{"t": t, "base": {"xyz": [0, 0, 0.005], "rpy": [0, 0, 3 * t]}} for t in (0.0, 1.0)]
+    w = {"urdf": tip, "K_q": {"base": [1e5, 1e5, 1e3, 1e3, 1e3, 1e3]}, "targets": way}
+    scene = {"h": 0.05, "steps": 15, "fast": True, "bodies": {"w": w}, "shapes": FLOOR}
+    contacts = {"s": pair("floor", "w", 0.0, mu_omega=0.02)}
+    (finding,) = qr.load_scenario(scene | {"contacts": contacts}).run(progress=False).findings
+    assert finding.numbers["normal_N"] == pytest.approx(8.0, rel=1e-2)
+    assert "what spins rises by mu_omega h omega, against" in finding.cause
+
+
 def test_a_layer_that_follows_from_drag_is_named_after_drag():
     """2 x 12 N, mu_v 0.5, 50 mm/s: drag makes it slip, and what slips rises; slowly it sticks."""
     names = grip(12.0, 30, [(0, 1), (0.05, 1), (1.05, 1.05)], K=1e6)
