@@ -23,7 +23,7 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.numbers.pivots import exact_factor
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import Group
+from quasistatic_ref.step.groups import Group, group_steps
 from quasistatic_ref.step.standard_form import linear_term
 from quasistatic_ref.tolerances import UNMOVED
 
@@ -181,10 +181,23 @@ def single_lengths(parts: Iterable[StepData]) -> list[float]:
     return [math.hypot(*lengths) for lengths in zip(*every, strict=True)]
 
 
-def correct_digits(
+def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> float:
+    """Correct digits of a displacement [-], 0 to 16.
+
+    Parameters
+    ----------
+    step : StepData
+        SI units.
+    delta_q, exact_delta_q : ndarray, shape (n_v,)
+        The answer, and the optimum [m, rad].
+    """
+    return digits_by_groups(group_steps(step), delta_q, exact_delta_q)
+
+
+def digits_by_groups(
     parts: Sequence[tuple[Group, StepData]], delta_q: Array, exact_delta_q: Array
 ) -> float:
-    """Correct digits of a displacement [-], 0 to 16.
+    """The same [-], of a step whose groups are known.
 
     Parameters
     ----------

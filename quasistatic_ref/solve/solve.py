@@ -14,7 +14,7 @@ from quasistatic_ref.certify.certificate import Certificate, exact_certificate
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.exact import ExactOptimum, check_length, optimum_by_groups
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.norm import correct_digits
+from quasistatic_ref.certify.norm import digits_by_groups
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.certify.warm import basic_rows, warm_rows
 from quasistatic_ref.errors import InputError
@@ -261,7 +261,7 @@ def proved(
         check_length(step, optimum.delta_q, both.parts)
     delta_q = optimum.delta_q
     lam = optimum.lam
-    digits = None if answer is None else correct_digits(both.parts, answer[0], delta_q)
+    digits = None if answer is None else digits_by_groups(both.parts, answer[0], delta_q)
     residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, both.units)))
     statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
     if isinstance(optimum, ExactOptimum):

@@ -17,7 +17,6 @@ from quasistatic_ref.certify.norm import (
 )
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step
-from quasistatic_ref.step.groups import group_steps
 from tests.certify.test_farkas import EAST, point_between_walls
 from tests.tolerances import ROUNDING
 
@@ -36,11 +35,9 @@ def test_digits_are_clipped(error, digits):
 def test_where_nothing_happens_errors_are_measured_by_a_micrometre():
     step = point_between_walls([EAST], [1.0])
     zero = np.zeros(3)
-    assert correct_digits(group_steps(step), zero, zero) == 16.0
-    assert correct_digits(group_steps(step), np.array([1e-14, 0, 0]), zero) == pytest.approx(
-        8, abs=HALF_DIGIT
-    )
-    assert correct_digits(group_steps(step), np.array([1e-5, 0, 0]), zero) == 0.0
+    assert correct_digits(step, zero, zero) == 16.0
+    assert correct_digits(step, np.array([1e-14, 0, 0]), zero) == pytest.approx(8, abs=HALF_DIGIT)
+    assert correct_digits(step, np.array([1e-5, 0, 0]), zero) == 0.0
 
 
 def waiting_pusher():
@@ -78,10 +75,8 @@ def test_a_limit_that_is_far_away_lends_no_digits():
     exact = step_optimum(step).delta_q
     far = step.replace(extra=Extra(("far",), [[0.0, 1.0, 0.0]], [-1e6]))
     off = exact * (1 + 1e-5)
-    assert correct_digits(group_steps(far), off, exact) == correct_digits(
-        group_steps(step), off, exact
-    )
-    assert correct_digits(group_steps(step), off, exact) == pytest.approx(5, abs=HALF_DIGIT)
+    assert correct_digits(far, off, exact) == correct_digits(step, off, exact)
+    assert correct_digits(step, off, exact) == pytest.approx(5, abs=HALF_DIGIT)
 
 
 @pytest.mark.parametrize("scene", ["block_push", "two_finger_pinch", "stack"])
