@@ -1,13 +1,9 @@
 """Shared fixtures: deterministic random numbers, and Hypothesis the same in every CI run."""
 
-import contextlib
 import gc
-import io
 import os
 import resource
 import sys
-from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -88,29 +84,6 @@ def rng():
 def count(request):
     """How many random steps are taken."""
     return request.config.getoption("--count")
-
-
-@dataclass(frozen=True)
-class CommandRun:
-    """One command of the command line: its exit status, what it printed, where it wrote."""
-
-    status: int
-    output: str
-    errors: str
-    folder: Path
-
-
-@pytest.fixture(scope="session")
-def demo(tmp_path_factory):
-    """`demo --fast --json`, run once: both cases of the grasp, 300 steps each."""
-    from quasistatic_ref.cli.main import main  # here, so that light tests stay light
-
-    folder = tmp_path_factory.mktemp("demo") / "out"
-    output = io.StringIO()
-    errors = io.StringIO()
-    with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
-        status = main(["demo", "--fast", "--json", "--out", str(folder)])
-    return CommandRun(status, output.getvalue(), errors.getvalue(), folder)
 
 
 @pytest.fixture

@@ -1,12 +1,17 @@
 """models/bunny_grasp, both runs: the paper's sizes and verdict, and where its files come from."""
 
+import contextlib
 import importlib.util
+import io
 import json
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario, load_trajectory
+from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.simulate.motions import rotation_angle
 from tests.closeness import assert_relative, assert_within
@@ -26,6 +31,27 @@ written to nanometres."""
 @pytest.fixture(scope="module")
 def scenario():
     return load_scenario("bunny_grasp", fast=True)
+
+
+@dataclass(frozen=True)
+class CommandRun:
+    """One command of the command line: its exit status, what it printed, where it wrote."""
+
+    status: int
+    output: str
+    errors: str
+    folder: Path
+
+
+@pytest.fixture(scope="module")
+def demo(tmp_path_factory):
+    """`demo --fast --json`, run once: both cases of the grasp, 300 steps each."""
+    folder = tmp_path_factory.mktemp("demo") / "out"
+    output = io.StringIO()
+    errors = io.StringIO()
+    with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
+        status = main(["demo", "--fast", "--json", "--out", str(folder)])
+    return CommandRun(status, output.getvalue(), errors.getvalue(), folder)
 
 
 @pytest.fixture(scope="module")
@@ -53,6 +79,18 @@ def test_with_torsion_the_bunny_hangs_still_and_without_it_turns(scenario, runs)
     turns = {case: largest_turn(scenario, run) for case, run in runs.items()}
     assert turns["with_torsion"] < 1
     assert turns["without_torsion"] > 30
+
+
+def test_demo_prints_one_json_object_and_writes_what_it_names(demo):
+    assert demo.status == 0
+    printed = json.loads(demo.output)
+    assert set(printed["cases"]) == {"with torsion", "without torsion"}
+    names = {path.name for path in demo.folder.iterdir()}
+    assert names == {
+        *printed["figures"], "bunny_grasp_with_torsion.npz", "bunny_grasp_without_torsion.npz",
+    }  # fmt: skip
+    for name in printed["figures"]:
+        assert (demo.folder / name).stat().st_size > 1000
 
 
 @pytest.mark.parametrize("case", CASES)

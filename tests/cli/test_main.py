@@ -52,18 +52,6 @@ def test_backends_lists_what_is_installed(cli):
     assert "clarabel (default)" in page
 
 
-def test_demo_prints_one_json_object_and_writes_what_it_names(demo):
-    assert demo.status == 0
-    printed = json.loads(demo.output)
-    assert set(printed["cases"]) == {"with torsion", "without torsion"}
-    names = {path.name for path in demo.folder.iterdir()}
-    assert names == {
-        *printed["figures"], "bunny_grasp_with_torsion.npz", "bunny_grasp_without_torsion.npz",
-    }  # fmt: skip
-    for name in printed["figures"]:
-        assert (demo.folder / name).stat().st_size > 1000
-
-
 def test_figures_are_made_by_name(out, capsys, cli):
     assert main(["figures", "a_screw", "--out", str(out)]) == 0
     paths = [out / "a_screw.png", out / "a_screw.pdf"]
