@@ -29,7 +29,7 @@ def _mesh(folder: Path, where: str, file: str, scale: Array) -> shapes.Shape:
     if not (scale != 0).all():
         raise ScenarioError("must not be zero", field=f"{where}.scale", value=scale.tolist())
     with about_field(f"{where}.file"):
-        path = mesh_path(file, folder)
+        path = mesh_path(file, folder, is_of_file=False)  # nothing beside it
     return mesh_hull(path, scale)
 
 

@@ -99,6 +99,17 @@ def test_a_relative_path_leads_anywhere_in_the_folder_of_its_scenario(tmp_path):
     assert_within(shape.shape.volume, 1 / 6, CLOSED_FORM)
 
 
+def test_a_mesh_of_a_scenario_itself_lies_in_its_folder(tmp_path):
+    for name in ("scenes", "robots"):
+        (tmp_path / name).mkdir()
+    urdf_of_text(tmp_path / "robots", TETRAHEDRON, "a.obj")
+    scene = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
+    scene += '[bodies.r]\nurdf = "r.urdf"\n[shapes.m]\nmesh = { file = "../robots/a.obj" }\n'
+    urdf_of_text(tmp_path / "scenes", robot(link("a")), "r.urdf")
+    with pytest.raises(ModelError, match=r"m\.mesh\.file: leads to .*, outside the folder of"):
+        load_scenario(urdf_of_text(tmp_path / "scenes", scene, "s.toml"))
+
+
 OUTSIDE = {
     "up": ("../secret.obj", "leads to .*, outside the folder of this file"),
     "absolute": ("{root}/secret.obj", "leads to .*, outside the folder of this file"),
