@@ -5,9 +5,10 @@ The least squeeze that holds a bar
 Two fingers hold a bar at a distance d from its centre of mass. The weight pulls the bar down, and
 turns it about the axis of the fingers.
 
-Against sliding alone each finger has to press with u = m g / (2 mu_v), against the turn alone with
-w = m g d / (2 mu_omega). In the paper's pyramid both loads share one normal force, u + w. In the
-ellipsoid it is the root of u^2 + w^2, and in the product of both limits the larger one.
+Against sliding alone each finger has to press with N_f = m g / (2 mu_v), against the turn alone
+with N_tau = m g d / (2 mu_omega). In the paper's pyramid both loads share one normal force,
+N_f + N_tau. In the ellipsoid it is the root of N_f^2 + N_tau^2, and in the product of both limits
+the larger one.
 """
 
 import matplotlib.pyplot as plt
@@ -48,20 +49,24 @@ def holds(cone, squeeze, lever):
 # %%
 # Three per cent less than the formula slips, three per cent more holds.
 levers = np.linspace(0, 0.06, 7)
-u = m * gravity / (2 * mu_v)
-w = m * gravity * levers / (2 * mu_omega)
-least = {"pyramid": u + w, "ellipsoid": np.hypot(u, w), "product": np.maximum(u, w)}
+N_f = m * gravity / (2 * mu_v)
+N_tau = m * gravity * levers / (2 * mu_omega)
+least = {
+    "pyramid": N_f + N_tau,
+    "ellipsoid": np.hypot(N_f, N_tau),
+    "product": np.maximum(N_f, N_tau),
+}
 
-figure, axes = plt.subplots(figsize=(4.8, 3.4), layout="constrained")
+figure, axes = plt.subplots(figsize=(6.3, 3.2), layout="constrained")
 for (cone, forces), line in zip(least.items(), ("-", "--", "-."), strict=True):
     assert not any(holds(cone, 0.97 * N, d) for N, d in zip(forces, levers, strict=True))
     assert all(holds(cone, 1.03 * N, d) for N, d in zip(forces, levers, strict=True))
-    axes.plot(1e3 * levers, forces, line, label=f"{cone}, closed form")
+    axes.plot(1e3 * levers, forces, line, label=f"{cone}, formula")
     last = cone == "product"
     axes.plot(1e3 * levers, 1.03 * forces, "k^", label="a step holds" if last else None)
     axes.plot(1e3 * levers, 0.97 * forces, "kv", markerfacecolor="none",
               label="a step slips" if last else None)  # fmt: skip
 axes.set(xlabel="lever d [mm]", ylabel="squeeze of each finger [N]")
 axes.set_title(f"at {1e3 * levers[-1]:g} mm: {least['pyramid'][-1]:.2f} N in the pyramid")
-axes.legend()
+figure.legend(loc="outside right center")
 plt.show()
