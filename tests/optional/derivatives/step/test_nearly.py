@@ -119,7 +119,7 @@ def weak_rows(simulator, q, force, way, change):
     return touching, {(int(j), int(i)) for j, i in named}
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.long) for k in (1, 2))])
 def test_r41_rows_that_a_small_force_changes_are_named(seed):
     """Of a block on its corners, whose steps are linear in the force piece by piece."""
     rng = np.random.default_rng(seed)
