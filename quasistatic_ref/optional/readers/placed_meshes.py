@@ -314,7 +314,7 @@ def _threemf(path: Path, content: bytes) -> _Stated:
         for one in root.iter("object"):
             vertices, triangles = _checked_3mf(one)
             below = [_named_3mf(part, name) for part in one.iter("component")]
-            parts[name, one.get("id")] = _Part(vertices + triangles, triangles, below)
+            parts[f"{name}#{one.get('id')}"] = _Part(vertices + triangles, triangles, below)
         if name.lower().endswith("3d/3dmodel.model"):
             if root.get("unit", "millimeter") not in UNITS:
                 raise ModelError(f"must be one of {', '.join(UNITS)}", field="unit")
@@ -328,10 +328,10 @@ def _threemf(path: Path, content: bytes) -> _Stated:
     return _Stated("3mf", kept.getvalue(), count)
 
 
-def _named_3mf(part: Element, model: str) -> tuple[str, str | None]:
+def _named_3mf(part: Element, model: str) -> str:
     """The model and the number of the object that an item or a component names."""
     path = next((v for name, v in part.items() if name.endswith("path")), model)
-    return path.lstrip("/"), part.get("objectid")
+    return f"{path.lstrip('/')}#{part.get('objectid')}"
 
 
 def _checked_3mf(one: Element) -> tuple[int, int]:

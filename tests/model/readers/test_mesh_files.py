@@ -388,7 +388,7 @@ LIES = {
     "ten items": ("a.3mf", of_3mf(of_ten), "places more than 150 vertices and triangles"),
     "a long model": ("a.3mf", of_3mf(lambda text: text + 8000 * b" "), "unpacks to more than"),
     "a part that is not there": ("a.3mf", of_3mf(lambda text: re.sub(
-        rb'objectid="\d+"', b'objectid="99"', text)), "is placed, but not in the file"),
+        rb'objectid="\d+"', b'objectid="99"', text)), "is placed, but not in the file .*model#99"),
     "far away": ("a.obj", TETRAHEDRON.replace("1 0 0", "1e200 0 0"), "must be at most 1e.15 m"),
 }  # fmt: skip
 
