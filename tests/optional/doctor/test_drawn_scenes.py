@@ -8,7 +8,18 @@ import pytest
 from scipy.optimize import linprog
 
 from quasistatic_ref import coulomb_step, standard_form
-from tests.optional.doctor.drawn_scenes import BROKEN, HEALTHY, SEEDS, Draw
+from tests.optional.doctor.drawn_scenes import (
+    BOTH,
+    BROKEN,
+    HEALTHY,
+    SEEDS,
+    Draw,
+    G,
+    bar,
+    gripped,
+    pile,
+    slope,
+)
 
 TOUCHES = 1e-6
 """[m]"""
@@ -93,6 +104,41 @@ def test_hand_values_are_said_and_hold_in_the_run_or_in_a_step_that_converges(ki
     assert force == pytest.approx(lacks["missing_N"], rel=1e-3)
     assert torque == pytest.approx(lacks["missing_Nm"], rel=1e-3, abs=1e-9)
     assert not bears(run, 0, pressed)
+
+
+def near_its_threshold(d, kind):
+    """A slope, a grip, a bar off its centre or a pile with up to a third more or less of a load."""
+    near = d.between(0.75, 1.33)
+    if kind == "slope":
+        _, bodies, shapes = slope(d, near * d.mu)
+        return d.scene(bodies, {"c": ("slope", "b", d.mu, 4)}, 1, shapes=shapes)
+    if kind == "pile":
+        return d.scene(*pile(d, near), 1)
+    if kind == "bar":
+        *_, N, _, bodies, contacts = bar(d, 1 / near)
+        return d.scene(bodies, contacts, 1, pressed={"c": 2 * N})
+    N = d.m * G / (2 * d.mu * near)
+    bodies = gripped(d, N, d.edge) | {"b": d.cube(0, 0, 0)}
+    return d.scene(bodies, {"c": (BOTH, "b", d.mu, 1, 0.01)}, 1, pressed={"c": 2 * N})
+
+
+@pytest.mark.parametrize("kind", ["slope", "grip", "bar", "pile"])
+@pytest.mark.parametrize(
+    "seed", [0, *(pytest.param(i, marks=pytest.mark.long) for i in range(1, 12))]
+)
+def test_r49_r_falls_with_t_squared_where_forces_bear_the_loads_and_else_stays(kind, seed):
+    """Whether they do is asked of a linear program over the cones; springs press as they are."""
+    scenario, _, pressed, _ = near_its_threshold(Draw(seed), kind)
+    run = scenario.run(progress=False)
+    step = run.step_data(0)
+    lacks = []
+    for T in (0.1, 0.3):
+        slow = coulomb_step(step.replace(h=T), fast=True)
+        assert slow.converged
+        lacks.append(step.M_u @ slow.delta_q[step.n_a :] / T**2)
+    before, after = np.linalg.norm(lacks, axis=1)
+    falls = 1 / 9 if bears(run, 0, pressed) else 1.0
+    assert after == pytest.approx(falls * before, rel=0.05, abs=1e-12)
 
 
 @pytest.mark.parametrize(("kind", "seed"), [*drawn(HEALTHY), *drawn(BROKEN)])
