@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from quasistatic_ref.model.readers.mesh import Mesh
     from quasistatic_ref.model.system import System
     from quasistatic_ref.numbers.arrays import Array
+    from quasistatic_ref.optional.doctor.accounts import Account
     from quasistatic_ref.optional.extensions.extension import Extension, OfBodies
     from quasistatic_ref.scenario.bodies import BodyEntry
-    from quasistatic_ref.simulate.account import Account
     from quasistatic_ref.simulate.finding import Finding
     from quasistatic_ref.simulate.observer import Observer
     from quasistatic_ref.simulate.simulator import Simulator
@@ -223,6 +223,13 @@ def contact_forces(step: StepData, near: tuple[Array, Array] | None) -> ContactF
     with needing("forces"):
         from quasistatic_ref.optional.forces.forces import contact_forces as forces
     return forces(step, near=near)
+
+
+def function_solver(step: StepData, function: str | Callable[..., Any]) -> Solver:
+    """``backend = "MODULE:FUNCTION"``: a solver of steps like this one that asks a function."""
+    with needing("a function as backend"):
+        from quasistatic_ref.optional.extensions.by_function import FunctionSolver
+    return FunctionSolver(step, function)
 
 
 def qpsolvers_names() -> list[str]:

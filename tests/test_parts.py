@@ -115,6 +115,7 @@ NAMES = {
     "smoothed": ("derivatives", lambda: qr.smoothed),
     "forces": ("forces", lambda: solve_step(STEP).forces),
     "a .stl mesh": ("readers", lambda: file_mesh(Path("m.stl"), ".stl")),
+    "a function as backend": ("extensions", lambda: solve_step(STEP, max)),
     "extension": (
         "extensions",
         lambda: solve_step(STEP, extension=Extension(lambda symbols: [])),

@@ -21,10 +21,10 @@ from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.coulomb.fixed_point import coulomb_step
+from quasistatic_ref.optional.doctor.motions import link_motion
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, LAWS
-from quasistatic_ref.simulate.motions import link_motion
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 

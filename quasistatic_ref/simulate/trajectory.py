@@ -23,7 +23,6 @@ from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate import wrenches
-from quasistatic_ref.simulate.account import Account
 from quasistatic_ref.simulate.finding import Finding, finding_read
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
 from quasistatic_ref.step.data import Contacts, Extra, StepData, no_rows
@@ -31,6 +30,7 @@ from quasistatic_ref.step.data import Contacts, Extra, StepData, no_rows
 if TYPE_CHECKING:
     from pandas import DataFrame
 
+    from quasistatic_ref.optional.doctor.accounts import Account
     from quasistatic_ref.simulate.scene import HasScene, Scene
 
 FORMAT = "quasistatic-ref/trajectory"

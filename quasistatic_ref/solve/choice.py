@@ -4,9 +4,8 @@ from collections.abc import Callable
 from typing import Any
 
 from quasistatic_ref.errors import BackendError
-from quasistatic_ref.parts import fast_solver, qpsolvers_solver
+from quasistatic_ref.parts import fast_solver, function_solver, qpsolvers_solver
 from quasistatic_ref.solve.backends import DEFAULT, NONE, QPSOLVERS, check_backend, is_function
-from quasistatic_ref.solve.by_function import FunctionSolver
 from quasistatic_ref.solve.solver import NoSolver, Solver
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
@@ -23,7 +22,7 @@ def solver_for(
     name : str or callable, optional
         Of the backend; with ``qpsolvers:`` it is reached through qpsolvers, otherwise through
         CVXPY. By default Clarabel; with `fast` DAQP. Or a function (P, q, G, h) -> (x, z, status),
-        also as ``MODULE:FUNCTION``: see :mod:`~quasistatic_ref.solve.by_function`.
+        also as ``MODULE:FUNCTION``: see :mod:`~quasistatic_ref.optional.extensions.by_function`.
     fast : bool
         Whether to solve as ``optional/fast`` does: DAQP by its own interface, in arrays that are
         kept from step to step. Any other backend is called as without.
@@ -39,7 +38,7 @@ def solver_for(
         if not cone(step.cone).polyhedral:
             problem = f"is a function, which takes linear rows only; not the {step.cone}"
             raise BackendError(problem, field="backend", value=str(name))
-        return FunctionSolver(step, name)
+        return function_solver(step, name)
     if fast:
         return fast_solver(step, name)
     name = DEFAULT if name is None else name

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.model.rotation import quaternion, rotation
-from quasistatic_ref.simulate.motions import LinkMotion
+from quasistatic_ref.optional.doctor.motions import LinkMotion
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import ROUNDING
 

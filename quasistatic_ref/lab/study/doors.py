@@ -11,8 +11,8 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.claims import INFEASIBLE, OPTIMAL
 from quasistatic_ref.lab.study.solvers import CVXPY, QPSOLVERS, Solver
+from quasistatic_ref.optional.extensions.by_function import real_numbers
 from quasistatic_ref.solve.backends import Options
-from quasistatic_ref.solve.by_function import real_numbers
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 

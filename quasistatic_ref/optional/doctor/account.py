@@ -19,6 +19,14 @@ from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.optional.doctor.accounts import (
+    Account,
+    Drive,
+    Loads,
+    Motion,
+    PairAccount,
+    Stop,
+)
 from quasistatic_ref.optional.doctor.artifacts import pressing
 from quasistatic_ref.optional.doctor.telling import (
     drive_numbers,
@@ -27,14 +35,6 @@ from quasistatic_ref.optional.doctor.telling import (
     stop_numbers,
 )
 from quasistatic_ref.shapes.placed_shape import PlacedShape
-from quasistatic_ref.simulate.account import (
-    Account,
-    Drive,
-    Loads,
-    Motion,
-    PairAccount,
-    Stop,
-)
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone

@@ -22,7 +22,7 @@ from quasistatic_ref.optional.doctor.bodies import Body, bodies
 from quasistatic_ref.optional.doctor.looks import Looking
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.parts import contact_forces, is_there, posed
-from quasistatic_ref.simulate.account import PairAccount
+from quasistatic_ref.optional.doctor.accounts import PairAccount
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.recorder import POINTS

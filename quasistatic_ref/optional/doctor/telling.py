@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.simulate.account import Account, Drive, Motion, PairAccount, Stop
+from quasistatic_ref.optional.doctor.accounts import Account, Drive, Motion, PairAccount, Stop
 from quasistatic_ref.tolerances import FILLED, UNMOVED
 
 PRINTED = 4

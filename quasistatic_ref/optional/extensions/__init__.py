@@ -1,1 +1,1 @@
-"""Constraints and costs of a user's own, written in CVXPY."""
+"""What users add to a step, constraints and costs written in CVXPY, and what they solve it with."""

@@ -1,7 +1,9 @@
 """The figure of an account: what touches and slides, loads, slips, and motions, over time."""
 
+from __future__ import annotations
+
 from io import BytesIO
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -10,7 +12,9 @@ from matplotlib.figure import Figure
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.style import PAGE, figure_style, panels
-from quasistatic_ref.simulate.account import Account
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.doctor.accounts import Account
 
 MILLI: Final = 1e3
 BAR: Final = 0.3
