@@ -3,6 +3,7 @@
 import numpy as np
 
 from quasistatic_ref import Contacts, InputError, load_step, standard_form
+from quasistatic_ref.certify.curved_cone import judge_of
 from quasistatic_ref.certify.residuals import optimality_residuals
 from quasistatic_ref.certify.solution_files import load_solution
 from quasistatic_ref.cli.verify import refutation
@@ -11,7 +12,6 @@ from quasistatic_ref.lab.scenes.at_random import random_contacts
 from quasistatic_ref.lab.scenes.contacts import NUMBERS
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
-from quasistatic_ref.step.cones import cone
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
 INTERFACES = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))
@@ -33,8 +33,7 @@ def changed(contacts, **changes):
 
 def residuals_of(step, delta_q, lam):
     """The residuals of an answer in the step's own cone."""
-    judge = cone(step.cone).judge(step.contacts.mu)
-    return optimality_residuals(standard_form(step), delta_q, lam, judge)
+    return optimality_residuals(standard_form(step), delta_q, lam, judge_of(step))
 
 
 def random_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):

@@ -12,6 +12,19 @@ from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_sha256
 
+Claims = Mapping[str, tuple[str, ...]]
+"""The kinds of certificate in a cone, each with its further fields in a solution file."""
+
+CLAIMS: Claims = {
+    "exact": (
+        "active", "multipliers_unique", "differentiable", "smallest_inactive_slack",
+        "smallest_active_multiplier", "error_bound",
+    ),
+    "residual": (),
+    "none": (),
+}  # fmt: skip
+"""Those of a polyhedral cone."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Certificate(Plain, HasPage):

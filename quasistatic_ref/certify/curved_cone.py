@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import Protocol
+from typing import TYPE_CHECKING, ClassVar, Protocol
 
-from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.certificate import CLAIMS, Certificate, Claims
+from quasistatic_ref.certify.residuals import Judge, row_violations
 from quasistatic_ref.certify.verdict import Verdict
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.step.cones import FrictionCone, cone
+from quasistatic_ref.step.cones import FrictionCone, Rows, cone
 from quasistatic_ref.step.data import StepData
+
+if TYPE_CHECKING:
+    import cvxpy as cp
 
 
 class Enclosed(Protocol):
@@ -41,6 +45,31 @@ class CurvedCone(FrictionCone):
     """
 
     polyhedral = False
+    claims: ClassVar[Claims]
+    """The kinds of certificate in it, each with its further fields in a solution file."""
+
+    @abstractmethod
+    def constraints(self, motion: Rows) -> list[cp.Constraint]:
+        """The constraints on CVXPY's gap, slip_1, slip_2 and spin [m], each (n_c,)."""
+
+    @abstractmethod
+    def multipliers(self, constraints: Sequence[cp.Constraint], mu: Array) -> Array:
+        """Lam of solved :meth:`constraints`, contact-major, shape (m,); `mu` as of contacts."""
+
+    @abstractmethod
+    def judge(self, mu: Array) -> Judge:
+        """How far from holding Eqs. :eq:`eq-10`-:eq:`eq-12` are, at any slacks and multipliers.
+
+        Parameters
+        ----------
+        mu : ndarray, shape (n_c, 3)
+            As of contacts.
+
+        Returns
+        -------
+        callable
+            As :func:`~quasistatic_ref.certify.residuals.row_violations`, of all rows of A.
+        """
 
     @abstractmethod
     def optimum(self, step: StepData, start: tuple[Array, Array] | None) -> Enclosed | None:
@@ -88,3 +117,15 @@ def curved_cone(step: StepData) -> CurvedCone | None:
     """The cone of a step where no rows describe it, which proves its own answers; else None."""
     of_step = cone(step.cone)
     return of_step if isinstance(of_step, CurvedCone) else None
+
+
+def judge_of(step: StepData) -> Judge:
+    """How far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding in the cone of a step."""
+    curved = curved_cone(step)
+    return row_violations if curved is None else curved.judge(step.contacts.mu)
+
+
+def claims_of(step: StepData) -> Claims:
+    """What certificates of each kind hold in the cone of a step."""
+    curved = curved_cone(step)
+    return CLAIMS if curved is None else curved.claims

@@ -27,12 +27,12 @@ from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.failures import StepIllPosed, StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import ExactForm, StepForm
+from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.norm import energy_norm, single_loads
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import Group, group_steps
 from quasistatic_ref.step.standard_form import standard_form
 
 ILL_POSED: Final = 1e6

@@ -19,11 +19,11 @@ from functools import lru_cache
 
 import numpy as np
 
+from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.numbers.pivots import exact_factor
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import Group, group_steps
 from quasistatic_ref.step.standard_form import linear_term
 from quasistatic_ref.tolerances import UNMOVED
 

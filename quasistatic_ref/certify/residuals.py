@@ -6,14 +6,18 @@ them, and its proof is in exact.py. Only ``certify="residual"`` refuses answers 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.step.cones import Judge, row_violations
 from quasistatic_ref.step.standard_form import StandardForm
+
+Violations: TypeAlias = tuple[Array, Array, Array]
+Judge: TypeAlias = Callable[[Array, Array], Violations]
 
 
 @dataclass(frozen=True)
@@ -63,6 +67,26 @@ def largest(x: Array) -> float:
     return float(x.max(initial=0.0)) + 0.0
 
 
+def row_violations(slack: Array, lam: Array) -> Violations:
+    """How far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding, row by row.
+
+    Parameters
+    ----------
+    slack, lam : ndarray, shape (m,)
+        A delta_q - b [m], and the multipliers [N s].
+
+    Returns
+    -------
+    short, pull, work : ndarray
+        How far the conditions on slacks [m] and on multipliers [N s] are violated, negative where
+        they hold; and slack times multiplier [N m s].
+    """
+    short = -slack  # Eq. (10): slack >= 0
+    pull = -lam  # Eq. (11): lam >= 0
+    work = slack * lam  # Eq. (12): zero, row by row
+    return short, pull, work
+
+
 def optimality_residuals(
     form: StandardForm, delta_q: ArrayLike, lam: ArrayLike, judge: Judge = row_violations
 ) -> Residuals:
@@ -77,7 +101,7 @@ def optimality_residuals(
         Multipliers, contact-major, the user's own rows last.
     judge : callable
         (slack, lam) -> how far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding: of rows, or of
-        another cone, whose :meth:`~quasistatic_ref.step.cones.FrictionCone.judge` it is.
+        another cone, whose :meth:`~quasistatic_ref.certify.curved_cone.CurvedCone.judge` it is.
 
     Returns
     -------

@@ -14,6 +14,7 @@ from typing import Any, get_type_hints
 import numpy as np
 
 from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.curved_cone import claims_of
 from quasistatic_ref.certify.rounding import nearest
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import StepDataError, about_file
@@ -75,7 +76,7 @@ def solution_text(solution: StepSolution) -> str:
         "lam_extra": solution.lam_extra,
         "wrench": rounded_wrenches(step.contacts, lam, step.h, step.cone),
         "certificate": {"kind": kind}
-        | {name: getattr(certificate, name) for name in cone(step.cone).claims[kind]},
+        | {name: getattr(certificate, name) for name in claims_of(step)[kind]},
     }
     return json_text(record) + "\n"
 
@@ -169,7 +170,7 @@ def _nested(top: TableReader, step: StepData) -> Array:
 
 
 def _certificate(table: TableReader, step: StepData) -> Certificate:
-    known = cone(step.cone).claims
+    known = claims_of(step)
     kind = table.text("kind", choices=tuple(known))
     claims: dict[str, Any] = {
         name: _claim(table, name, (kind, name) in MAY_BE_NULL) for name in known[kind]

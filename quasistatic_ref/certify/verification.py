@@ -22,6 +22,7 @@ from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.curved_cone import curved_cone
 from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
+from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.minimiser import (
     Minimiser,
     Solution,
@@ -34,7 +35,6 @@ from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import Group, group_steps
 
 
 def verify(solution: StepSolution) -> Verdict:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 import cvxpy as cp
 import numpy as np
 
+from quasistatic_ref.certify.curved_cone import curved_cone
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import BackendError, InputError, StepDataError
 from quasistatic_ref.numbers.arrays import Array
@@ -79,8 +80,13 @@ class StepProblem:
         self.delta_q = page.delta_q
         self.contact_motion = page.contact_motion
         self.contact_rows = page.contact_rows
-        if template.cone != PYRAMID:
-            self.contact_rows = cone(template.cone).constraints(self.contact_motion, template.mask)
+        curved = curved_cone(template)
+        if curved is not None:
+            self.contact_rows = curved.constraints(self.contact_motion)
+        elif template.cone != PYRAMID:
+            sides = cone(template.cone).function(*self.contact_motion)
+            masked = zip(sides, template.mask.T, strict=True)
+            self.contact_rows = [side[has] >= 0 for side, has in masked if has.any()]
         A_extra = cp.Parameter(template.extra.A.shape, "A_extra")
         b_extra = cp.Parameter(template.extra.b.shape, "b_extra")
         self.parameters |= {"A_extra": A_extra, "b_extra": b_extra}
@@ -210,7 +216,13 @@ class StepProblem:
     def dual(self) -> Array:
         """Multipliers of the last solve, contact-major, the user's own rows last; shape (m,)."""
         template = self.template
-        lam = cone(template.cone).multipliers(
-            self.contact_rows, template.mask, template.contacts.mu
-        )
+        curved = curved_cone(template)
+        if curved is not None:
+            lam = curved.multipliers(self.contact_rows, template.contacts.mu)
+        else:
+            mask = template.mask
+            of_rows = np.zeros(mask.shape)
+            for i, row in zip(np.flatnonzero(mask.any(axis=0)), self.contact_rows, strict=True):
+                of_rows[mask[:, i], i] = row.dual_value
+            lam = of_rows[mask]
         return np.concatenate([lam, *(row.dual_value for row in self.extra)])

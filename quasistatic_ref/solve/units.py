@@ -19,15 +19,15 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.certify.curved_cone import judge_of
+from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.norm import energy_norm, single_lengths
 from quasistatic_ref.certify.residuals import Residuals, largest, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, Mask, finite, read_only
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.step.groups import Group, group_steps
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import UNMOVED
 
@@ -396,7 +396,7 @@ class StepInBothUnits:
                 form,
                 delta_q[group.coordinates],
                 lam[group.rows],
-                cone(part.cone).judge(part.contacts.mu),
+                judge_of(part),
             )
             for (group, part), form in zip(self.parts, self.natural_forms, strict=True)
         ]

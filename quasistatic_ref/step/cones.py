@@ -21,8 +21,8 @@ contact whose ``rows`` is 4 does not use mu_omega: it has the leading rows only,
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -35,12 +35,10 @@ from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.parts import ellipsoid_cone
 
 if TYPE_CHECKING:
-    import cvxpy as cp
+    pass
 
 Rows: TypeAlias = "tuple[Any, ...]"
 ConeFunction: TypeAlias = "Callable[[Any, Any, Any, Any], Rows]"
-Violations: TypeAlias = "tuple[Array, Array, Array]"
-Judge: TypeAlias = "Callable[[Array, Array], Violations]"
 
 PYRAMID = "pyramid"
 ELLIPSOID = "ellipsoid"
@@ -50,20 +48,10 @@ MOST_FACETS = 1024
 
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494")
 
-CLAIMS: dict[str, tuple[str, ...]] = {
-    "exact": (
-        "active", "multipliers_unique", "differentiable", "smallest_inactive_slack",
-        "smallest_active_multiplier", "error_bound",
-    ),
-    "residual": (),
-    "none": (),
-}  # fmt: skip
-"""What a certificate of each kind holds, in a polyhedral cone."""
-
 
 @dataclass(frozen=True, eq=False)
 class FrictionCone(ABC):
-    """A friction cone: what a step, its files and its certificates need to know of it.
+    """A friction cone: what a step needs to know of it.
 
     Parameters
     ----------
@@ -74,15 +62,12 @@ class FrictionCone(ABC):
         How many of these numbers a contact has whose mu_omega is not used.
     function : callable
         (gap, slip_1, slip_2, spin) -> the rows of a contact in A.
-    claims : mapping of str to tuple of str
-        The kinds of certificate in it, each with its further fields in a solution file.
     """
 
     name: str
     row_names: tuple[str, ...]
     without_torsion: int
     function: ConeFunction
-    claims: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: CLAIMS)
 
     @property
     @abstractmethod
@@ -106,32 +91,6 @@ class FrictionCone(ABC):
     def row_coefficients(self, mu: Array) -> Array:
         """What slips and spin are multiplied by in A, (n_c, 3) [-, -, m]; `mu` as of contacts."""
 
-    @abstractmethod
-    def constraints(self, motion: Rows, mask: Mask) -> list[cp.Constraint]:
-        """The constraints on CVXPY's gap, slip_1, slip_2 and spin [m], each (n_c,).
-
-        `mask`, shape (n_c, R), says which contact has which row.
-        """
-
-    @abstractmethod
-    def multipliers(self, constraints: Sequence[cp.Constraint], mask: Mask, mu: Array) -> Array:
-        """Lam of solved :meth:`constraints`, contact-major, shape (m,); `mu` as of contacts."""
-
-    @abstractmethod
-    def judge(self, mu: Array) -> Judge:
-        """How far from holding Eqs. :eq:`eq-10`-:eq:`eq-12` are, at any slacks and multipliers.
-
-        Parameters
-        ----------
-        mu : ndarray, shape (n_c, 3)
-            As of contacts.
-
-        Returns
-        -------
-        callable
-            As :func:`row_violations`, of all rows of A.
-        """
-
 
 class PolyhedralCone(FrictionCone):
     """A cone that its rows describe: the core proves its optima by exact rows."""
@@ -142,46 +101,10 @@ class PolyhedralCone(FrictionCone):
         """The coefficients of friction `mu`, (n_c, 3) [-, -, m], themselves."""
         return mu
 
-    def constraints(self, motion: Rows, mask: Mask) -> list[cp.Constraint]:
-        """One for each row of the cone [m], of the contacts that have it; none where none has."""
-        sides = self.function(*motion)
-        return [side[has] >= 0 for side, has in zip(sides, mask.T, strict=True) if has.any()]
-
-    def multipliers(self, constraints: Sequence[cp.Constraint], mask: Mask, mu: Array) -> Array:
-        """Lam of solved :meth:`constraints`, shape (m,) [N s]; `mu` is not used."""
-        lam = np.zeros(mask.shape)
-        for i, row in zip(np.flatnonzero(mask.any(axis=0)), constraints, strict=True):
-            lam[mask[:, i], i] = row.dual_value
-        return lam[mask]
-
-    def judge(self, mu: Array) -> Judge:
-        """See :func:`row_violations`; `mu`, (n_c, 3) [-, -, m], is not used."""
-        return row_violations
-
 
 def has_torsion(rows: Indices) -> Mask:
     """Whether contacts use mu_omega, shape (n_c,), from their ``rows``, 6 or 4, shape (n_c,)."""
     return np.equal(rows, 6)
-
-
-def row_violations(slack: Array, lam: Array) -> Violations:
-    """How far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding, row by row.
-
-    Parameters
-    ----------
-    slack, lam : ndarray, shape (m,)
-        A delta_q - b [m], and the multipliers [N s].
-
-    Returns
-    -------
-    short, pull, work : ndarray
-        How far the conditions on slacks [m] and on multipliers [N s] are violated, negative where
-        they hold; and slack times multiplier [N m s].
-    """
-    short = -slack  # Eq. (10): slack >= 0
-    pull = -lam  # Eq. (11): lam >= 0
-    work = slack * lam  # Eq. (12): zero, row by row
-    return short, pull, work
 
 
 def pyramid(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:

@@ -17,10 +17,10 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.certify.exact import step_optimum
+from quasistatic_ref.certify.groups import groups
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.optional.forces.forces import WRENCH, defined_optimum
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.groups import groups
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.oracles.random_steps import mixed_step
 

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.certify.groups import labels
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.doctor.start import FARTHEST
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import labels
 
 if TYPE_CHECKING:
     from quasistatic_ref.optional.doctor.start import Start

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.certify.groups import group_step, groups
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor import slowly
 from quasistatic_ref.optional.doctor.bodies import Body, Missing
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.step.groups import group_step, groups
 
 if TYPE_CHECKING:
     from quasistatic_ref.numbers.arrays import Array, Indices, Mask

@@ -18,11 +18,11 @@ from quasistatic_ref.optional.doctor.account import (
     pair_accounts,
     sides,
 )
+from quasistatic_ref.optional.doctor.accounts import PairAccount
 from quasistatic_ref.optional.doctor.bodies import Body, bodies
 from quasistatic_ref.optional.doctor.looks import Looking
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.parts import contact_forces, is_there, posed
-from quasistatic_ref.optional.doctor.accounts import PairAccount
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.recorder import POINTS

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.run import Run, RunStep
@@ -19,7 +20,6 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import NONE, QPSOLVERS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.groups import group_steps
 from quasistatic_ref.tolerances import BORNE, SURE
 
 if TYPE_CHECKING:

@@ -6,19 +6,19 @@ What is claimed of an answer in it is verified here, without any solver.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from flint import fmpq
 
-from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.certificate import Certificate, Claims
 from quasistatic_ref.certify.curved_cone import CurvedCone
 from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
 from quasistatic_ref.certify.minimiser import rounded_quotients
-from quasistatic_ref.certify.residuals import largest
+from quasistatic_ref.certify.residuals import Judge, Violations, largest
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
-from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.apex import apex
 from quasistatic_ref.optional.ellipsoid.enclosure import (
@@ -33,7 +33,7 @@ from quasistatic_ref.optional.ellipsoid.forces import compliant_forces
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.optional.gap import duality_gap, fractions
-from quasistatic_ref.step.cones import ELLIPSOID, Judge, Rows, Violations
+from quasistatic_ref.step.cones import ELLIPSOID, Rows
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
 
@@ -45,30 +45,29 @@ LARGEST = float(np.finfo(np.float64).max)
 UNSTATED = Certificate("exact", error_bound=0.0)
 """What an answer without a certificate counts as."""
 
-CLAIMS: dict[str, tuple[str, ...]] = {
-    "exact": ("active", "error_bound", "gap"),
-    "enclosure": ("error_bound", "gap"),
-    "residual": (),
-    "none": (),
-}
-"""What a certificate of each kind holds in the ellipsoid."""
-
 
 class EllipsoidCone(CurvedCone):
     """gap >= ||(slip_1, slip_2, spin)||: one second-order cone for each contact."""
+
+    claims: ClassVar[Claims] = {
+        "exact": ("active", "error_bound", "gap"),
+        "enclosure": ("error_bound", "gap"),
+        "residual": (),
+        "none": (),
+    }
 
     def row_coefficients(self, mu: Array) -> Array:
         """1, (n_c, 3): the rows of a contact are J_n, J_1, J_2 and J_w [-]; `mu` is the cone's."""
         return np.ones_like(mu)
 
-    def constraints(self, motion: Rows, mask: Mask) -> list[cp.Constraint]:
+    def constraints(self, motion: Rows) -> list[cp.Constraint]:
         """All contacts in one second-order cone constraint; arguments as of the base [m]."""
         import cvxpy as cp  # it takes its time
 
         gap, *slips = motion
-        return [cp.SOC(gap, cp.vstack(slips))] if len(mask) else []
+        return [cp.SOC(gap, cp.vstack(slips))] if gap.size else []
 
-    def multipliers(self, constraints: Sequence[cp.Constraint], mask: Mask, mu: Array) -> Array:
+    def multipliers(self, constraints: Sequence[cp.Constraint], mu: Array) -> Array:
         """Impulses (n, d1, d2, spin) of each contact, shape (4 n_c,) [N s, N m s]."""
         if not constraints:
             return np.zeros(0)
@@ -173,7 +172,7 @@ def motion(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
     return gap, slip_1, slip_2, spin
 
 
-ELLIPSOID_CONE = EllipsoidCone(ELLIPSOID, ("n", "d1", "d2", "spin"), 4, motion, CLAIMS)
+ELLIPSOID_CONE = EllipsoidCone(ELLIPSOID, ("n", "d1", "d2", "spin"), 4, motion)
 
 
 def cone_violations(mu: Array, slack: Array, lam: Array) -> Violations:

@@ -12,9 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
+from quasistatic_ref.certify.residuals import Residuals, Violations, optimality_residuals
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.step.cones import Violations
 from quasistatic_ref.step.standard_form import StandardForm
 
 
@@ -47,7 +46,7 @@ class ConicProgram:
     exponential: int
 
     def violations(self, s: Array, z: Array) -> Violations:
-        """As :func:`~quasistatic_ref.step.cones.row_violations`.
+        """As :func:`~quasistatic_ref.certify.residuals.row_violations`.
 
         Parameters
         ----------

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from quasistatic_ref.certify.groups import Group
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactLayout
@@ -13,7 +14,6 @@ from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.units import Units, hessian_in_both_units, natural_form
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import Group
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 

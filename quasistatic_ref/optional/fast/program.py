@@ -6,6 +6,7 @@ from typing import Any
 import daqp
 import numpy as np
 
+from quasistatic_ref.certify.groups import Group
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.optional.fast.library import Structure, library
@@ -13,7 +14,6 @@ from quasistatic_ref.optional.fast.steps import Steps
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import Units, hessian_in_both_units
-from quasistatic_ref.step.groups import Group
 from quasistatic_ref.step.standard_form import StandardForm
 
 STATUS = {1: "optimal", 2: "soft optimal", -1: "infeasible", -2: "cycling", -3: "unbounded",

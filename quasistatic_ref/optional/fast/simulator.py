@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref.certify.groups import group_step, linked
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
@@ -35,7 +36,6 @@ from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import group_step, linked
 
 if TYPE_CHECKING:
     from quasistatic_ref.optional.extensions.extension import Extension

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 
+from quasistatic_ref.certify.groups import Group, group_step, group_steps, groups
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.fast.program import Program, Workspaces
 from quasistatic_ref.solve.backends import Options, check_backend
@@ -14,7 +15,6 @@ from quasistatic_ref.solve.solver import BackendSolver, Solver
 from quasistatic_ref.solve.units import HessianInBothUnits, StepInBothUnits, of_group
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.groups import Group, group_step, group_steps, groups
 from quasistatic_ref.step.standard_form import StandardForm
 
 DAQP = "daqp"

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.certify.groups import parted
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
 from quasistatic_ref.numbers.pivots import positive_definite
@@ -17,7 +18,6 @@ from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone, cone_function, cone_matrix
 from quasistatic_ref.step.contacts import friction_coefficients
 from quasistatic_ref.step.data import no_rows, row_layout
-from quasistatic_ref.step.groups import parted
 
 FRAMES = ("d1", "d2", "J", "tau", "g")
 """What C writes of a step, beside its closest points."""

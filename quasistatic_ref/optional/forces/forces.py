@@ -42,6 +42,7 @@ from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.failures import StepInfeasible, StepNotSolved
 from quasistatic_ref.certify.form import EXACT, MatrixForm, StepForm, columns, exact_matrix
+from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, without_warnings
@@ -52,7 +53,6 @@ from quasistatic_ref.optional.forces.faces import cone_rows
 from quasistatic_ref.optional.forces.of_group import NOTHING_MOVES, group_compliance
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian, scaled_by
-from quasistatic_ref.step.groups import group_steps
 
 WRENCH: Final = [1, 2, 0, 3]
 """Where (f_d1, f_d2, f_n, tau_n) stand in p."""

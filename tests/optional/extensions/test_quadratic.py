@@ -18,6 +18,7 @@ from quasistatic_ref import (
     StepDataError,
     solve_step,
 )
+from quasistatic_ref.certify.groups import groups
 from quasistatic_ref.certify.solution_files import solution_text
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.optional.extensions.extended import posed
@@ -25,7 +26,6 @@ from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.trajectory import load_trajectory, save_trajectory
 from quasistatic_ref.solve.backends import REQUIRED
 from quasistatic_ref.step.files import step_from_record, step_text
-from quasistatic_ref.step.groups import groups
 from tests.closeness import assert_relative
 from tests.helpers import pinch, point_on_floor, random_step, verify_refusal
 from tests.tolerances import OPTIMUM

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, solve_step
+from quasistatic_ref.certify.groups import Group
 from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.optional.fast.joined import Masses
@@ -13,7 +14,6 @@ from quasistatic_ref.optional.fast.program import NaturalProgram, Program, Works
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import hessian_in_both_units, units_of
-from quasistatic_ref.step.groups import Group
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.helpers import changed, error, planted_step
 from tests.tolerances import ACTIVE_SET

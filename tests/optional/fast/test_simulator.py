@@ -23,12 +23,12 @@ from quasistatic_ref import (
     load_scenario,
     standard_form,
 )
+from quasistatic_ref.certify.groups import group_step
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.joints.axis_joint import Revolute
 from quasistatic_ref.optional.fast import library
 from quasistatic_ref.optional.fast import simulator as of_fast
 from quasistatic_ref.optional.fast.joined import spread
-from quasistatic_ref.step.groups import group_step
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.helpers import error, residuals_of
 from tests.model.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text

@@ -20,11 +20,11 @@ from quasistatic_ref.lab.scenes.rigid import free_step, rigid_step
 from quasistatic_ref.optional.forces.of_group import COMPLIANCE, HARDLY_MOVES, group_compliance
 from quasistatic_ref.step.friction import contact_wrenches, scaled_by
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
+from tests.certify.test_groups import two_bodies
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import changed, point_on_floor
 from tests.oracles import force_checks as checks
 from tests.oracles.random_steps import mixed_step
-from tests.step.test_groups import two_bodies
 from tests.tolerances import ROUNDING
 
 H = 0.01

@@ -11,9 +11,9 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.certify.exact import ILL_POSED, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.groups import group_steps, groups
 from quasistatic_ref.lab.scenes.contacts import X, contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.step.groups import group_steps, groups
 from tests.oracles.grouped import faults, random_case
 
 
