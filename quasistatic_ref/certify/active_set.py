@@ -42,22 +42,6 @@ class Farkas:
     y: dict[int, fmpq]
 
 
-@dataclass(frozen=True, eq=False)
-class Optimum:
-    """The end of the method.
-
-    Parameters
-    ----------
-    minimiser : Minimiser
-        Its working set has positive multipliers only.
-    walks : int
-        Rows that were added: none if the warm start was right.
-    """
-
-    minimiser: Minimiser
-    walks: int
-
-
 def most_violated(minimiser: Minimiser) -> int | None:
     """Return the most violated row, of equal ones that of least index; None if none is violated.
 
@@ -91,7 +75,7 @@ negative."""
 
 def dual_active_set(
     form: ExactForm, warm: Sequence[int] = (), entering_row: EnteringRule = most_violated
-) -> Optimum | Farkas:
+) -> Minimiser | Farkas:
     """The optimum of min 1/2 x'Hx - g'x s.t. Ax >= b, or a proof that there is none.
 
     Parameters
@@ -106,8 +90,9 @@ def dual_active_set(
 
     Returns
     -------
-    Optimum or Farkas
-
+    Minimiser or Farkas
+        At the optimum all of its multipliers are positive; its `walks` are the rows that were
+        added, none if the warm start was right.
     """
     minimiser = _start(form, list(dict.fromkeys(warm)))
     walks = 0
@@ -115,8 +100,10 @@ def dual_active_set(
         p = entering_row(minimiser)
         if p is None:  # All slacks are >= 0, too: the optimum.
             positive = minimiser.positive() if walks else minimiser.working
-            same = positive == minimiser.working
-            return Optimum(minimiser if same else minimiser.on(positive), walks)
+            if positive != minimiser.working:
+                minimiser = minimiser.on(positive)
+            minimiser.walks = walks
+            return minimiser
         after = _walk(minimiser, p)
         if isinstance(after, Farkas):
             return after

@@ -20,9 +20,10 @@ from collections.abc import Sequence
 import numpy as np
 from flint import arb, arb_mat, fmpz
 
-from quasistatic_ref.certify.active_set import Optimum, dual_active_set
+from quasistatic_ref.certify.active_set import dual_active_set
 from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.form import EXACT, ExactForm, MatrixForm, exact_matrix
+from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.numbers.precision import working_precision
 
 
@@ -85,4 +86,4 @@ def feasible(
         g=arb_mat(n, 1),
         rows=arb_mat([[*row[:n], arb(-b)] for row, b in sides]),
     )
-    return isinstance(dual_active_set(feasibility, range(len(held))), Optimum)
+    return isinstance(dual_active_set(feasibility, range(len(held))), Minimiser)

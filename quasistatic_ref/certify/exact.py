@@ -19,7 +19,6 @@ import numpy as np
 from quasistatic_ref.certify.active_set import (
     EnteringRule,
     Farkas,
-    Optimum,
     dual_active_set,
     most_violated,
 )
@@ -28,6 +27,7 @@ from quasistatic_ref.certify.failures import StepIllPosed, StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import ExactForm, StepForm
 from quasistatic_ref.certify.groups import Group, group_steps
+from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.norm import energy_norm, single_loads
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
@@ -116,9 +116,8 @@ def form_optimum(
     return end if isinstance(end, Farkas) else _rounded(form, end)
 
 
-def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
+def _rounded(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
     """The optimum that the method ended with: what is unique at it, and its numbers, rounded."""
-    minimiser = end.minimiser
     working = minimiser.working
     unique, smooth = degeneracy(form, working, minimiser.implied_rows, minimiser.tight_rows)
     lam = np.zeros(form.m)
@@ -134,7 +133,7 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
         differentiable=smooth,
         smallest_inactive_slack=minimiser.smallest_slack() if smooth else 0.0,
         smallest_active_multiplier=float(lam_w.min()) if working else None,
-        walks=end.walks,
+        walks=minimiser.walks,
     )
 
 

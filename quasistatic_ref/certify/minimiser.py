@@ -199,7 +199,14 @@ class Minimiser:
         W: independent rows.
     near : NearSets, optional
         Of a working set that may differ by few rows.
+
+    Attributes
+    ----------
+    walks : int
+        Of an optimum, rows that were added to the warm start.
     """
+
+    walks = 0
 
     def __init__(
         self, form: ExactForm, working: tuple[int, ...], near: NearSets | None = None

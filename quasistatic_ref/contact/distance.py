@@ -370,15 +370,16 @@ def relative_pose(solid: ShapeInWorld, other: ShapeInWorld) -> Array:
 def _contacts(
     solid: ShapeInWorld, other: ShapeInWorld, points: Array, radius: float, surface: Surface
 ) -> ClosestPoints:
-    n = rotated(solid.R, surface.normal)
+    phi, normal, tie = surface
+    n = rotated(solid.R, normal)
     centre = rotated(other.R, points) + other.t
     return ClosestPoints(
-        phi=surface.phi - radius,
-        alpha=centre - surface.phi[:, None] * n,
+        phi=phi - radius,
+        alpha=centre - phi[:, None] * n,
         beta=centre - radius * n,
         n=n,
         point=np.arange(len(points)),
-        tie=surface.tie,
+        tie=tie,
     )
 
 

@@ -7,8 +7,6 @@ within rounding the one along which the whole cloud is farthest out. docs/conven
 rule, (R37) says why bodies that touch bear along no other normal.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from quasistatic_ref.contact.separations import (
@@ -33,22 +31,9 @@ TURNED = cos_sin(FACING)[0]
 """Least cosine of the angle between the pair's normal and that of a face or corner that bears."""
 
 
-class Surface(NamedTuple):
-    """What points have on a solid, in its frame.
-
-    Parameters
-    ----------
-    phi : ndarray, shape (N,)
-        [m].
-    normal : ndarray, shape (N, 3)
-        [-].
-    tie : ndarray of int, shape (N,)
-        How the normal was chosen.
-    """
-
-    phi: Array
-    normal: Array
-    tie: Indices
+Surface = tuple[Array, Array, Indices]
+"""What N points have on a solid, in its frame: phi, (N,) [m]; the normal, (N, 3) [-]; and how that
+was chosen, (N,)."""
 
 
 def faces_apart(heights: Array, normals: Array, within: float | Array) -> tuple[Indices, Mask]:
@@ -93,7 +78,7 @@ def corner_surface(
     phi, normal = shape.signed_distance(x)
     tie = np.full(len(x), UNIQUE_NORMAL)
     if isinstance(shape, HalfSpace):
-        return Surface(phi, normal, tie)
+        return phi, normal, tie
     # Another corner is outside, and nearest to a face that faces n: nothing else to choose.
     within = within + np.zeros(len(x))
     near = near + np.zeros(len(x))
@@ -117,7 +102,7 @@ def corner_surface(
         phi[edge[on_edge]] = gap[on_edge]
         normal[edge[on_edge]] = n[edge[on_edge]]
     tie[dot(before, normal) < 1 - SAME_NORMAL] = OF_PAIR
-    return Surface(phi, normal, tie)
+    return phi, normal, tie
 
 
 def _facing(
@@ -176,18 +161,17 @@ def cloud_surface(
         If the cloud is as deep along two of the normals that a point has.
     """
     tie = np.full(len(x), UNIQUE_NORMAL)
-    surface = Surface(phi, normal, tie)
     within = rounding(solid, cloud)
     near = np.flatnonzero(phi <= within)
     if not near.size:
-        return surface
+        return phi, normal, tie
     heights, normals = solid.shape.faces(x[near])
     if not heights.size:
-        return surface
+        return phi, normal, tie
     highest, rivals = faces_apart(heights, normals, within)
     undecided = np.flatnonzero(rivals.any(axis=1))
     if not len(undecided):
-        return surface
+        return phi, normal, tie
     normal = normal.copy()
     decided: dict[bytes, tuple[Array, int]] = {}
     for i in undecided.tolist():
@@ -195,7 +179,7 @@ def cloud_surface(
         if ways.tobytes() not in decided:
             decided[ways.tobytes()] = _of_cloud(name, solid, cloud, relative, ways, within)
         normal[near[i]], tie[near[i]] = decided[ways.tobytes()]
-    return Surface(phi, normal, tie)
+    return phi, normal, tie
 
 
 def _of_cloud(

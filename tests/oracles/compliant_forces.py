@@ -37,7 +37,7 @@ def forces(step, compliance):
     tables = [cone_table(step.cone, rows, 1) for rows in contacts.rows]
     c = [Fraction(compliance)] * contacts.n_c
     softened = compliant_program(*program(step), tables, Fraction(step.h), c)
-    working = dual_active_set(compliant_form(step, compliance)).minimiser.working
+    working = dual_active_set(compliant_form(step, compliance)).working
     x, _, _ = proved_optimum([*map(exact, softened)], working)
     mu = zip(exact(contacts.mu_v), exact(contacts.mu_omega), strict=True)
     entries = [{"mu_v": mu_v, "mu_omega": mu_omega} for mu_v, mu_omega in mu]

@@ -123,13 +123,14 @@ class Boxes(Batch):
         ways = np.repeat(rotated(back, n), count, axis=0)
         near = np.repeat(OVER_FACE * self._extents[on] + within, count)
         within = np.repeat(within, count)
-        surface = corner_surface(self._of_corners[on], x.reshape(-1, 3), ways, within, near)
-        phi = surface.phi.reshape(-1, count)
-        n = rotated(R[:, None], surface.normal.reshape(corners.shape))
+        shape = self._of_corners[on]
+        phi, normal, tie = corner_surface(shape, x.reshape(-1, 3), ways, within, near)
+        phi = phi.reshape(-1, count)
+        n = rotated(R[:, None], normal.reshape(corners.shape))
         centre = rotated(R_other[:, None], corners) + t_other[:, None]
         feet = centre - phi[..., None] * n
         number = np.broadcast_to(np.arange(count), phi.shape)
-        return ClosestPoints(phi, feet, centre - 0.0 * n, n, number, surface.tie.reshape(phi.shape))
+        return ClosestPoints(phi, feet, centre - 0.0 * n, n, number, tie.reshape(phi.shape))
 
     def _crossings(self, poses: tuple[Pose, Pose], nearest: Witnesses) -> ClosestPoints:
         """Crossings of edges; numbers of those that are none are negative."""

@@ -104,7 +104,7 @@ class EliminatedStep:
         """The working set of the user's own rows, which are those of a form."""
         end = dual_active_set(under)
         if not isinstance(end, Farkas):
-            return end.minimiser.working
+            return end.working
         extra_rows = np.arange(self.step.offsets[-1], self.step.m)
         raise StepInfeasible(self.step, farkas_vector(self.step, under, end, extra_rows))
 

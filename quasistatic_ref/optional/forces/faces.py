@@ -10,8 +10,9 @@ from functools import cache
 import numpy as np
 from flint import arb_mat, fmpq_mat
 
-from quasistatic_ref.certify.active_set import Optimum, dual_active_set
+from quasistatic_ref.certify.active_set import dual_active_set
 from quasistatic_ref.certify.form import EXACT, MatrixForm, exact_matrix, fraction
+from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.step.cones import cone
@@ -99,5 +100,5 @@ def nearest_face(name: str, count: int, z: arb_mat) -> Rows:
         constants = (C * z).entries()
     rows = [[*row, c] for row, c in zip(C.tolist(), constants, strict=True)]
     end = dual_active_set(MatrixForm(exact_matrix(np.eye(4)), arb_mat(4, 1), arb_mat(rows)))
-    assert isinstance(end, Optimum)
-    return tuple(sorted(end.minimiser.working))
+    assert isinstance(end, Minimiser)
+    return tuple(sorted(end.working))

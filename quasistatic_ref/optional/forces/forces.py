@@ -36,13 +36,14 @@ import numpy as np
 from flint import arb, arb_mat
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.certify.active_set import Optimum, dual_active_set
+from quasistatic_ref.certify.active_set import dual_active_set
 from quasistatic_ref.certify.contact_forces import ContactForces
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.failures import StepInfeasible, StepNotSolved
 from quasistatic_ref.certify.form import EXACT, MatrixForm, StepForm, columns, exact_matrix
 from quasistatic_ref.certify.groups import group_steps
+from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, without_warnings
@@ -232,10 +233,10 @@ def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:
         delta_q.
     """
     end = dual_active_set(compliant_form(step, compliance))
-    assert isinstance(end, Optimum)
+    assert isinstance(end, Minimiser)
     mu = [arb(v) for v in scaled_by(step.contacts).ravel().tolist()]
     n = step.n_v
-    p = end.minimiser.rounded(
+    p = end.rounded(
         lambda optimum: [m * s for m, s in zip(mu, optimum.x[n:], strict=True)], arb(compliance)
     )
-    return p.reshape(-1, 4), end.minimiser.rounded(lambda optimum: optimum.x[:n])
+    return p.reshape(-1, 4), end.rounded(lambda optimum: optimum.x[:n])

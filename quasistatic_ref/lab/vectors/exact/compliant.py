@@ -4,7 +4,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from quasistatic_ref.certify.active_set import Optimum, dual_active_set
+from quasistatic_ref.certify.active_set import dual_active_set
+from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.lab.program.forces import compliances, compliant_program, forces_of
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.lab.vectors.exact.entered import exact
@@ -38,6 +39,6 @@ def compliant_forces(program: Program, case: Json, contacts: Json, lam: Json) ->
     softened = compliant_program(*program, tables, case["h"], c)
     form = exact_form_of(*softened)
     end = dual_active_set(form, np.flatnonzero(lam).tolist())
-    assert isinstance(end, Optimum)
-    s = np.array(end.minimiser.fractions.point[len(program[1]) :])
+    assert isinstance(end, Minimiser)
+    s = np.array(end.fractions.point[len(program[1]) :])
     return rounded_results(lambda: forces_of(s, [number(c_j) for c_j in c], entries))

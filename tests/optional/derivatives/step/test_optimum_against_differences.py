@@ -107,7 +107,7 @@ def optimum(record):
     end = dual_active_set(MatrixForm(arb_mat(H), arb_mat(g), rows), [])
     if isinstance(end, Farkas):
         return None
-    return [F(int(v.p), int(v.q)) for v in end.minimiser.fractions.point]
+    return [F(int(v.p), int(v.q)) for v in end.fractions.point]
 
 
 def whole(matrix, column, n):
