@@ -19,15 +19,9 @@ from quasistatic_ref.parts import check_there, is_there, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.finding import finding_table
+from quasistatic_ref.simulate.header import FORMAT, VERSION, Header
 from quasistatic_ref.simulate.law import COULOMB
-from quasistatic_ref.simulate.trajectory import (
-    FORMAT,
-    VERSION,
-    WHAT,
-    Trajectory,
-    certified,
-    save_trajectory,
-)
+from quasistatic_ref.simulate.trajectory import WHAT, Trajectory, certified, save_trajectory
 from quasistatic_ref.step.cones import cone
 
 
@@ -165,13 +159,13 @@ def summary_record(scenario: Scenario, trajectory: Trajectory, path: Path) -> di
         "rows": int(cone(scenario.cone).counts(trajectory["rows"]).sum()),
         "certified": certified(trajectory),
         "worst_residual": worst_residual(trajectory),
-        "quasi_dynamic_number": header["quasi_dynamic_number"],
-        "largest_boundary_layer": header["largest_boundary_layer"],
+        "quasi_dynamic_number": header.quasi_dynamic_number,
+        "largest_boundary_layer": header.largest_boundary_layer,
         "milliseconds_per_step": {
             stage: 1e3 * float(seconds.mean()) for stage, seconds in trajectory.seconds.items()
         },
         "findings": [finding_table(finding) for finding in trajectory.findings],
-        "not_looked_at": header.get("not_looked_at", ""),
+        "not_looked_at": header.not_looked_at,
     }
     if scenario.law == COULOMB:
         record["s_iterations"] = trajectory["s_iterations"].tolist()
@@ -256,8 +250,8 @@ def worst_residual(trajectory: Trajectory) -> float | None:
     return float(residuals.max())
 
 
-def _artifacts(header: Mapping[str, Any]) -> str:
-    Pi = header["quasi_dynamic_number"]
+def _artifacts(header: Header) -> str:
+    Pi = header.quasi_dynamic_number
     number = "not defined" if Pi is None else f"{Pi:.2g}"
-    layer = 1e6 * header["largest_boundary_layer"]
+    layer = 1e6 * (header.largest_boundary_layer or 0.0)
     return f"largest quasi-dynamic number {number}, largest boundary layer {layer:.3g} um"

@@ -253,7 +253,7 @@ def _row(trajectory: Trajectory) -> Row:
     findings = [finding.name for finding in trajectory.findings]
     return outcome_fields | {
         "findings": findings,
-        "not_looked_at": trajectory.header.get("not_looked_at", ""),
+        "not_looked_at": trajectory.header.not_looked_at,
         "measures": outcomes(trajectory),
     }
 
@@ -271,11 +271,11 @@ def outcomes(trajectory: Trajectory) -> dict[str, float | None]:
         What :func:`.telling.measures` gives of its account, ``boundary_layer_um``,
         ``quasi_dynamic_number``, ``steps`` and ``exact`` (share of steps certified exactly).
     """
-    Pi = trajectory.header["quasi_dynamic_number"]
+    Pi = trajectory.header.quasi_dynamic_number
     exact = trajectory["certificate"] == "exact" if trajectory.steps else np.ones(1)
     return {
         **measures(trajectory.account(forces=False)),
-        LAYER: 1e6 * float(trajectory.header["largest_boundary_layer"]),
+        LAYER: 1e6 * (trajectory.header.largest_boundary_layer or 0.0),
         "quasi_dynamic_number": None if Pi is None else float(Pi),
         "steps": float(trajectory.steps),
         "exact": float(np.mean(exact)),

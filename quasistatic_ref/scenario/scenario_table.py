@@ -10,9 +10,9 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.body import BASE_WORDS
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.scenario.world_solids import SOLIDS
+from quasistatic_ref.simulate.header import RECORDS
 from quasistatic_ref.simulate.law import LAWS
 from quasistatic_ref.simulate.limits import Limits
-from quasistatic_ref.simulate.record import RECORDS
 from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.simulator import GRAVITY
 from quasistatic_ref.solve.backends import CERTIFY

@@ -39,6 +39,10 @@ class Finding(Plain):
     cause: str
     numbers: Mapping[str, float]
 
+    def __post_init__(self) -> None:
+        numbers = {name: float(number) for name, number in self.numbers.items()}
+        object.__setattr__(self, "numbers", numbers)
+
     @property
     def sentence(self) -> str:
         """The remedy, then the cause."""

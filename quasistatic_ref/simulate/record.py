@@ -1,19 +1,17 @@
-"""What a record of a run holds, and whether a header and arrays are one."""
+"""The arrays of a record of a run, and whether a header and arrays are one."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import InputError, about_field
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.simulate.finding import finding_read
-from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED, LAWS
+from quasistatic_ref.simulate.header import Header
+from quasistatic_ref.simulate.law import COULOMB, ITERATED
 from quasistatic_ref.step.cones import cone
 
-RECORDS = ("full", "light", "forces")
 CONSTANT = ("mu_v", "mu_omega", "rows")
 """Arrays without a step axis."""
 PER_STEP = (
@@ -41,15 +39,8 @@ COST = ("extra_H", "extra_g")
 """What a quadratic cost of an extension adds to a full record."""
 
 
-def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
-    """Refuse a header and arrays that do not belong together.
-
-    Parameters
-    ----------
-    top : TableReader
-        The header.
-    arrays : mapping of str to ndarray
-        Everything else in the file, of whatever shape [of the notation].
+def check_needed(arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Refuse `arrays`, of whatever shape [of the notation], without which no file is a record.
 
     Raises
     ------
@@ -59,25 +50,32 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
     for name, array in arrays.items():
         if array.ndim == 0:
             raise InputError("must have an entry a step, not a single number", field=name)
-    steps = top.integer("steps", least=0)
-    record = top.text("record", choices=RECORDS)
+
+
+def check_arrays(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Refuse a header and arrays that do not belong together.
+
+    Parameters
+    ----------
+    header : Header
+    arrays : mapping of str to ndarray
+        Everything else in the file, of whatever shape [of the notation].
+
+    Raises
+    ------
+    InputError
+    """
+    steps = header.steps
+    record = header.record
     full = record == "full"
-    top.number("h", above=0.0)
-    _unless_null(top, "failed", top.text)
-    for name in ("quasi_dynamic_number", "largest_boundary_layer"):
-        _unless_null(top, name, top.number)
-    top.text("backend")
-    with about_field("cone"):
-        friction = cone(top.text("cone"))
-    n_v = top.integer("n_a", least=0) + top.integer("n_u", least=0)
-    if len(top.words("coordinates")) != n_v:
-        raise InputError(f"must have {n_v} entries", field="coordinates")
-    for name, count in (("units", n_v), ("positions", arrays["q"].shape[-1])):
-        if len(top.words(name, [""] * count)) != count:  # files from before there were any
-            raise InputError(f"must have {count} entries", field=name)
-    top.words("slots", [])
-    extra = top.words("extra")
-    iterated = ITERATED if top.text("law", CONVEX, LAWS) == COULOMB else ()
+    n_v = header.n_a + header.n_u
+    counts = {"coordinates": n_v, "units": n_v, "positions": arrays["q"].shape[-1]}
+    for name, count in counts.items():
+        names = getattr(header, name)
+        if len(names) != count:
+            raise InputError(f"must have {count} entries", field=name, value=len(names))
+    extra = header.extra
+    iterated = ITERATED if header.law == COULOMB else ()
     if steps:
         needed = (*PER_STEP, *PROGRAM, *(EXTRA if extra else ())) if full else PER_STEP
         _check_present(arrays, (*needed, *(FORCES if record == "forces" else ()), *iterated))
@@ -111,30 +109,13 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
         if name in arrays and arrays[name].shape != shape:
             problem = f"must have shape {shape}"
             raise InputError(problem, field=name, value=arrays[name].shape)
-    multipliers = sum(friction.counts(arrays["rows"]).tolist())
+    multipliers = sum(cone(header.cone).counts(arrays["rows"]).tolist())
     if steps and arrays["lam"][0].size < multipliers:
         problem = f"must have {multipliers} multipliers a step, as the rows of contacts say"
         raise InputError(problem, field="lam", value=arrays["lam"].shape)
-    contacts = top.sequence("contacts")
-    if full and len(contacts) != steps:
-        raise top.error_about("contacts", f"must have {steps} entries", len(contacts))
-    if not all(isinstance(names, list) for names in contacts):
-        raise top.error_about("contacts", "must be lists of names", contacts)
-    top.words("warnings", [])  # of files from before there were findings
-    for i, table in enumerate(top.sequence("findings", [])):
-        finding_read(table, f"findings[{i}]")
-    top.text("not_looked_at", "")
-    top.boolean("alone", True)
-    top.sequence("unanswered", [])
-    top.take("scene", None)  # the account reads it
-    top.close()
-
-
-def _unless_null(top: TableReader, name: str, read: Callable[[str], Any]) -> None:
-    if top.is_null(name):
-        top.take(name)
-    else:
-        read(name)
+    if full and len(header.contacts) != steps:
+        problem = f"must have {steps} entries"
+        raise InputError(problem, field="contacts", value=len(header.contacts))
 
 
 def _check_present(arrays: Mapping[str, NDArray[Any]], names: Iterable[str]) -> None:

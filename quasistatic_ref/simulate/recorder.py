@@ -17,7 +17,8 @@ from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
 from quasistatic_ref.parts import check_there, doctors
-from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
+from quasistatic_ref.simulate.header import RECORDS, Header
+from quasistatic_ref.simulate.law import COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import (
     CONSTANT,
@@ -26,11 +27,10 @@ from quasistatic_ref.simulate.record import (
     FORCES,
     PER_STEP,
     PROGRAM,
-    RECORDS,
 )
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.target import JointTrack
-from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.standard_form import standard_form
@@ -261,31 +261,28 @@ class Recorder:
         }
         full = self.steps and self.record == "full"
         names = self.layout.contact_names
-        header: dict[str, Any] = {
-            "format": FORMAT,
-            "version": VERSION,
-            "h": self.h,
-            "backend": self.backend,
-            "cone": self.cone,
-            "extra": list(self.extra),
-            "record": self.record,
-            "n_a": self.system.n_a,
-            "n_u": self.system.n_u,
-            "coordinates": [c.name for c in self.system.coordinates],
-            "units": [c.unit for c in self.system.coordinates],
-            "positions": [p.heading for joint in self.system.joints for p in joint.positions],
-            "slots": list(self.layout.slots),
-            "steps": self.steps,
-            "failed": failed,
-            "quasi_dynamic_number": None,  # the observers know
-            "largest_boundary_layer": None,
-            "contacts": [list(names(p)) for p in arrays["point"]] if full else [],
-            "findings": [],
-        } | ({} if self.alone else {"alone": False})
-        if unanswered := [step for step in self.unanswered if step < self.steps]:
-            header["unanswered"] = unanswered
-        if self.simulator.law != CONVEX:
-            header["law"] = self.simulator.law
+        header = Header(
+            h=self.h,
+            backend=self.backend,
+            cone=self.cone,
+            record=self.record,
+            n_a=self.system.n_a,
+            n_u=self.system.n_u,
+            coordinates=tuple(c.name for c in self.system.coordinates),
+            units=tuple(c.unit for c in self.system.coordinates),
+            positions=tuple(p.heading for joint in self.system.joints for p in joint.positions),
+            slots=tuple(self.layout.slots),
+            steps=self.steps,
+            extra=self.extra,
+            failed=failed,
+            quasi_dynamic_number=None,  # the observers know
+            largest_boundary_layer=None,
+            contacts=tuple(map(tuple, map(names, arrays["point"]))) if full else (),
+            findings=(),
+            law=self.simulator.law,
+            alone=self.alone,
+            unanswered=tuple(step for step in self.unanswered if step < self.steps),
+        )
         constant = {k: getattr(self.layout, k) if self.steps else np.zeros(0) for k in CONSTANT}
         q = np.concatenate([self.start[None], *(part["q"] for part in parts)])
         arrays = {"q": q + 0.0, **arrays, **constant}

@@ -23,8 +23,9 @@ from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate import wrenches
-from quasistatic_ref.simulate.finding import Finding, finding_read
-from quasistatic_ref.simulate.record import CONSTANT, check_arrays
+from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.header import FORMAT, VERSION, Header, header_read, header_table
+from quasistatic_ref.simulate.record import CONSTANT, check_arrays, check_needed
 from quasistatic_ref.step.data import Contacts, Extra, StepData, no_rows
 
 if TYPE_CHECKING:
@@ -33,8 +34,6 @@ if TYPE_CHECKING:
     from quasistatic_ref.optional.doctor.accounts import Account
     from quasistatic_ref.simulate.scene import HasScene, Scene
 
-FORMAT = "quasistatic-ref/trajectory"
-VERSION = 1
 WHAT = "a trajectory written by this program"
 
 
@@ -44,19 +43,8 @@ class Trajectory(Plain, HasPage):
 
     Parameters
     ----------
-    header : mapping
-        format, version, h, backend, cone, extra (names of an extension's rows), record, n_a, n_u,
-        coordinates and their units, positions (entries of q) and slots (places of contacts) by
-        name, contacts (names by step), steps; ``quasi_dynamic_number`` (the largest Pi of a
-        step, or None) and ``largest_boundary_layer`` [m], see
-        :mod:`~quasistatic_ref.optional.doctor.artifacts`, without which both are None; ``alone``,
-        false where the steps are not all that was solved, see
-        :class:`~quasistatic_ref.certify.solution.StepSolution`; ``law``, where that is
-        ``"coulomb"``;
-        ``findings``, see :attr:`findings`; ``not_looked_at``, where there is anything, what they
-        leave out and why; ``scene``, see
-        :func:`~quasistatic_ref.optional.doctor.account.scene_notes`; and ``failed``: the
-        reason, or None for a complete run.
+    header : Header
+        See :class:`~quasistatic_ref.simulate.header.Header`.
     arrays : mapping of str to ndarray
         Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the
         step), ``delta_q``, ``q_bar_a``, ``phi``, ``alpha``, ``beta``, ``n``, ``d1``, ``d2``,
@@ -90,7 +78,7 @@ class Trajectory(Plain, HasPage):
     (3, (3, 1, 4))
     """
 
-    header: Mapping[str, Any]
+    header: Header
     arrays: Mapping[str, NDArray[Any]]
     seconds: Mapping[str, Array] = field(default_factory=dict, compare=False)
     scene: Scene | None = field(default=None, compare=False)
@@ -142,8 +130,7 @@ class Trajectory(Plain, HasPage):
     @property
     def failed(self) -> str | None:
         """Why the run ended early, or None."""
-        reason = self.header["failed"]
-        return None if reason is None else str(reason)
+        return self.header.failed
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -152,11 +139,8 @@ class Trajectory(Plain, HasPage):
         There are none without ``optional/doctor``, nor in files from before there were findings;
         what is found of ``seconds`` is kept in memory only, as they are.
         """
-        listed = enumerate(self.header.get("findings", ()))
-        findings = [finding_read(table, f"findings[{i}]") for i, table in listed]
-        if self.seconds:
-            findings += parts.findings_of_time(self)
-        return tuple(findings)
+        of_time = parts.findings_of_time(self) if self.seconds else ()
+        return (*self.header.findings, *of_time)
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k (from 0), bit for bit as it was solved.
@@ -168,29 +152,29 @@ class Trajectory(Plain, HasPage):
         """
         if not 0 <= k < self.steps:
             raise InputError(f"must be 0 to {self.steps - 1}", field="step", value=k)
-        if self.header["record"] != "full":
-            problem = f"a {self.header['record']} record has no quadratic programs"
+        if self.header.record != "full":
+            problem = f"a {self.header.record} record has no quadratic programs"
             raise InputError(f"{problem}; run again with record = 'full'")
         a = self.arrays
         keys = ("n", "d1", "d2", "J")
         contacts = Contacts(
-            name=tuple(self.header["contacts"][k]),
+            name=self.header.contacts[k],
             phi=a["phi"][k] + a["s"][k] if "s" in a else a["phi"][k],
             **{key: a[key][k] for key in keys},
             **{key: a[key] for key in CONSTANT},
         )
         parts = ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
-        names = tuple(self.header["extra"])
+        names = self.header.extra
         extra = no_rows(a["g"].shape[1])
         if names:
             extra = Extra(names, a["extra_A"][k], a["extra_b"][k])
         if "extra_H" in a:
             extra = replace(extra, H=a["extra_H"][k], g=a["extra_g"][k])
         return StepData(
-            h=self.header["h"],
+            h=self.header.h,
             **{key: a[key][k] for key in parts},
             contacts=contacts,
-            cone=self.header["cone"],
+            cone=self.header.cone,
             extra=extra,
         )
 
@@ -244,10 +228,10 @@ class Trajectory(Plain, HasPage):
         return self._step_compliant(k).wrench
 
     def _step_compliant(self, k: int) -> ContactForces:
-        if self.header["record"] == "light":
+        if self.header.record == "light":
             problem = "a light record holds no forces; run again with record = 'forces' or 'full'"
             raise InputError(problem)
-        if not self.header.get("alone", True):
+        if not self.header.alone:
             raise InputError(UNKNOWN, field="forces")
         step = self.step_data(k)
         delta_q = self["delta_q"][k]
@@ -319,8 +303,7 @@ class Trajectory(Plain, HasPage):
     @property
     def pair_names(self) -> list[str]:
         """The pair of each contact, shape (n_c,); numbers, of a file that has no names."""
-        unnamed = [f"contact/{i}/0" for i in range(len(self.arrays["rows"]))]
-        return [slot.rpartition("/")[0] for slot in self.header.get("slots", unnamed)]
+        return [slot.rpartition("/")[0] for slot in self.header.slots]
 
     def account(self, forces: bool = True) -> Account:
         """What happened.
@@ -386,11 +369,13 @@ def load_trajectory(path: str | Path) -> Trajectory:
     >>> qr.load_trajectory(path).phi.shape
     (3, 1)
     """
-    header, arrays = npz_record(path, WHAT)
+    table, arrays = npz_record(path, WHAT)
     with about_file(path):
-        top = TableReader(header)
+        top = TableReader(table)
         top.check_format(FORMAT, VERSION)
-        check_arrays(top, arrays)
+        check_needed(arrays)
+        header = header_read(top, arrays["q"].shape[-1], arrays["rows"].size)
+        check_arrays(header, arrays)
     return Trajectory(header, arrays)
 
 
@@ -405,7 +390,10 @@ def save_trajectory(path: str | Path, trajectory: Trajectory) -> Path:
     >>> qr.save_trajectory(Path(tempfile.mkdtemp()) / "spin.npz", run).name
     'spin.npz'
     """
-    arrays: dict[str, Any] = {"header": json_array(trajectory.header), **trajectory.arrays}
+    arrays: dict[str, Any] = {
+        "header": json_array(header_table(trajectory.header)),
+        **trajectory.arrays,
+    }
     return written_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
 
@@ -419,6 +407,6 @@ def certified(trajectory: Trajectory) -> str:
     exact = kinds.count("exact")
     enclosed = kinds.count("enclosure")
     rest = f", {enclosed} enclosed" if enclosed else ""
-    failed = len(trajectory.header.get("unanswered", ()))
+    failed = len(trajectory.header.unanswered)
     failures = f" (the backend failed in {failed} of them)" if failed else ""
     return f"{exact} of {trajectory.steps} steps exact{rest}{failures}"

@@ -106,7 +106,7 @@ NAMES = ("product", "facets-6", "frictionless", "ellipsoid")
 def test_a_run_in_another_cone_can_be_replayed_from_its_file(name, scene, tmp_path, cli):
     said = json.loads(cli("run", scene, "--cone", name, "--out", tmp_path, "--json").out)
     trajectory = load_trajectory(tmp_path / "scene.npz")
-    assert trajectory.header["cone"] == name
+    assert trajectory.header.cone == name
     step = trajectory.step_data(3)
     assert step.cone == name
     assert said["rows"] == int(step.offsets[-1]) == trajectory["lam"].shape[1]

@@ -37,7 +37,7 @@ def folder(tmp_path_factory):
 
 def test_the_can_rises_with_the_lift_less_the_stretch_of_the_spring(folder):
     run = load_trajectory(folder / "results" / "scene.npz")
-    assert run.header["findings"] == []
+    assert run.header.findings == ()
     assert set(run["certificate"]) == {"exact"}
     mass = 0.2
     gravity = 9.81

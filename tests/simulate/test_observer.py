@@ -45,7 +45,7 @@ class Witness(Observer):
         self.asked.append(("end", recorder.steps, trajectory.failed, interrupted))
         heights = recorder.noted("height").tolist()
         self.noted = {name: recorder.noted(name).tobytes() for name in recorder.notes}
-        return replace(trajectory, header={**trajectory.header, "heights": heights})
+        return replace(trajectory, header=replace(trajectory.header, scene=heights))
 
 
 def run_with(scenario, witness):
@@ -61,7 +61,7 @@ def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario
     run = run_with(scenario, witness)
     steps = [each for k in range(STEPS) for each in (("before", k), ("after", k + 1))]
     assert witness.asked == [*steps, ("end", STEPS, None, False)]
-    assert run.header == {**plain.header, "heights": run.q[1:, 2].tolist()}
+    assert run.header == replace(plain.header, scene=run.q[1:, 2].tolist())
     assert run.arrays.keys() == plain.arrays.keys()
     for name, array in plain.arrays.items():
         np.testing.assert_array_equal(run[name], array)
@@ -113,7 +113,7 @@ def test_an_observer_ends_a_run_as_any_failure_does(scenario):
     with pytest.raises(RunFailed, match="step 2: high enough") as caught:
         run_with(scenario, witness)
     assert witness.asked[-2:] == [("before", 2), ("end", 2, "step 2: high enough", False)]
-    assert caught.value.trajectory.header["heights"] == caught.value.trajectory.q[1:, 2].tolist()
+    assert caught.value.trajectory.header.scene == caught.value.trajectory.q[1:, 2].tolist()
 
 
 class Failing(Observer):
@@ -169,7 +169,7 @@ def test_an_observer_that_fails_in_a_block_leaves_all_steps(note, says, monkeypa
     kept = caught.value.trajectory
     monkeypatch.undo()
     whole = load_scenario("sphere_spin", steps=taken).run(progress=False)
-    assert kept.header == {**whole.header, "failed": str(caught.value)}
+    assert kept.header == replace(whole.header, failed=str(caught.value))
     for key, array in whole.arrays.items():
         assert kept[key].tobytes() == array.tobytes()
 

@@ -7,6 +7,7 @@ from quasistatic_ref import InputError, load_scenario, load_trajectory, save_tra
 from quasistatic_ref.certify import solution
 from quasistatic_ref.cli.run import worst_residual
 from quasistatic_ref.simulate.finding import finding_table
+from quasistatic_ref.simulate.header import header_table
 from tests.scenes import written_scenario
 
 SHAPES = {
@@ -68,7 +69,7 @@ def test_a_file_read_back_is_the_same_bits(tmp_path, run):
 
 
 def test_the_header_says_what_the_run_was(run):
-    header = dict(run.header)
+    header = header_table(run.header)
     assert header.pop("quasi_dynamic_number") > 0  # their values: test_artifacts.py
     assert header.pop("largest_boundary_layer") > 0
     assert header.pop("findings") == [finding_table(found) for found in run.findings]

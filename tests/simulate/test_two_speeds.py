@@ -32,7 +32,7 @@ def test_certified_runs_have_the_same_bits_at_both_speeds(name):
     plain, fast = (
         load_scenario(name, steps=steps, fast=speed).run(progress=False) for speed in (False, True)
     )
-    assert (plain.header["backend"], fast.header["backend"]) == ("clarabel", "daqp")
+    assert (plain.header.backend, fast.header.backend) == ("clarabel", "daqp")
     assert {*plain["certificate"], *fast["certificate"]} == {"exact"}
     for key in SAME:
         assert plain[key].tobytes() == fast[key].tobytes(), key
@@ -55,7 +55,7 @@ def test_the_plain_path_asks_for_nothing_of_fast():
 FAST = """
 import sys, quasistatic_ref as qr
 run = qr.load_scenario("bunny_grasp", steps=2, fast=True).run(progress=False)
-assert run.header["backend"] == "daqp"
+assert run.header.backend == "daqp"
 large = ("cvxpy", "jax", "matplotlib", "pandas", "trimesh")
 print(*(name for name in large if name in sys.modules))
 """

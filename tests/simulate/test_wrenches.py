@@ -37,7 +37,7 @@ def pinch():
 
 def row_forces(run, k):
     """A' lam / h, shape (n_v,): what the rows of step k do to the coordinates."""
-    return run["A"][k].T @ run["lam"][k] / run.header["h"]
+    return run["A"][k].T @ run["lam"][k] / run.header.h
 
 
 def test_a_wrench_does_to_the_coordinates_what_the_rows_did(scenario, run):

@@ -3,7 +3,7 @@
 What it needs of a scene stands in the header of the file, as :func:`scene_notes` writes it.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -35,6 +35,7 @@ from quasistatic_ref.optional.doctor.telling import (
     stop_numbers,
 )
 from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
@@ -96,7 +97,7 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
     header = trajectory.header
     scene = _scene(header)
     K = np.array(scene.sequence("stiffness"), dtype=np.float64)
-    joints = list(joints_of(header["positions"], header["n_a"]))
+    joints = list(joints_of(list(header.positions), header.n_a))
     missing: list[str] = []
     pairs: list[PairAccount] = []
     drives: list[Drive] = []
@@ -104,7 +105,7 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
         motion = _motion_of_contacts(trajectory)
         if motion is None:
             missing.append(
-                f"a {header['record']} record has no slips, and what touches without a positive "
+                f"a {header.record} record has no slips, and what touches without a positive "
                 "multiplier is not known"
             )
         wrench = _forces(trajectory, forces, missing)
@@ -114,7 +115,7 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
     motions = [_motion(joint, trajectory["q"], hands) for joint in joints if not joint.actuated]
     stops = list(_stops(trajectory, {joint.name for joint in joints}))
     t = trajectory["t"]
-    h = float(header["h"])
+    h = header.h
     down = np.array(scene.sequence("gravity"), dtype=np.float64)
     down = down if down.any() else np.array([0.0, 0.0, -1.0])
     up = -down / np.linalg.norm(down)
@@ -137,11 +138,11 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
     )
 
 
-def _scene(header: Mapping[str, object]) -> TableReader:
-    if "scene" not in header or "positions" not in header:
+def _scene(header: Header) -> TableReader:
+    if header.scene is None:
         problem = "has no scene: it is from before there were accounts; run it again"
         raise InputError(problem, field="scene")
-    return TableReader(header["scene"], "scene")
+    return TableReader(header.scene, "scene")
 
 
 def joints_of(positions: list[str], n_a: int) -> Iterator[Joint]:
@@ -209,7 +210,7 @@ def pair_accounts(
         Forces of single contacts [N, N m].
     """
     slots = np.array(run.pair_names)
-    h = float(run.header["h"])
+    h = run.header.h
     touch = _bears(run)
     slip = None
     turn = None
@@ -218,9 +219,9 @@ def pair_accounts(
         slip = np.hypot(slips[:, :, 0], slips[:, :, 1])
         turn = np.abs(slips[:, :, 2])
         gap = run["phi"] + np.vecdot(motion[:, :, :3], run["n"])
-        slack = gap - slip_norm(contact_mu(run) * slips, run.header["cone"])
+        slack = gap - slip_norm(contact_mu(run) * slips, run.header.cone)
         touch &= slack <= NEAR
-        if cone(run.header["cone"]).polyhedral:
+        if cone(run.header.cone).polyhedral:
             touch |= slack <= TOUCHES
     accounts = []
     for name, alpha, beta in named:
@@ -259,7 +260,7 @@ def _mean(values: Array, on: Mask) -> Array:
 def _loads(run: Trajectory, wrench: Array, of_pair: Mask) -> Loads:
     """Sums over the contacts of a pair, of wrenches (steps, n, 4) [N, N m]."""
     normal = wrench[:, :, 2].sum(axis=1)
-    needs = gauge(run.header["cone"], wrench, contact_mu(run)[of_pair]).sum(axis=1)
+    needs = gauge(run.header.cone, wrench, contact_mu(run)[of_pair]).sum(axis=1)
     return Loads(
         normal=normal,
         friction=np.hypot(wrench[:, :, 0], wrench[:, :, 1]).sum(axis=1),
@@ -314,7 +315,7 @@ def _motion_of_contacts(run: Trajectory) -> Array | None:
 
 
 def _forces(run: Trajectory, wanted: bool, missing: list[str]) -> Array | None:
-    if "forces" in run.arrays or (wanted and run.header["record"] == "full"):
+    if "forces" in run.arrays or (wanted and run.header.record == "full"):
         try:
             forces = run.forces
         except InputError:
@@ -324,7 +325,7 @@ def _forces(run: Trajectory, wanted: bool, missing: list[str]) -> Array | None:
         if not without.size:
             return forces
         missing.append(f"the forces are not known in {without.size} steps, first in {without[0]}")
-    elif run.header["record"] == "full":
+    elif run.header.record == "full":
         missing.append("the forces are not formed here: 'quasistatic-ref account' does that")
     else:
         missing.append("a light record holds no forces: run again with record = 'forces'")
@@ -337,7 +338,7 @@ def _bears(run: Trajectory) -> Mask:
     It is positive where it is a share of the largest; of an answer without a proof multipliers are
     noise in a step in which nothing presses, and count next to a small slack only.
     """
-    counts = cone(run.header["cone"]).counts(run["rows"])
+    counts = cone(run.header.cone).counts(run["rows"])
     of_rows = np.maximum(run["lam"][:, : counts.sum()], 0.0)
     return pressing(np.maximum.reduceat(of_rows, np.cumsum(counts) - counts, axis=1))
 
@@ -375,10 +376,10 @@ def _angle_in(body: Joint, hand: Joint, q: Array) -> Array:
 
 def _stops(run: Trajectory, joints: set[str]) -> Iterator[Stop]:
     """The limits that a joint came to; they are rows of an extension, by their names."""
-    for i, name in enumerate(run.header["extra"]):
+    for i, name in enumerate(run.header.extra):
         joint, at, end = name.rpartition(" at its ")
         if at and end.endswith(" limit") and joint in joints:
-            force = run["lam_extra"][:, i] / float(run.header["h"])
+            force = run["lam_extra"][:, i] / run.header.h
             if (force > 0).any():
                 yield Stop(name, force)
 

@@ -25,7 +25,7 @@ from quasistatic_ref.optional.doctor.checks import (
 )
 from quasistatic_ref.optional.doctor.run import Run, largest
 from quasistatic_ref.optional.doctor.start import Start
-from quasistatic_ref.simulate.finding import Finding, finding_table
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.observer import Observer, Recording
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -80,13 +80,14 @@ class Doctor(Observer):
         except (MemoryError, QuasistaticError) as error:
             found = []
             skipped = f"findings: {type(error).__name__} {error}".rstrip()
-        header = {
-            **trajectory.header,
-            "scene": scene_notes(recorder),
-            "quasi_dynamic_number": largest(recorder.noted("Pi")),
-            "largest_boundary_layer": largest(recorder.noted("layer")) or 0.0,
-            "findings": [finding_table(finding) for finding in found],
-        } | ({"not_looked_at": skipped} if skipped else {})
+        header = replace(
+            trajectory.header,
+            scene=scene_notes(recorder),
+            quasi_dynamic_number=largest(recorder.noted("Pi")),
+            largest_boundary_layer=largest(recorder.noted("layer")) or 0.0,
+            findings=tuple(found),
+            not_looked_at=skipped,
+        )
         trajectory = replace(trajectory, header=header)
         if self.printed:
             for finding in trajectory.findings:

@@ -40,7 +40,7 @@ def backend_failures(run: Run) -> Iterator[Finding]:
     simulator = run.simulator
     digits = run["digits"]  # NaN without an answer, or where the optimum is not known
     unanswered = np.zeros(run.steps, dtype=bool)
-    unanswered[run.trajectory.header.get("unanswered", [])] = True
+    unanswered[list(run.trajectory.header.unanswered)] = True
     wanted = -log10(simulator.accuracy) / 2
     if not cone(simulator.cone).polyhedral:
         wanted = 0.0  # an enclosure may be no nearer than the answer
@@ -83,7 +83,7 @@ def _solves(run: Run, name: str, k: int, digits: float) -> bool:
 def proofs(trajectory: Trajectory) -> Iterator[Finding]:
     """A run that was proved in full, and could have had residuals alone in less time."""
     proved = np.isin(trajectory["certificate"], ("exact", "enclosure")).any()
-    if not proved or trajectory.header.get("law", CONVEX) != CONVEX:
+    if not proved or trajectory.header.law != CONVEX:
         return
     total = sum(float(seconds.sum()) for seconds in trajectory.seconds.values())
     proof = float(trajectory.seconds["proof"].sum())

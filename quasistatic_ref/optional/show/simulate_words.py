@@ -28,16 +28,16 @@ def trajectory_page(trajectory: Trajectory) -> Page:
     n_c = np.size(trajectory["mu_v"])
     ended = "complete" if trajectory.failed is None else "ended early"
     title = (
-        f"Trajectory: {counted(steps, 'step')} of {header['h']:g} s, {ended}; "
+        f"Trajectory: {counted(steps, 'step')} of {header.h:g} s, {ended}; "
         f"{counted(trajectory['q'].shape[-1], 'entry')} of q, "
         f"{counted(n_c, 'contact')}"
     )
     facts = [] if trajectory.failed is None else [f"why it ended: {trajectory.failed}"]
     facts += [
-        f"{certified(trajectory)}; backend {header.get('backend')}, cone {header.get('cone')}, "
-        f"record {header['record']}",
-        f"largest quasi-dynamic number {number(header.get('quasi_dynamic_number'))}, largest "
-        f"boundary layer {number(header.get('largest_boundary_layer'))} m",
+        f"{certified(trajectory)}; backend {header.backend}, cone {header.cone}, "
+        f"record {header.record}",
+        f"largest quasi-dynamic number {number(header.quasi_dynamic_number)}, largest "
+        f"boundary layer {number(header.largest_boundary_layer)} m",
         f"arrays: {', '.join(trajectory.arrays)}",
     ]
     facts += [f"finding: {finding}" for finding in trajectory.findings]
@@ -48,8 +48,8 @@ def trajectory_page(trajectory: Trajectory) -> Page:
         and trajectory["wrench"].shape == (*per_contact, 4)
     ):
         return title, facts, (), ()
-    names = header["contacts"][-1] if header["contacts"] else ()
-    names = names if len(names) == n_c else range(n_c)
+    last = header.contacts[-1] if header.contacts else ()
+    names = last if len(last) == n_c else range(n_c)
     forces = shown_forces(trajectory, steps - 1)
     rows = [
         (str(name), number(phi), *map(number, of_contact))

@@ -123,24 +123,23 @@ def check_table_path(path: Path, option: str = "--table") -> None:
 def _wide(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:
     """The columns of the wide table, shape (steps,)."""
     header = trajectory.header
-    names = _positions(trajectory)
+    names = trajectory.header.positions
     columns = dict(zip(names, trajectory["q"][1:].T, strict=True))
     if not trajectory.steps:
         return columns
     targets = zip(names, trajectory["q_bar_a"].T, strict=False)  # q_a comes first in q
     columns |= {f"target {name}": values for name, values in targets}
-    units = header.get("units", ["m, rad"] * len(header["coordinates"]))
-    moves = zip(header["coordinates"], units, trajectory["delta_q"].T, strict=True)
+    moves = zip(header.coordinates, header.units, trajectory["delta_q"].T, strict=True)
     columns |= {f"delta_q {name} [{unit}]": values for name, unit, values in moves}
-    for pair in trajectory.account().pairs if "scene" in header else ():
+    for pair in trajectory.account().pairs if header.scene is not None else ():
         columns[f"{pair.name}.phi [m]"] = pair.phi
         if pair.slip is not None:
             columns[f"{pair.name}.slip [m]"] = pair.slip
         if pair.loads is not None:
             columns |= {f"{pair.name}.{label}": getattr(pair.loads, name)
                         for name, label in SUMS.items()}  # fmt: skip
-    if header["extra"]:
-        extra = zip(header["extra"], trajectory["lam_extra"].T, strict=True)
+    if header.extra:
+        extra = zip(header.extra, trajectory["lam_extra"].T, strict=True)
         columns |= {f"lam of {name}": values for name, values in extra}
     return columns | {label: trajectory[name] for name, label in STEP.items()}
 
@@ -154,12 +153,6 @@ def _of_contacts(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:
         entries = arrays[name].reshape(*columns["point"].shape, -1)
         columns |= {label: entries[:, :, i] for i, label in enumerate(labels)}
     return columns
-
-
-def _positions(trajectory: "Trajectory") -> list[str]:
-    """Names of the entries of q; numbers, of a file that has no names."""
-    count = trajectory["q"].shape[1]
-    return list(trajectory.header.get("positions", [f"q.{i} [m, rad]" for i in range(count)]))
 
 
 def _pandas() -> ModuleType:

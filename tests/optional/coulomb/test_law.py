@@ -41,12 +41,12 @@ def plain():
 
 
 def test_a_run_under_coulombs_law_lifts_nothing_off(plain):
-    assert plain.header["law"] == "coulomb"
+    assert plain.header.law == "coulomb"
     s = plain["s"].max()
-    assert plain.header["largest_boundary_layer"] < RISE * s
+    assert plain.header.largest_boundary_layer < RISE * s
     rising = load_scenario("block_push", steps=40, fast=True).run(progress=False)
-    assert_relative(rising.header["largest_boundary_layer"], s, 0.2)
-    assert "law" not in rising.header
+    assert_relative(rising.header.largest_boundary_layer, s, 0.2)
+    assert rising.header.law == "convex"
     assert "s" not in rising.arrays
 
 

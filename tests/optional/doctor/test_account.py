@@ -33,10 +33,10 @@ def run(request, tmp_path_factory):
 
 def test_numbers_of_pairs_are_those_of_the_arrays(run):
     """In the pyramid, whose rows and gauge are written out here."""
-    assert run.header["cone"] == "pyramid"
+    assert run.header.cone == "pyramid"
     numbers = run.account().numbers["pairs"]
-    h = run.header["h"]
-    pairs = np.array([slot.rpartition("/")[0] for slot in run.header["slots"]])
+    h = run.header.h
+    pairs = np.array([slot.rpartition("/")[0] for slot in run.header.slots])
     assert list(numbers) == list(dict.fromkeys(pairs.tolist()))
     mu_omega = np.where(run["rows"] == 6, run["mu_omega"], 0.0)
     mu = np.stack([run["mu_v"], run["mu_v"], mu_omega], axis=1)
@@ -74,7 +74,7 @@ def test_numbers_of_pairs_are_those_of_the_arrays(run):
 
 def test_numbers_of_bodies_and_joints_are_those_of_the_arrays(run):
     numbers = run.account().numbers
-    names = run.header["positions"]
+    names = run.header.positions
     for name, of_body in numbers["bodies"].items():
         if f"{name}.x [m]" in names:
             first = names.index(f"{name}.x [m]")
@@ -94,7 +94,7 @@ def test_numbers_of_bodies_and_joints_are_those_of_the_arrays(run):
             i = names.index(f"{name} [m]")
             error = np.abs(run["q"][1:, i] - run["q_bar_a"][:, i])
             assert of_joint["ends_from_target_m"] == error[-1]
-            K_q = run.header["scene"]["stiffness"][run.header["coordinates"].index(name)]
+            K_q = run.header.scene["stiffness"][run.header.coordinates.index(name)]
             assert_relative(of_joint["largest_spring_N"], K_q * error.max(), ROUNDING)
 
 
@@ -150,10 +150,10 @@ def test_a_light_record_says_what_is_missing():
 
 
 def test_a_file_from_before_there_were_accounts_is_refused(run):
-    old = Trajectory({k: v for k, v in run.header.items() if k != "scene"}, run.arrays)
+    old = Trajectory(replace(run.header, scene=None), run.arrays)
     with pytest.raises(InputError, match=r"^scene: has no scene: .* run it again"):
         old.account()
-    hostile = Trajectory({**run.header, "scene": {"pairs": 3}}, run.arrays)
+    hostile = Trajectory(replace(run.header, scene={"pairs": 3}), run.arrays)
     with pytest.raises(InputError, match=r"scene\.stiffness"):
         hostile.account()
 

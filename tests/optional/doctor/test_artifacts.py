@@ -54,5 +54,5 @@ def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, cli):
     cli(*arguments)
     header = load_trajectory(tmp_path / "sphere_spin.npz").header
     expected = 0.01 * H**2 * 4 * 0.01 * 0.3 * G / 8e-5
-    assert_relative(header["largest_boundary_layer"], expected, 3e-3)
-    assert 0 < header["quasi_dynamic_number"] < SLOW
+    assert_relative(header.largest_boundary_layer, expected, 3e-3)
+    assert 0 < header.quasi_dynamic_number < SLOW

@@ -139,7 +139,7 @@ def test_what_is_not_looked_at_in_a_large_scene_is_said(tmp_path, cli, monkeypat
     of_scene = "guides, points of faces"
     line = f"{of_scene}, {OF_RUN}: the scene is large"
     assert f"not looked at: {line}" in cli("run", *arguments, "--out", tmp_path).err
-    assert load_trajectory(tmp_path / "block_push.npz").header["not_looked_at"] == line
+    assert load_trajectory(tmp_path / "block_push.npz").header.not_looked_at == line
     printed = cli("inspect", *arguments).out
     assert f"not looked at: {of_scene}: the scene is large" in printed
 
@@ -147,7 +147,7 @@ def test_what_is_not_looked_at_in_a_large_scene_is_said(tmp_path, cli, monkeypat
 def test_a_law_whose_steps_are_not_solved_again_is_said():
     run = load_scenario("block_push", law="coulomb", steps=2).run(progress=False)
     line = "locked guides, forces of single contacts: steps are not those of the convex law alone"
-    assert run.header["not_looked_at"] == line
+    assert run.header.not_looked_at == line
 
 
 @pytest.mark.parametrize("progress", [True, False])
@@ -168,4 +168,4 @@ def test_an_error_in_the_findings_costs_the_findings_and_not_the_run(monkeypatch
     monkeypatch.setattr("quasistatic_ref.optional.doctor.observer.findings", fails)
     run = load_scenario("block_push", steps=2).run(progress=False)
     assert (len(run), run.findings) == (2, ())
-    assert run.header["not_looked_at"] == "findings: MemoryError no room for (200, 600, 600)"
+    assert run.header.not_looked_at == "findings: MemoryError no room for (200, 600, 600)"

@@ -122,7 +122,7 @@ def test_no_run_under_residual_ends_for_a_backend_that_fails(monkeypatch, fast, 
     scenario = qr.load_scenario("block_push", settings, fast=fast, steps=3)
     fail(monkeypatch, lambda name: name != saved_by)
     run = scenario.run(progress=False)
-    assert run.header["unanswered"] == [0, 1, 2]
+    assert run.header.unanswered == (0, 1, 2)
     if saved_by != "none":
         assert np.isnan(run.digits).all()
     assert [one.name for one in run.findings] == ["failing backend"]

@@ -159,7 +159,7 @@ def test_an_l_is_pushed_along_a_wall_on_its_support(tmp_path):
     expected = [x, w * x, 0.0]
     np.testing.assert_allclose(run["delta_q"][0], expected, rtol=ROUNDING, atol=ROUNDING * x)
     assert set(run["certificate"].tolist()) == {"exact"}
-    assert run.header["contacts"][0][-1] == "support of l/0"
+    assert run.header.contacts[0][-1] == "support of l/0"
     # It bears m g + m_r r / h^2, never more than m_r F / m above m g, on a plane that it is on.
     assert (run["phi"][:, -1] == 0.0).all()
     assert_relative(run["wrench"][:, -1, 2], m * G, 1e-6)
@@ -168,7 +168,7 @@ def test_an_l_is_pushed_along_a_wall_on_its_support(tmp_path):
     read = load_trajectory(save_trajectory(tmp_path / "run.npz", run))
     answer = solve_step(read.step_data(3), "daqp")
     assert answer.delta_q[:3].tolist() == read["delta_q"][3].tolist()
-    assert run.header["largest_boundary_layer"] < 2 * w * x  # of the wall, not of the rise
+    assert run.header.largest_boundary_layer < 2 * w * x  # of the wall, not of the rise
 
 
 @pytest.mark.parametrize(

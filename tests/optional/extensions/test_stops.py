@@ -48,7 +48,7 @@ def test_a_drawer_that_is_pushed_stops_at_its_limits(force, fast):
     lower, upper = -0.001, 0.002
     run = pushed_drawer(qr.load_scenario(scene(drawer()), fast=fast), force, 10)
     assert set(run["certificate"].tolist()) == {"exact"}
-    assert run.header["extra"] == ["c/slide at its lower limit", "c/slide at its upper limit"]
+    assert run.header.extra == ("c/slide at its lower limit", "c/slide at its upper limit")
     q = 0.0
     for k in range(10):
         end = float(np.clip(q + H**2 * force / M, lower, upper))

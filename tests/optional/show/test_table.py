@@ -9,7 +9,9 @@ import pandas
 import pytest
 
 from quasistatic_ref import InputError, Trajectory, load_scenario, load_trajectory
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.optional.show.table import table_written
+from quasistatic_ref.simulate.header import FORMAT, VERSION, header_read, header_table
 from tests.scenes import BALL, written_scenario
 
 
@@ -41,7 +43,7 @@ def test_the_wide_table_has_a_row_a_step_and_a_column_a_number_by_name_and_unit(
         "target rail/slide [m]": run.q_bar_a[:, 0],
         "digits [-]": run.digits, "worst residual [-]": run.worst_residual,
     }  # fmt: skip
-    for i, slot in enumerate(run.header["slots"]):  # each pair has one contact
+    for i, slot in enumerate(run.header.slots):  # each pair has one contact
         pair = slot.removesuffix("/0")
         f = run.forces[:, i]
         expected |= {
@@ -100,8 +102,11 @@ def test_a_table_of_another_kind_is_refused_before_the_run(tmp_path, scene, cli)
 
 
 def test_files_without_names_have_numbers(run):
-    plain = {name: words for name, words in run.header.items()
-             if name not in ("positions", "slots", "units", "scene")}  # fmt: skip
+    names = ("positions", "slots", "units", "scene")
+    table = {name: words for name, words in header_table(run.header).items() if name not in names}
+    top = TableReader(table)
+    top.check_format(FORMAT, VERSION)
+    plain = header_read(top, run.q.shape[1], len(run["rows"]))
     table = Trajectory(plain, run.arrays).to_pandas()
     contacts = Trajectory(plain, run.arrays).contacts_to_pandas()
     assert list(contacts["pair"][:2]) == ["contact/0", "contact/1"]

@@ -121,14 +121,14 @@ def test_a_step_says_what_it_holds():
 
 STRANGE = {
     "a backend that is markup": {"backend": HOSTILE},
-    "names that are numbers": {"contacts": [list(range(8))] * 3},
+    "names that are numbers": {"contacts": (tuple(range(8)),) * 3},
 }
 
 
 @pytest.mark.parametrize("header", STRANGE.values(), ids=STRANGE)
 def test_a_strange_trajectory_that_can_be_read_can_be_shown(header, tmp_path):
     run = load_scenario("block_push", steps=3, fast=True).run(progress=False)
-    strange = Trajectory({**run.header, **header}, run.arrays)
+    strange = Trajectory(replace(run.header, **header), run.arrays)
     check(strange, load_trajectory(save_trajectory(tmp_path / "run.npz", strange)))
 
 

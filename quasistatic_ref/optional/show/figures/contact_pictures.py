@@ -43,9 +43,9 @@ def stick_slip_map(axes: Axes, run: Trajectory) -> None:
     """
     if not run.steps:
         raise InputError("has no steps to show", field="trajectory")
-    if run.header["record"] != "full":
+    if run.header.record != "full":
         problem = "does not know what slides; run it again with record = 'full'"
-        raise InputError(problem, field="record", value=run.header["record"])
+        raise InputError(problem, field="record", value=run.header.record)
     states = contact_states(run)
     numbers = np.select([states == state for state in COLOURS], range(len(COLOURS)))
     end = run["t"][-1]

@@ -124,7 +124,7 @@ def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
     if not -run.steps <= k < run.steps:
         raise InputError(f"must be {-run.steps} to {run.steps - 1}", field="step", value=k)
     k = k % run.steps
-    return _moment(scene, run["q"][k], float(run["t"][k]) - run.header["h"], _contacts(run, k))
+    return _moment(scene, run["q"][k], float(run["t"][k]) - run.header.h, _contacts(run, k))
 
 
 def _moment(scene: HasScene, q: Array, t: float, contacts: tuple[DrawnContact, ...]) -> Moment:
@@ -151,7 +151,7 @@ def frames(scene: HasScene, run: Trajectory, fps: float) -> tuple[list[Moment], 
     """
     if not run.steps:
         raise InputError("has no steps to show", field="trajectory")
-    h = run.header["h"]
+    h = run.header.h
     every = max(round(1 / (fps * h)), 1)
     return [moment(scene, run, k) for k in range(0, run.steps, every)], 1 / (every * h)
 
@@ -215,7 +215,7 @@ def contact_states(run: Trajectory) -> NDArray[np.str_]:
 
 
 def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:
-    corners = limit_at(str(run.header["cone"]), 0.0)
+    corners = limit_at(str(run.header.cone), 0.0)
     rim = np.column_stack([corners, np.ones(len(corners))])
     wrench = shown_forces(run, k)
     bears = bearing(wrench[:, 2])
@@ -240,7 +240,7 @@ def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:
 
 def _state(run: Trajectory, k: int, j: int, frame: Array) -> str:
     """Of a contact that bears load; ``"sticking"`` where the record does not know it."""
-    if run.header["record"] != "full":
+    if run.header.record != "full":
         return "sticking"
     delta_q = run["delta_q"][k]  # without private rises, which J has
     motion = run["J"][k, j][:, : len(delta_q)] @ delta_q

@@ -155,7 +155,7 @@ def _caption(title: str, scene: HasScene, run: Trajectory | None, scale: float) 
     """What is shown, in HTML: the bodies and the states of contacts in their colours."""
     words = [escape(title)]
     if run is not None:
-        words.append(f"h = {1e3 * run.header['h']:g} ms, friction {escape(run.header['cone'])}")
+        words.append(f"h = {1e3 * run.header.h:g} ms, friction {escape(run.header.cone)}")
     words += [_coloured(name, colour) for name, colour in body_colours(scene.system).items()]
     if scale:
         words.append(f"1 N is {1e3 * scale:.3g} mm")
