@@ -43,6 +43,9 @@ SWEEP = "sweep"
 """What does ``run`` with ``--sweep``."""
 LABS = (
     "demo",
+    "account",
+    "body",
+    "opinion",
     "serve",
     "vectors",
     "validate",
@@ -52,7 +55,7 @@ LABS = (
     "schema",
     SWEEP,
 )
-"""Commands that do something with the core rather than are part of it."""
+"""Commands that do something with the core, or ask an optional part alone."""
 
 
 class Parser(argparse.ArgumentParser):
