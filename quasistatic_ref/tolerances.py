@@ -16,20 +16,6 @@ ACCURACY: Final = 1e-12
 With it Clarabel, DAQP and PIQP solve every step of ``bunny_grasp``, and so does OSQP, which is then
 called with 1e-10, the least accuracy that the table of backends gives it."""
 
-ENCLOSED: Final = 1e-13
-"""Largest error, in the one definition, at which an answer counts as enclosed.
-
-Rounding the answer to float64 alone costs 1e-16; a bound much above that is the sign of a problem
-almost without interior."""
-
-IMPULSES: Final = 1e-9
-"""Largest duality gap of the multipliers of an answer in the ellipsoid, relative to the energies
-1/2 ||H^-1 g||_H^2 and 1/2 ||delta_q||_H^2 of its step, added; and how far the multipliers may be
-outside of their cones, relative to the largest of them, where no gap is claimed.
-
-Multipliers are not unique. Rounding them to float64 alone leaves a gap of 1e-16; a force where
-nothing touches leaves a gap of the size of its work."""
-
 BORNE: Final = 1e-4
 """Share of the load [-] that forces of single contacts may leave without a finding."""
 
@@ -136,20 +122,6 @@ numbers are taken for metres.
 
 What hands hold is longer than 20 mm, mostly, and shorter than 20 m."""
 
-DEPENDENT: Final = 1e-8
-"""Singular value of rows of length one up to which it counts as zero [-], where no derivative
-depends on it: a row this near to the span of others is counted as spanned."""
-
-SPLIT: Final = 1e-12
-"""Largest singular value of rows, or of the equations of a closest pair, that is rounding [-]:
-geometry splits the rows of bodies that lie flat on each other by 1e-15. Rows between this and
-INDEPENDENT hold at once or do not, and normals between this and UNIQUE are not known."""
-
-CONSISTENT: Final = 1e-11
-"""Largest rate at which dependent rows leave each other, or straight surfaces in line with each
-other, relative to the terms that make it, that is rounding [-]: random states are at 1e-13 and
-below. A rate that is let pass leaves an error of about ten times its size."""
-
 ON_RIM: Final = 1e-9
 """How near to the rim of a face or edge a closest point, relative to its shape, or a normal [-] is
 on it. Closest points are right to 1e-15 but where the surfaces are nearly parallel."""
@@ -159,33 +131,8 @@ LEVEL: Final = 1e-5
 computed. Its lowest point moves by 1 / tilt of a turn, right to 2e-16 / tilt of that; where it
 cancels, errors were 1e-7 at a tilt of 3e-7, and fall with its square."""
 
-UNIQUE: Final = 1e-6
-"""Least singular value of the equations of a closest pair, lengths over the pair's size or its
-distance from the world's origin, whichever is larger, at which the pair counts as unique [-].
-Places are right to 2e-16 of that length, and the solution to 2e-10. Parallel faces leave 1e-16."""
-
-NEARLY: Final = 1e-9
-"""First-order distance to the next kink, in natural units [-], below which a derivative that
-exists gives way to those of both sides. A step is about one, and a settled scene creeps to its
-kinks by 1e-12 of it and less; differences of usable steps do not see a derivative that ends so
-soon."""
-
-TIED: Final = 1e-10
-"""Difference of two distances, relative to the pair's size, at which they count as equal [-]:
-REPEATED for sizes of some decimetres."""
-
 LIGHT: Final = 1e-6
 """Mass of a private rise over that of what it lies on [-]: sliding is slower by as much, (R40)."""
-
-FULL_RANK: Final = 1e-9
-"""Part of a row of MuJoCo's that counts, over the largest of its terms, and smallest eigenvalue of
-K_q, in natural units [-].
-
-Rounding leaves 1e-16 of the terms of a row that is zero or depends on others, and would make it a
-constraint of its own; a lever that is shorter than this asks for 1e9 times the load."""
-
-DEEP: Final = 1e-3
-"""Penetration that an answer mentions [m]: MuJoCo's contacts at rest are about 0.1 mm deep."""
 
 NEAR: Final = 1e-3
 """Distance that counts as near [m]: what cameras and calibration leave open."""
@@ -218,28 +165,3 @@ STALLED: Final = 0.25
 CREEP: Final = 1e-4
 """Speed up to which a contact of MuJoCo's holds [m/s]: 6 mm in a minute. Friction that is
 regularised yields to any force, so that some speed has to count as none."""
-
-FAST: Final = 0.1
-"""Speed up to which a body creeps [m/s]: that of a fall of 10 ms. MuJoCo's friction yields by
-f R / b, with default softness up to 10 mm/s under the weight of a body, and with a soft one to some
-60 mm/s; what is faster moves by its inertia, of which a step from rest says nothing."""
-
-STEADY: Final = 0.5
-"""Change of a mean velocity from a tenth of a second to the next, over the velocity, up to which a
-body creeps [-]: what falls or swings from rest is three times as fast."""
-
-INSIDE_CONE: Final = 0.98
-"""Share of a contact's limit up to which its friction could bear more [-]: a contact that slides is
-at its limit but for the error of MuJoCo's solver, some 0.1 %."""
-
-PIERCES: Final = 0.25
-"""Depth of two bodies in each other over the size of the smaller one, from its centre of mass to
-its farthest point, above which they are not rigid, whatever presses them there [-]."""
-
-PRESSES: Final = 2.0
-"""Normal forces of MuJoCo's over the exact ones, from which on penetration counts as their
-cause [-]: forces that no load determines differ by some per cent at rest."""
-
-FORCES_AGREE: Final = 0.01
-"""Relative difference of normal forces, up to which they agree [-]; what is less than this part of
-the weight of a model counts as no force."""

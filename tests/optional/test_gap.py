@@ -13,6 +13,7 @@ from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
+from quasistatic_ref.optional.ellipsoid.tolerances import IMPULSES
 from quasistatic_ref.optional.gap import (
     duality_gap,
     energy,
@@ -20,7 +21,6 @@ from quasistatic_ref.optional.gap import (
     free_energy,
     nearest_above,
 )
-from quasistatic_ref.tolerances import IMPULSES
 from tests.certify.test_form import fraction
 from tests.oracles.random_steps import any_step, mixed_step
 from tests.oracles.rational_kkt import exact, proved_optimum, solution

@@ -29,12 +29,12 @@ from quasistatic_ref.optional.derivatives.step.nearly import nearly_weak
 from quasistatic_ref.optional.derivatives.step.optimum_rates import Equations
 from quasistatic_ref.optional.derivatives.step.touching import touching_rows
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
+from quasistatic_ref.optional.derivatives.tolerances import NEARLY
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.tolerances import NEARLY
 
 __all__ = ["Derivatives", "derivatives"]
 

@@ -31,9 +31,9 @@ from quasistatic_ref.optional.derivatives.gradient import Derivatives
 from quasistatic_ref.optional.derivatives.model.tangent import entry_rates
 from quasistatic_ref.optional.derivatives.smoothed import check_kappa, smoothed
 from quasistatic_ref.optional.derivatives.step.reason import KINDS, Reason
+from quasistatic_ref.optional.derivatives.tolerances import NEARLY
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.tolerances import NEARLY
 
 ARGUMENTS = ("q", "q_bar_a", "force", "kappa")
 BY = ("dq_dq", "dq_dq_bar_a", "dq_dtau")

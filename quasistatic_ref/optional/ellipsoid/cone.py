@@ -32,10 +32,10 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
 from quasistatic_ref.optional.ellipsoid.forces import compliant_forces
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
+from quasistatic_ref.optional.ellipsoid.tolerances import ENCLOSED, IMPULSES
 from quasistatic_ref.optional.gap import duality_gap, fractions
 from quasistatic_ref.step.cones import ELLIPSOID, Rows
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
 
 if TYPE_CHECKING:
     import cvxpy as cp

@@ -29,9 +29,9 @@ from quasistatic_ref.optional.ellipsoid.impulses import raised
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, diagonal, interior_point
 from quasistatic_ref.optional.ellipsoid.newton import OPEN, SLIDES, contact_states, newton_pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import ScaledBlocks, scaled_blocks
+from quasistatic_ref.optional.ellipsoid.tolerances import ENCLOSED
 from quasistatic_ref.optional.gap import duality_gap, fractions, inner, nearest_above, square_root
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.tolerances import ENCLOSED
 
 BITS: Final = 640
 """Precision of the interior point: where contacts are at the limit of friction, its linear systems

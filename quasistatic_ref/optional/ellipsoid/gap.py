@@ -7,8 +7,8 @@ from flint import fmpq
 
 from quasistatic_ref.certify.form import ExactForm, fraction
 from quasistatic_ref.certify.rounding import nearest_fraction
+from quasistatic_ref.optional.ellipsoid.tolerances import IMPULSES
 from quasistatic_ref.optional.gap import energy, free_energy
-from quasistatic_ref.tolerances import IMPULSES
 
 
 def rounded_up(gap: fmpq) -> float:

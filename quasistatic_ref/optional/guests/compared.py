@@ -12,9 +12,10 @@ import numpy as np
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.guests.tolerances import FORCES_AGREE, STEADY
 from quasistatic_ref.optional.guests.touches import StateContact
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.tolerances import CREEP, FORCES_AGREE, STEADY
+from quasistatic_ref.tolerances import CREEP
 
 WINDOW = 0.1
 """Time over which MuJoCo's motion is measured [s]: many of its time steps, and few of a fall."""

@@ -11,9 +11,9 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.guests.fates import kind_of
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural
+from quasistatic_ref.optional.guests.tolerances import FULL_RANK
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.data import Extra
-from quasistatic_ref.tolerances import FULL_RANK
 
 HELD = "left out, in part or whole: joints or other equalities hold already what it holds"
 

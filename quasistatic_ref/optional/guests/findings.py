@@ -13,8 +13,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from quasistatic_ref.optional.guests.compared import Bearing, Body, Contact
+from quasistatic_ref.optional.guests.tolerances import (
+    DEEP,
+    FAST,
+    FORCES_AGREE,
+    INSIDE_CONE,
+    PIERCES,
+    PRESSES,
+)
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.tolerances import DEEP, FAST, FORCES_AGREE, INSIDE_CONE, PIERCES, PRESSES
 
 if TYPE_CHECKING:
     from mujoco import MjModel

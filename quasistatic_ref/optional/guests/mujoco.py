@@ -19,11 +19,12 @@ from quasistatic_ref.optional.guests import constraints, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
 from quasistatic_ref.optional.guests.loads import Spring, diagonal_of_H, loads
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural, moved, mujoco_state
+from quasistatic_ref.optional.guests.tolerances import DEEP, FULL_RANK
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.tolerances import DEEP, FULL_RANK, LIGHT
+from quasistatic_ref.tolerances import LIGHT
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel

@@ -16,8 +16,8 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+from quasistatic_ref.optional.guests.tolerances import FULL_RANK
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.tolerances import FULL_RANK
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel

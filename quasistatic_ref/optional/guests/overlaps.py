@@ -10,8 +10,8 @@ from quasistatic_ref.optional.guests import touches
 from quasistatic_ref.optional.guests.findings import APART, Named
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState
 from quasistatic_ref.optional.guests.places import KINDS_OF_GEOMS, candidates, geom_kind, placed
+from quasistatic_ref.optional.guests.tolerances import DEEP, PIERCES
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.tolerances import DEEP, PIERCES
 
 
 class Overlap(NamedTuple):

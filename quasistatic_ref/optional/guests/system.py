@@ -40,9 +40,10 @@ from quasistatic_ref.optional.guests.loads import (
 from quasistatic_ref.optional.guests.mujoco import actuated, joint_friction
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural, mujoco_state
 from quasistatic_ref.optional.guests.places import Places
+from quasistatic_ref.optional.guests.tolerances import FULL_RANK
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.data import Extra
-from quasistatic_ref.tolerances import FILLED, FULL_RANK
+from quasistatic_ref.tolerances import FILLED
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel

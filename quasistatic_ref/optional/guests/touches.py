@@ -10,8 +10,8 @@ import numpy as np
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural
+from quasistatic_ref.optional.guests.tolerances import DEEP
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.tolerances import DEEP
 
 if TYPE_CHECKING:
     from mujoco import MjContact, MjData

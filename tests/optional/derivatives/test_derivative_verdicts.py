@@ -19,7 +19,7 @@ from quasistatic_ref import (
     load_scenario,
 )
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.tolerances import TIED
+from quasistatic_ref.optional.derivatives.tolerances import TIED
 from tests.closeness import assert_within
 from tests.contact.still import placed_shape
 from tests.model.urdf.urdf_texts import joint, link, robot

@@ -7,8 +7,8 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
+from quasistatic_ref.optional.guests.tolerances import FULL_RANK
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.tolerances import FULL_RANK
 
 H = 0.01
 GRAVITY = 9.81

@@ -27,7 +27,7 @@ import numpy as np
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
-from quasistatic_ref.tolerances import CONSISTENT, SPLIT, UNIQUE
+from quasistatic_ref.optional.derivatives.tolerances import CONSISTENT, SPLIT, UNIQUE
 
 
 class Rates(NamedTuple):

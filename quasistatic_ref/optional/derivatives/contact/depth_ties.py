@@ -8,9 +8,9 @@ from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.contact.tied_faces import TURNED, faces_apart
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
+from quasistatic_ref.optional.derivatives.tolerances import TIED
 from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import Ellipsoid, HalfSpace, PointCloud, Shape, Sphere
-from quasistatic_ref.tolerances import TIED
 
 CURVED = "the derivative of a contact of curved solids"
 

@@ -16,8 +16,9 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates
 from quasistatic_ref.optional.derivatives.contact.couples import Couple, PairInWorld
 from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.optional.derivatives.tolerances import TIED
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
-from quasistatic_ref.tolerances import REPEATED, TIED
+from quasistatic_ref.tolerances import REPEATED
 
 LEVEL = 1e-11
 """Difference of heights, relative to the solid, at which corners are of one face."""

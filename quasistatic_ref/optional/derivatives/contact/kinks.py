@@ -10,7 +10,8 @@ from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_ra
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.tolerances import FILLED, TIED, UNIQUE
+from quasistatic_ref.optional.derivatives.tolerances import TIED, UNIQUE
+from quasistatic_ref.tolerances import FILLED
 
 PARALLEL = reason.MANY, "has more than one closest pair of points: parallel surfaces"
 

@@ -21,7 +21,7 @@ from scipy.optimize import nnls
 
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.derivatives.step.touching import Touching, bearing, unit_rows
-from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT, SPLIT
+from quasistatic_ref.optional.derivatives.tolerances import CONSISTENT, DEPENDENT, SPLIT
 
 INDEPENDENT: Final = 3e-4
 """Least singular value of rows of length one that are independent where a derivative is computed

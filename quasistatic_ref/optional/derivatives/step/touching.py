@@ -14,10 +14,11 @@ from scipy.optimize import nnls
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+from quasistatic_ref.optional.derivatives.tolerances import DEPENDENT, SPLIT
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.friction import frame_jacobian, impulses, scaled_by
 from quasistatic_ref.step.standard_form import linear_term
-from quasistatic_ref.tolerances import DEPENDENT, FILLED, SPLIT
+from quasistatic_ref.tolerances import FILLED
 
 TOUCHING: Final = 1e-14
 """Slack of a row, relative to the numbers that it is a sum of, at which it counts as none where a

@@ -17,7 +17,7 @@ from quasistatic_ref import (
 from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
-from quasistatic_ref.tolerances import TIED
+from quasistatic_ref.optional.derivatives.tolerances import TIED
 from tests.contact.still import pair, placed_shape
 
 TURNED = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()

@@ -17,7 +17,8 @@ from quasistatic_ref.optional.derivatives.step.touching import (
     touching_rows,
 )
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
-from quasistatic_ref.tolerances import CONSISTENT, FILLED, NEARLY
+from quasistatic_ref.optional.derivatives.tolerances import CONSISTENT, NEARLY
+from quasistatic_ref.tolerances import FILLED
 from tests.closeness import assert_within
 from tests.helpers import point_on_floor
 from tests.optional.derivatives.free_bodies import (
