@@ -12,7 +12,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.formats.quoting import clipped, one_line, short_words, shown_value
 
 
@@ -30,14 +29,6 @@ class QuasistaticError(Exception):
 
     def __str__(self) -> str:
         return one_line(short_words(super().__str__()))
-
-    def __eq__(self, other: object) -> bool:
-        if type(other) is not type(self):
-            return NotImplemented
-        return bool(bits((self.args, vars(self))) == bits((other.args, vars(other))))
-
-    def __hash__(self) -> int:
-        return hash((type(self), self.args))
 
     def __reduce__(self) -> tuple[object, ...]:
         # Exceptions are rebuilt from `args`, which here hold the message only.
@@ -88,7 +79,7 @@ class InputError(QuasistaticError, ValueError):
         return one_line(f"{where}{what}{short_words(self.problem)}{got}")
 
     def in_file(self, file: str | Path) -> InputError:
-        """Return the same error, saying which file it is about (unless it says so already)."""
+        """The same error, saying which file it is about (unless it says so already)."""
         if self.file is None:
             self.file = file
         return self
