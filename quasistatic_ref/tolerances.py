@@ -160,7 +160,7 @@ LAGS: Final = 0.1
 a spring's usual lag."""
 
 STALLED: Final = 0.25
-"""The same distance over the shape that presses [-], of what is to push and not to press."""
+"""Distance of a joint from its last target over the shape that presses [-], of what is to push."""
 
 CREEP: Final = 1e-4
 """Speed up to which a contact of MuJoCo's holds [m/s]: 6 mm in a minute. Friction that is

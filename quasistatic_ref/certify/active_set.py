@@ -43,7 +43,7 @@ class Farkas:
 
 
 def most_violated(minimiser: Minimiser) -> int | None:
-    """Return the most violated row, of equal ones that of least index; None if none is violated.
+    """The most violated row, of equal ones that of least index; None if none is violated.
 
     Of rows that float64 shows to be violated, if it shows any; otherwise the exact signs decide.
     Any violated row would do. With this one a grasp takes, from a cold start, a fifth of the walks
@@ -61,7 +61,7 @@ def most_violated(minimiser: Minimiser) -> int | None:
 
 
 def least_index(minimiser: Minimiser) -> int | None:
-    """Return the violated row of least index; None if the exact signs show that none is violated.
+    """The violated row of least index; None if the exact signs show that none is violated.
 
     The choice depends on exact signs alone: every implementation of the method takes the same path.
     """
@@ -112,7 +112,7 @@ def dual_active_set(
 
 
 def _start(form: ExactForm, warm: Sequence[int]) -> Minimiser:
-    """Return a minimiser with positive multipliers: any subset of the warm rows that has them."""
+    """A minimiser with positive multipliers: any subset of the warm rows that has them."""
     working = tuple(warm)
     while True:
         minimiser = Minimiser(form, working)
@@ -128,7 +128,7 @@ def _start(form: ExactForm, warm: Sequence[int]) -> Minimiser:
 
 
 def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
-    """Return the minimiser that the violated row p leads to, or a proof that there is none."""
+    """The minimiser that the violated row p leads to, or a proof that there is none."""
     while True:
         working = minimiser.working
         relation = minimiser.relation(p)
@@ -184,7 +184,7 @@ def _difference(minimiser: Minimiser, line: Line, j: int, k: int) -> arb:
 
 
 def _vanishes_before(minimiser: Minimiser, line: Line, j: int, k: int) -> bool:
-    """Return whether l_j / -u_j < l_k / -u_k, both u being negative."""
+    """Whether l_j / -u_j < l_k / -u_k, both u being negative."""
     difference = _difference(minimiser, line, j, k)
     if not difference.contains(0):
         return bool(difference < 0)

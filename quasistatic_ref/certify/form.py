@@ -206,7 +206,7 @@ class MatrixForm(ExactForm):
         return np.array(rows).reshape(-1, self.n + 1)
 
     def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
-        """As of the base, from `x` and `most`, shape (n,) [any unit]."""
+        """All slacks in float64, and bounds of their errors; `x`, `most` are (n,) [any unit]."""
         return row_slacks(self.float_rows(range(self.m)), x, most)
 
 
@@ -318,7 +318,7 @@ class StepForm(ExactForm):
         return rows
 
     def values(self, some: Iterable[int], z: arb_mat) -> list[list[arb]]:
-        """As of the base, from the motion of each contact."""
+        """Slacks of some rows at z, from the motion of each contact."""
         of_contact: dict[int, list[list[arb]]] = {}
         values = []
         for i in some:
@@ -333,7 +333,7 @@ class StepForm(ExactForm):
         return values
 
     def implied_by_cone(self, working: Sequence[int], some: Iterable[int]) -> list[int]:
-        """As of the base: the six rows of a contact have rank four."""
+        """Rows that W implies since the six rows of a contact have rank four."""
         held: dict[int, tuple[int, ...]] = {}
         for c, kind in sorted(self._places[i] for i in working):
             held[c] = (*held.get(c, ()), kind)
@@ -343,7 +343,7 @@ class StepForm(ExactForm):
         return [i for i, c, kind in places if c in kinds and kinds[c][kind]]
 
     def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
-        """As of the base, from `x` and `most`, shape (n,) [m, rad].
+        """All slacks in float64, and bounds of their errors; `x`, `most` of shape (n,) [m, rad].
 
         Notes
         -----

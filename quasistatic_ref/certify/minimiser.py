@@ -260,7 +260,7 @@ class Minimiser:
         return fraction(self.fractions.y[j])
 
     def positive(self) -> tuple[int, ...]:
-        """Return the rows of the working set whose multipliers are positive."""
+        """The rows of the working set whose multipliers are positive."""
         y = enumerate(self.balls.y)
         signs = [_sign(v if v > 0 or v < 0 else self.fractions.y[j]) for j, v in y]
         return tuple(i for i, sign in zip(self.working, signs, strict=True) if sign > 0)

@@ -53,7 +53,7 @@ class Residuals:
         return largest(np.array([*vars(self).values()]))
 
     def in_size(self, size: float) -> Residuals:
-        """The same if delta_q, b, g and lam are measured in another `size` [of theirs]."""
+        """The residuals if delta_q, b, g and lam are measured in another `size` [of theirs]."""
         return Residuals(
             stationarity=self.stationarity / size,
             primal=self.primal / size,

@@ -46,7 +46,7 @@ def basic_rows(lam: Array) -> list[int]:
 
 
 def _basic(A: Array, lam: Array) -> Array:
-    """Return lam >= 0 of the same A'lam whose positive entries belong to independent rows.
+    """Lam >= 0 of the same A'lam whose positive entries belong to independent rows.
 
     A block of rows after the other, each with the rows that are kept of those before it.
     """
@@ -60,7 +60,7 @@ def _basic(A: Array, lam: Array) -> Array:
 
 
 def _basic_of_block(A: Array, lam: Array) -> Array:
-    """Return the same of so few rows that all of their dependences can be formed."""
+    """What :func:`_basic` is of so few rows that all of their dependences can be formed."""
     if independent(A):
         return lam
     dependences = np.eye(len(A))

@@ -36,12 +36,12 @@ class Witness(NamedTuple):
     n: Array
 
     def swapped(self) -> "Witness":
-        """The same with alpha and beta exchanged."""
+        """The closest points with alpha and beta exchanged."""
         return Witness(self.phi, self.beta, self.alpha, -self.n)
 
 
 class Witnesses(NamedTuple):
-    """The same of P pairs, with fields of shape (P, ...)."""
+    """Closest points of P pairs of solids, with fields of shape (P, ...)."""
 
     phi: Array
     alpha: Array

@@ -68,20 +68,20 @@ def clipped(text: str, longest: int = LONGEST) -> str:
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:
-    """Return ``"; did you mean 'x'? known: ..."`` for an unknown name."""
+    """``"; did you mean 'x'? known: ..."`` for an unknown name."""
     names = sorted(known)
     return f"{nearest_name(name, names) or ';'} {known_names(names)}"
 
 
 def known_names(known: Iterable[str]) -> str:
-    """Return ``"known: ..."``, the names sorted, a long list cut."""
+    """``"known: ..."``, the names sorted, a long list cut."""
     names = sorted(known)
     more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
     return f"known: {', '.join(map(clipped, names[:MOST_NAMES])) or 'none'}{more}"
 
 
 def nearest_name(name: str, known: Iterable[str]) -> str:
-    """Return ``"; did you mean 'x'?"`` for an unknown name, or nothing if none is near."""
+    """``"; did you mean 'x'?"`` for an unknown name, or nothing if none is near."""
     if len(name) > LONGEST:  # difflib's time is quadratic
         return ""
     by_lower = {known_name.lower(): known_name for known_name in known}

@@ -45,15 +45,15 @@ class TableReader:
         self._known: set[str] = set()
 
     def name(self, field: str) -> str:
-        """Return the full dotted name of a field."""
+        """The full dotted name of a field."""
         return f"{self.where}.{field}" if self.where else field
 
     def error_about(self, field: str, problem: str, value: object = None) -> InputError:
-        """Return the error about one field, for the caller to raise."""
+        """The error about one field, for the caller to raise."""
         return self.error(problem, field=self.name(field), value=value)
 
     def take(self, field: str, default: Any = REQUIRED) -> Any:
-        """Return a field as parsed; a missing one is the default, or an error."""
+        """A field as parsed; a missing one is the default, or an error."""
         self._known.add(field)
         if field in self._left:
             return self._left.pop(field)
@@ -65,19 +65,19 @@ class TableReader:
         return field in self._left
 
     def peek(self, field: str) -> Any:
-        """Return a field as parsed, which stays to be taken; None if it is not there."""
+        """A field as parsed, which stays to be taken; None if it is not there."""
         return self._left.get(field)
 
     def is_null(self, field: str) -> bool:
-        """Tell whether a field is there and holds JSON's null."""
+        """Whether a field is there and holds JSON's null."""
         return field in self._left and self._left[field] is None
 
     def names_left(self) -> list[str]:
-        """Return the names of the fields that are not yet taken, in file order."""
+        """The names of the fields that are not yet taken, in file order."""
         return list(self._left)
 
     def _typed(self, field: str, kind: Any, words: str, default: Any) -> Any:
-        """Return a field of one kind, of which booleans are no numbers; None if that is default."""
+        """A field of one kind, of which booleans are no numbers; None if that is default."""
         value = self.take(field, default)
         fits = isinstance(value, kind) and (kind is bool or not isinstance(value, bool))
         if not fits and (value is not None or default is not None):
@@ -93,7 +93,7 @@ class TableReader:
         least: float | None = None,
         most: float | None = None,
     ) -> float:
-        """Return a finite number, above `above`, from `least` to `most` [the field's unit]."""
+        """A finite number, above `above`, from `least` to `most` [the field's unit]."""
         value = self._typed(field, int | float, "a number", default)
         if value is None:
             return None  # type: ignore[return-value]  # only where the caller's default is None
@@ -117,7 +117,7 @@ class TableReader:
         most: int | None = None,
         choices: tuple[int, ...] | None = None,
     ) -> int:
-        """Return a whole number, at least `least` and at most `most`, or one of `choices`."""
+        """A whole number, at least `least` and at most `most`, or one of `choices`."""
         value: int = self._typed(field, int, "a whole number", default)
         if value is None:
             return value
@@ -135,14 +135,14 @@ class TableReader:
             raise self.error_about(field, f"must be at most {most:.9g}", value)
 
     def boolean(self, field: str, default: Any = REQUIRED) -> bool:
-        """Return true or false."""
+        """A field that is true or false."""
         value: bool = self._typed(field, bool, "true or false", default)
         return value
 
     def text(
         self, field: str, default: Any = REQUIRED, choices: tuple[str, ...] | None = None
     ) -> str:
-        """Return a string, one of `choices` where they are given."""
+        """A field that is a string, one of `choices` where they are given."""
         value: str = self._typed(field, str, "a string", default)
         if value is not None and choices is not None and value not in choices:
             problem = f"is not a choice{suggestion(value, choices)}"
@@ -154,7 +154,7 @@ class TableReader:
     def array(
         self, field: str, shape: tuple[int | None, ...], default: Any = REQUIRED
     ) -> np.ndarray:
-        """Return finite numbers of the given shape (None: any length) as float64."""
+        """A field that is finite numbers of a shape (None: any length), as float64."""
         value = self.take(field, default)
         wanted = " x ".join("any" if s is None else str(s) for s in shape)
         if isinstance(value, str):
@@ -184,19 +184,19 @@ class TableReader:
         return numbers
 
     def sequence(self, field: str, default: Any = REQUIRED) -> list[Any]:
-        """Return a list."""
+        """A field that is a list."""
         value: list[Any] = self._typed(field, list, "a list", default)
         return value
 
     def words(self, field: str, default: Any = REQUIRED) -> list[str]:
-        """Return a list of strings."""
+        """A field that is a list of strings."""
         value = self.sequence(field, default)
         if value is not default and not all(isinstance(word, str) for word in value):
             raise self.error_about(field, "must be a list of strings", value)
         return value
 
     def table(self, field: str, default: Any = REQUIRED) -> "TableReader":
-        """Return a nested table."""
+        """A field that is a table."""
         return TableReader(self.take(field, default), self.name(field), self.error)
 
     def check_format(self, name: str, *versions: int) -> int:

@@ -19,7 +19,7 @@ def rotation(rpy: Array) -> Array:
 
 
 def quaternion(rpy: Array) -> Array:
-    """The same rotation as a quaternion [x y z w], shape (4,)."""
+    """A rotation as a quaternion [x y z w], shape (4,)."""
     (cr, sr), (cp, sp), (cy, sy) = map(cos_sin, (rpy / 2).tolist())
     return np.array(
         [

@@ -46,7 +46,7 @@ RANGE = 2.0**-500, 2.0**500
 
 
 def positive_definite(key: str, S: Array) -> Array:
-    """Return S, of shape (..., n, n) [any unit], made symmetric from its lower triangle.
+    """S, of shape (..., n, n) [any unit], made symmetric from its lower triangle.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def positive_definite(key: str, S: Array) -> Array:
 
 
 def symmetric(key: str, S: Array) -> Array:
-    """Return S, of shape (..., n, n) [any unit], made symmetric from its lower triangle.
+    """S, of shape (..., n, n) [any unit], made symmetric from its lower triangle.
 
     Raises
     ------

@@ -39,7 +39,7 @@ class Box(Rounded):
 
     @cached_property
     def coal(self) -> CollisionGeometry:
-        """The same shape as a coal geometry."""
+        """The shape as a coal geometry."""
         return coal.Box(2 * self.half_extents)
 
     @cached_property

@@ -25,7 +25,7 @@ class Capsule(Revolved, Rounded):
 
     @cached_property
     def coal(self) -> CollisionGeometry:
-        """The same shape as a coal geometry."""
+        """The shape as a coal geometry."""
         return coal.Capsule(self.radius, 2 * self.half_length)
 
     @cached_property

@@ -26,7 +26,7 @@ class Cone(Revolved):
 
     @cached_property
     def coal(self) -> CollisionGeometry:
-        """The same shape as a coal geometry."""
+        """The shape as a coal geometry."""
         return coal.Cone(self.radius, 2 * self.half_length)
 
     @property

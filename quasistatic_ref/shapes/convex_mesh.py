@@ -67,7 +67,7 @@ class ConvexMesh(Shape):
 
     @cached_property
     def coal(self) -> CollisionGeometry:
-        """The same shape as a coal geometry; ModelError where coal has no place for its edges."""
+        """The shape as a coal geometry; ModelError where coal has no place for its edges."""
         if np.bincount(self.triangles.ravel()).max() > MOST_NEIGHBOURS:
             problem = (
                 f"has a corner with more than {MOST_NEIGHBOURS} edges, which distances to "

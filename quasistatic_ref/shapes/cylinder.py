@@ -23,7 +23,7 @@ class Cylinder(Revolved):
 
     @cached_property
     def coal(self) -> CollisionGeometry:
-        """The same shape as a coal geometry."""
+        """The shape as a coal geometry."""
         return coal.Cylinder(self.radius, 2 * self.half_length)
 
     @property

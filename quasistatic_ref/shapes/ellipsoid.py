@@ -42,7 +42,7 @@ class Ellipsoid(Shape):
 
     @cached_property
     def coal(self) -> CollisionGeometry:
-        """The same shape as a coal geometry."""
+        """The shape as a coal geometry."""
         return coal.Ellipsoid(self.half_axes)
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:

@@ -14,7 +14,8 @@ SAFE: Final = 1e-6
 """How much bounds give way, of sizes and places [-]: far more than what rounds, and far less than
 what parts most points of a cloud."""
 NEEDLE: Final = 1e-13
-"""The same over the sine of a triangle's least angle [-]: a foot beside its tip is less certain."""
+"""How much they give way over the sine of a triangle's least angle [-]: a foot by its tip is less
+sure."""
 
 _GRID = np.stack(np.meshgrid(*3 * [[-1.0, 0.0, 1.0]]), axis=-1).reshape(-1, 3)
 _AROUND = _GRID[_GRID.any(axis=1)]

@@ -28,7 +28,7 @@ class Shape(Plain):
 
     @property
     def coal(self) -> CollisionGeometry:
-        """The same shape as a coal geometry; ContactError if there is none."""
+        """The shape as a coal geometry; ContactError if there is none."""
         raise self.lacks("has no coal object")
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
@@ -56,7 +56,7 @@ class Shape(Plain):
         raise self.lacks("a cloud touches solid shapes only")
 
     def at_points(self, some: Indices | Mask | slice) -> Self:
-        """The same for `some` of the points: a shape is one for all of them."""
+        """The shape as `some` of the points see it: it is one for all of them."""
         return self
 
     def faces(self, points: Array) -> tuple[Array, Array]:

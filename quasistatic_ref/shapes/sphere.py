@@ -30,7 +30,7 @@ class Sphere(Rounded):
 
     @cached_property
     def coal(self) -> CollisionGeometry:
-        """The same shape as a coal geometry."""
+        """The shape as a coal geometry."""
         return coal.Sphere(self.radius)
 
     @cached_property

@@ -266,7 +266,7 @@ class Trajectory(Plain, HasPage):
         )
 
     def forces_on(self, name: str, scene: HasScene | None = None) -> Array:
-        """The same sum of :attr:`forces`: force [N] and torque [N m], shape (steps, 6).
+        """Sum of :attr:`forces` on a body or a link: force [N] and torque [N m], shape (steps, 6).
 
         Parameters
         ----------

@@ -128,7 +128,7 @@ class StepProblem:
         self.set_parameters(step)
 
     def set_parameters(self, step: StepData) -> None:
-        """The same for a step that is known to be of the problem's kind."""
+        """Set every parameter from a step that is known to be of the problem's kind."""
         self.step = step
         J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
         values = {

@@ -293,7 +293,7 @@ def in_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
 
 
 def _median_length(squares: Array) -> float:
-    """Return the median of lengths that are not zero, from their squares in ascending order."""
+    """The median of lengths that are not zero, from their squares in ascending order."""
     n = len(squares)
     first = 0 if n and squares[0] > 0 else int(squares.searchsorted(0.0, side="right"))
     if first == n:

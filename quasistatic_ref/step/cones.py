@@ -245,7 +245,7 @@ def direction(k: int, K: int) -> tuple[float, float]:
 
 
 def _cos_sin(half_turns: Decimal) -> tuple[float, float]:
-    """Return cos and sin of pi * half_turns, 0 to 1/4, from their series to 50 digits."""
+    """Cos and sin of pi * half_turns, 0 to 1/4, from their series to 50 digits."""
     with localcontext() as context:
         context.prec = 55
         x = PI * half_turns

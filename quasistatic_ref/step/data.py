@@ -324,7 +324,7 @@ class StepData(Plain, HasPage):
         return H if cost is None else read_only(H + cost[0])
 
     def replace(self, **changes: Any) -> StepData:
-        """Return a copy with some fields changed, validated again."""
+        """A copy with some fields changed, validated again."""
         return StepData(**(field_values(self) | changes))
 
 

@@ -41,7 +41,7 @@ def solid_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
 def pair_and_gaps(
     name: str, a: ShapeInWorld, b: ShapeInWorld
 ) -> tuple[Witness, tuple[Array, Array] | None]:
-    """The same, and of two polytopes the gaps (N,) [m] along all their normals (N, 3) [-]."""
+    """A :func:`solid_pair`; of two polytopes also gaps (N,) [m] along all normals (N, 3) [-]."""
     P = polytope(a.shape)
     Q = polytope(b.shape)
     if P is None or Q is None:
@@ -55,7 +55,7 @@ def pair_and_gaps(
 def polytopes_and_gaps(
     a: Polytope, b: Polytope, pose_a: Pose, pose_b: Pose
 ) -> tuple[Witnesses, tuple[Array, Array]]:
-    """The same of P pairs of polytopes, in the world frame.
+    """Closest points of P pairs of polytopes in the world frame, and gaps along all normals.
 
     Parameters
     ----------

@@ -198,7 +198,7 @@ def _with_twist_joints(model: pin.Model, kinds: dict[str, type[TwistJoint]]) -> 
 
 
 def with_turns(text: str) -> str:
-    """The same URDF, its revolute joints continuous: in q they have a cosine and a sine.
+    """A URDF whose revolute joints are made continuous: in q they have a cosine and a sine.
 
     A joint that mimics another, or is mimicked, stays as it is: it may turn by more than pi.
     """

@@ -86,7 +86,7 @@ def _refutation(
 def _balanced(
     form: ExactForm, working: Sequence[int], lam: list[fmpq], net: list[fmpq]
 ) -> list[fmpq]:
-    """Return lam changed on the working rows, so that A'lam = net if it is inside of its cones.
+    """Lam changed on the working rows, so that A'lam = net if it is inside of its cones.
 
     What else bears load, off the span of these rows, does so where there is no normal force or no
     friction: outside of its cone.

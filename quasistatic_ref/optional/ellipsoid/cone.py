@@ -206,7 +206,7 @@ def cone_violations(mu: Array, slack: Array, lam: Array) -> Violations:
 def _not_exact(
     step: StepData, form: ExactForm, delta_q: Array, active: Active, lam: Array, claims: Certificate
 ) -> tuple[list[fmpq], str]:
-    """Return the rational optimum [m, rad], and what is wrong with the claim of it."""
+    """The rational optimum [m, rad], and what is wrong with the claim of it."""
     rows, solution, refutation = apex(step, form, lam)
     reason = (
         refutation
@@ -220,7 +220,7 @@ def _not_exact(
 def _not_enclosed(
     step: StepData, form: ExactForm, delta_q: Array, active: Active, lam: Array, claims: Certificate
 ) -> tuple[list[fmpq], str]:
-    """Return a point next to the optimum [m, rad], and what is wrong with the claim."""
+    """A point next to the optimum [m, rad], and what is wrong with the claim."""
     pair = checked_pair(step)
     if pair is None:
         return [], "no displacement strictly inside of all cones was found"
@@ -238,7 +238,7 @@ def _not_enclosed(
 def _not_multipliers(
     step: StepData, form: ExactForm, x: Sequence[fmpq], lam: Array, claimed: float | None
 ) -> str:
-    """Return what is wrong with lam: outside of its cones, or not what holds x."""
+    """What is wrong with lam: outside of its cones, or not what holds x."""
     if claimed is None:
         _, pull, _ = cone_violations(step.contacts.mu, np.zeros(form.m), lam)
         allowed = IMPULSES * float(np.abs(lam).max(initial=0.0))

@@ -150,7 +150,7 @@ def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
 
 
 def _at_apex(step: StepData, form: ExactForm, lam: Array) -> Enclosure | None:
-    """Return the rational optimum if every contact that bears load is at its apex."""
+    """The rational optimum if every contact that bears load is at its apex."""
     rows, exact, refutation = apex(step, form, lam)
     if refutation:
         return None
@@ -166,7 +166,7 @@ def _at_apex(step: StepData, form: ExactForm, lam: Array) -> Enclosure | None:
 def _enclosed(
     step: StepData, frame: ScaledBlocks, pair: Pair, states: list[int]
 ) -> Enclosure | None:
-    """Return what a guess proves; None if that is too little."""
+    """What a guess proves; None if that is too little."""
     form = frame.form
     checked_guess = checked(frame, pair)
     if checked_guess is None:
@@ -258,7 +258,7 @@ def checked(frame: ScaledBlocks, pair: Pair) -> Checked | None:
 
 
 def _impulses(step: StepData, frame: ScaledBlocks, pair: Checked, states: list[int]) -> Array:
-    """Return lam in float64, zero where a contact is open, inside of its cones."""
+    """Lam in float64, zero where a contact is open, inside of its cones."""
     lam = np.array([float(v / frame.form.h) for v in pair.y])
     for rows, state in zip(frame.problem.rows, states, strict=True):
         if state == OPEN:

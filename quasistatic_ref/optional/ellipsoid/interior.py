@@ -142,7 +142,7 @@ def interior_point(problem: Blocks, gap: arb) -> Pair | None:
 
 
 def _centrality(s: list[Vector], y: list[Vector]) -> arb:
-    """Return the least complementarity of a block over the mean: 1 on the central path.
+    """The least complementarity of a block over the mean: 1 on the central path.
 
     In the scaling of Nesterov and Todd s_j and y_j are one vector, whose smallest eigenvalue
     l0 - |l1| has l0^2 + |l1|^2 = s'y and l0^2 - |l1|^2 = sqrt(det s det y). Zero outside.
@@ -160,7 +160,7 @@ def _centrality(s: list[Vector], y: list[Vector]) -> arb:
 
 
 def _inside(v: Vector) -> Vector:
-    """Return a point well inside of the cone, near v."""
+    """A point well inside of the cone, near v."""
     return [max(v[0], length(v[1:]) + 1).mid(), *v[1:]]
 
 
@@ -202,14 +202,14 @@ def _det(v: Sequence[arb]) -> arb:
 
 
 def _centred(s: Vector, y: Vector, target: arb) -> Vector:
-    """Return -s + target * y^-1, with y^-1 = J y / det y."""
+    """-s + target * y^-1, with y^-1 = J y / det y."""
     factor = target / _det(y)
     inverse = [y[0], *[-v for v in y[1:]]]
     return [(factor * i - v).mid() for i, v in zip(inverse, s, strict=True)]
 
 
 def _inverse_scaling(s: Vector, y: Vector) -> arb_mat:
-    """Return W^-2 of Nesterov and Todd: symmetric positive definite, with W^-2 s = y."""
+    """W^-2 of Nesterov and Todd: symmetric positive definite, with W^-2 s = y."""
     root_s = _det(s).sqrt().mid()
     root_y = _det(y).sqrt().mid()
     s_bar = [v / root_s for v in s]
@@ -228,7 +228,7 @@ def _inverse_scaling(s: Vector, y: Vector) -> arb_mat:
 
 
 def _softer(weight: arb_mat, give: arb) -> arb_mat:
-    """Return (W^2 + c)^-1 from W^-2, of a block that gives way."""
+    """(W^2 + c)^-1 from W^-2, of a block that gives way."""
     if not give > 0:
         return weight
     k = weight.nrows()
@@ -237,7 +237,7 @@ def _softer(weight: arb_mat, give: arb) -> arb_mat:
 
 
 def _reach(v: Vector, d: Sequence[arb]) -> arb:
-    """Return how far along d the point v stays in the cone; at most a large number."""
+    """How far along d the point v stays in the cone; at most a large number."""
     a = _det(d)
     c = _det(v)
     b = (v[0] * d[0] - _dot(v[1:], d[1:])).mid()

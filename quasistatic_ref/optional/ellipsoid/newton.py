@@ -93,7 +93,7 @@ def newton_pair(problem: Blocks, near: Pair, states: list[int]) -> Pair | None:
 
 
 def _bearing(problem: Blocks, states: list[int]) -> list[int]:
-    """Return the rows whose y are unknown: all of what sticks, the first of what slides."""
+    """The rows whose y are unknown: all of what sticks, the first of what slides."""
     count = {OPEN: 0, SLIDES: 1, STICKS: 4}
     return [
         i for rows, state in zip(problem.rows, states, strict=True) for i in rows[: count[state]]
@@ -103,7 +103,7 @@ def _bearing(problem: Blocks, states: list[int]) -> list[int]:
 def _linearised(
     problem: Blocks, x: arb_mat, f: arb_mat, states: list[int]
 ) -> tuple[arb_mat, arb_mat]:
-    """Return F, where y = F f, and H with the curvature of what slides."""
+    """F, where y = F f, and H with the curvature of what slides."""
     n = problem.H.nrows()
     A = problem.A.entries()
     K = problem.H
@@ -126,7 +126,7 @@ def _linearised(
 
 
 def _inwards(problem: Blocks, pair: Pair, states: list[int]) -> Pair | None:
-    """Return the pair moved inside of all cones: rigid contacts by x, others by their y."""
+    """The pair moved inside of all cones: rigid contacts by x, others by their y."""
     m = problem.A.nrows()
     n = problem.H.nrows()
     A = np.array([float(v) for v in problem.A.entries()]).reshape(m, n)
@@ -154,7 +154,7 @@ def _inwards(problem: Blocks, pair: Pair, states: list[int]) -> Pair | None:
 
 
 def _opening(A: list[Array], n: int) -> Array | None:
-    """Return a displacement, shape (n,), that moves contacts of rows A well inside of their cones.
+    """A displacement, shape (n,), that moves contacts of rows A well inside of their cones.
 
     By alternating projections of A d: to the point (1, 0, 0, 0) and the cone, and to the range.
     """
@@ -175,7 +175,7 @@ def _opening(A: list[Array], n: int) -> Array | None:
 
 
 def _projected(z: Array) -> Array:
-    """Return the point of the cone that is nearest to z."""
+    """The point of the cone that is nearest to z."""
     slip = float(np.linalg.norm(z[1:]))
     if z[0] >= slip:
         return z

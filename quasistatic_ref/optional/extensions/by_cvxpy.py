@@ -197,7 +197,7 @@ def _solved(
 
 
 def _coefficients(expr: cp.Expression, unknowns: tuple[cp.Variable, ...]) -> Array:
-    """Return the matrix of an affine expression, shape (size, n_v)."""
+    """The matrix of an affine expression, shape (size, n_v)."""
     gradient = expr.grad
     size = int(expr.size)
     blocks = []
