@@ -28,6 +28,7 @@ from quasistatic_ref.scenario.scenario_table import (
     pose,
     value,
 )
+from quasistatic_ref.simulate.stiffness import stiffness_block
 from quasistatic_ref.simulate.target import JointTrack, Wrenches
 
 
@@ -167,9 +168,10 @@ def stiffness(system: System, entry: BodyEntry) -> Array:
             raise stiffnesses.error_about(name, problem)
     stiffnesses.only(entry.short(joint) for joint in joints)
     for joint in joints:
-        block = _joint_stiffness(stiffnesses, entry.short(joint), joint)
-        positive_definite(stiffnesses.name(entry.short(joint)), block)
-        K_q[joint.v, joint.v] = block
+        numbers = stiffnesses.take(entry.short(joint))
+        name = stiffnesses.name(entry.short(joint))
+        block = stiffness_block(numbers, name, joint.v.stop - joint.v.start)
+        K_q[joint.v, joint.v] = positive_definite(name, block)
     return K_q
 
 
@@ -223,19 +225,6 @@ def _followers(system: System, entry: BodyEntry) -> dict[str, str]:
         for one in system.mimics
         if one.name.startswith(body)
     }
-
-
-def _joint_stiffness(stiffnesses: TableReader, name: str, joint: Joint) -> Array:
-    n = joint.v.stop - joint.v.start
-    stiffness = stiffnesses.peek(name)
-    if not isinstance(stiffness, list):
-        return stiffnesses.number(name, above=0.0) * np.eye(n)
-    if stiffness and isinstance(stiffness[0], list):
-        return stiffnesses.array(name, (n, n))
-    diagonal = stiffnesses.array(name, (n,))
-    if not (diagonal > 0).all():
-        raise stiffnesses.error_about(name, "must be greater than 0 in every entry", stiffness)
-    return np.diag(diagonal)
 
 
 def _start_angles(body: Body, name: str, joint: Joint) -> Array:

@@ -28,24 +28,31 @@ def stiffness_matrix(system: System, K_q: ArrayLike | Mapping[str, ArrayLike]) -
         definite.
     """
     if not isinstance(K_q, Mapping):
-        return positive_definite("K_q", _block(K_q, "K_q", system.n_a))
+        return positive_definite("K_q", stiffness_block(K_q, "K_q", system.n_a))
     matrix = np.zeros((system.n_a, system.n_a))
     for name, block in K_q.items():
         coordinates = system.named.change(name)
         if (coordinates >= system.n_a).any():
             raise StepDataError("is not actuated", field=f"K_q[{name}]", value=block)
-        matrix[np.ix_(coordinates, coordinates)] = _block(block, f"K_q[{name}]", len(coordinates))
+        part = stiffness_block(block, f"K_q[{name}]", len(coordinates))
+        matrix[np.ix_(coordinates, coordinates)] = part
     for coordinate, stiffness in zip(system.coordinates, np.diag(matrix), strict=False):
         if stiffness == 0:
             raise StepDataError(f"has no stiffness for {coordinate.joint}", field="K_q")
     return positive_definite("K_q", matrix)
 
 
-def _block(numbers: ArrayLike, name: str, n: int) -> Array:
-    """A matrix of shape (n, n) from a number, a diagonal or itself."""
+def stiffness_block(numbers: ArrayLike, name: str, n: int) -> Array:
+    """A matrix of shape (n, n) from a number, a diagonal or itself [N/m, N m/rad].
+
+    Raises
+    ------
+    StepDataError
+        About the field `name`, if it is none of these.
+    """
     values = checked_numbers(numbers, name)
     if values.ndim == 0:
-        return values * np.eye(n)
+        return checked_array(values, name, ()) * np.eye(n)
     if values.ndim == 1 and n != 0:
         return np.diag(checked_array(values, name, (n,)))
     return checked_array(values, name, (n, n))

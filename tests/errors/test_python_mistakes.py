@@ -99,6 +99,7 @@ MISTAKES = {
         (lambda: simulator(h=0), "h: must be a positive number of seconds"),
         (lambda: simulator(K_q=[1, 2, 3]), r"K_q: must have shape \(6,\)"),
         (lambda: simulator(K_q=0), "K_q: must be positive definite"),
+        (lambda: simulator(K_q=np.inf), "K_q: must contain finite numbers only"),
         (lambda: simulator(K_q={"block": 1.0}), r"K_q\[block\]: is not actuated"),
         (lambda: simulator(K_q={"finger/base.x": 1.0}), "has no stiffness for finger/base"),
         (lambda: simulator(gravity=-9.81), r"gravity: must have shape \(3,\)"),
