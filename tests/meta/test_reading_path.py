@@ -1,15 +1,12 @@
 """A run calls functions by the callers that contributing.md names."""
 
-import inspect
 import re
 import sys
 from collections import defaultdict
 from pathlib import Path
-from statistics import median
 
 import quasistatic_ref
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.simulator import Simulator
 
 PACKAGE = Path(quasistatic_ref.__file__).parent
 PAGE = PACKAGE.parent / "docs" / "contributing.md"
@@ -59,29 +56,3 @@ def test_each_function_of_the_tree_is_called_by_the_one_above_it():
     callers = callers_of()
     assert 20 < len(TREE) < 25  # and load_scenario and Scenario.run, which nothing is above
     assert [one for one, caller in TREE.items() if caller not in callers[one]] == []
-
-
-def test_a_plain_step_with_its_proof_makes_at_most_450_calls(monkeypatch):
-    """Median of 60 steps of the grasp; generators, lambdas and comprehensions do not count."""
-    counts = []
-    honest = Simulator.step
-
-    def note(frame, event, _):
-        code = frame.f_code
-        is_function = code.co_filename.startswith(str(PACKAGE)) and code.co_name[0] != "<"
-        if event == "call" and is_function:
-            counts[-1] += not code.co_flags & inspect.CO_GENERATOR
-
-    def step(*arguments):
-        counts.append(0)
-        before = sys.getprofile()
-        sys.setprofile(note)
-        try:
-            return honest(*arguments)
-        finally:
-            sys.setprofile(before)
-
-    monkeypatch.setattr(Simulator, "step", step)
-    load_scenario("bunny_grasp", steps=60).run(progress=False)
-    assert len(counts) == 60
-    assert 300 < median(counts) <= 450
