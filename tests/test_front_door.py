@@ -96,7 +96,7 @@ qr.solve_stepp  # type: ignore[attr-defined]  # misspelt: mypy has to see it
 def run(*arguments):
     command = [sys.executable, *arguments]
     return subprocess.run(
-        command, capture_output=True, text=True, timeout=120, cwd=PACKAGE.parent, check=False
+        command, capture_output=True, text=True, timeout=600, cwd=PACKAGE.parent, check=False
     )
 
 

@@ -102,7 +102,7 @@ def printed_text(*lines):
     command = [sys.executable, "-W", "error", "-c", "\n".join(lines)]
     root = str(PACKAGE.parent)
     done = subprocess.run(
-        command, capture_output=True, text=True, timeout=60, cwd=root, check=False
+        command, capture_output=True, text=True, timeout=600, cwd=root, check=False
     )
     assert done.returncode == 0, done.stderr
     return done.stdout.strip()
