@@ -25,6 +25,7 @@ from docs.drawings import (
     friction_and_slip,
     grasp_map,
     limit_surface_and_twist,
+    many_bodies,
     mass_of_a_free_body,
     metres,
     phi_and_j_of_a_cloud,
@@ -45,7 +46,8 @@ from validation.tools.scripts import RESULTS, script_options
 Record = Mapping[str, Any]
 DRAWN = (
     both_laws, cone_and_dual, cone_surfaces, contact_geometry, corner_loads, four_laws,
-    free_body, friction_and_slip, grasp_map, limit_surface_and_twist, mass_of_a_free_body, metres,
+    free_body, friction_and_slip, grasp_map, limit_surface_and_twist, many_bodies,
+    mass_of_a_free_body, metres,
     phi_and_j_of_a_cloud, plan_a_push, sliding_block, the_program, turn_and_step,
     two_moving_bodies, what_smoothing_does, where_no_gradient_is, wrenches_of_a_grip,
 )  # fmt: skip
