@@ -147,7 +147,7 @@ static int is_unit(const double *part, int n)
     return fabs(square - 1) < 1e-10;
 }
 
-/* model/angles, `angle_of`; 0 if it is in doubt. A zero has no sign. */
+/* numbers/angles, `angle_of`; 0 if it is in doubt. A zero has no sign. */
 static int angle_of(double y, double x, double *angle)
 {
     return nearest(atan2l(y + 0.0, x), angle);

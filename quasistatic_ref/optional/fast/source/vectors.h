@@ -1,4 +1,4 @@
-/* Vectors of three numbers, and poses [R, t] (3 x 4). Sums of products are those of step/ordered: over
+/* Vectors of three numbers, and poses [R, t] (3 x 4). Sums of products are those of numbers/ordered: over
    rising indices, from the first, each product and each sum rounded. */
 
 #include <float.h>
