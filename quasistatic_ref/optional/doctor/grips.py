@@ -6,6 +6,7 @@ import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
+from quasistatic_ref.optional.doctor.looks import SLOW
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import table
 from quasistatic_ref.optional.doctor.telling import amount, length
@@ -42,11 +43,13 @@ def lost(run: Run) -> Iterator[Finding]:
             continue
         scores = (slips / run.sizes / SLIPPED + turns / TURNED).max(axis=1)
         k = int(scores.argmax())
-        lacks = run.looking.alone(k, body, body.contacts & driven)
+        look = run.looking.alone(k, body, body.contacts & driven)
+        lacks = look.missing[SLOW].get(body.name)
         agrees = lacks is not None and _agreement(run, body, k, on[k], lacks) > AGREES
         if not agrees and (run.presses[k] & body.contacts & ~driven).any():
             continue  # it is stroked, and others bear it
-        yield _finding(run, body, k, on[k], lacks, slips, turns)
+        forces = look.laws[SLOW].forces if look.knows(SLOW, on[k]) else run["wrench"][k]
+        yield _finding(run, body, k, on[k], forces[:, 2], lacks, slips, turns)
 
 
 def _closed(n: Array) -> bool:
@@ -78,7 +81,14 @@ def _agreement(run: Run, body: Body, k: int, on: Mask, lacks: Missing) -> float:
 
 
 def _finding(
-    run: Run, body: Body, k: int, on: Mask, lacks: Missing | None, slips: Array, turns: Array
+    run: Run,
+    body: Body,
+    k: int,
+    on: Mask,
+    normal: Array,
+    lacks: Missing | None,
+    slips: Array,
+    turns: Array,
 ) -> Finding:
     pairs = sorted({int(i) for i in run.pair_of[on]})
     tables = " and ".join(sorted({table(run, run.pairs[i]) for i in pairs}))
@@ -91,7 +101,7 @@ def _finding(
     )
     way = float(slips.sum(axis=0).max())
     turn = float(turns.sum(axis=0).max())
-    pressed = float(run["wrench"][k, on, 2].sum())
+    pressed = float(normal[on].sum())
     says = f"the grip presses with {pressed:.3g} N in all, "
     more = "" if lacks is None else f", and {lacks} are missing"
     slipped = way > SLIPPED * float(run.sizes[on].min())
@@ -100,11 +110,11 @@ def _finding(
         remedy = f"raise mu_omega of {tables}{rows}, or hold {body.name} nearer to its centre of "
         remedy += "mass"
         does = f"turns by {amount(turn, 'rad')} in {holders} and slips by {length(way)}"
-        says += f"mu_omega bears {float(run['wrench'][k, on, 2] @ run.mu[on, 2]):.3g} N m"
+        says += f"mu_omega bears {float(normal[on] @ run.mu[on, 2]):.3g} N m"
     else:
         remedy = f"raise mu_v of {tables}, or K_q of what closes it or how far it closes"
         does = f"slips by {length(way)} along {holders}"
-        says += f"its friction bears {float(run['wrench'][k, on, 2] @ run.mu[on, 0]):.3g} N"
+        says += f"its friction bears {float(normal[on] @ run.mu[on, 0]):.3g} N"
     return Finding(
         "lost grip",
         True,

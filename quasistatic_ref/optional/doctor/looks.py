@@ -161,13 +161,13 @@ class Looking:
         self._solve(look, step, names, corners)
         return look
 
-    def alone(self, k: int, body: Body, contacts: Mask) -> Missing | None:
-        """What a body lacks in step k if it had some of its contacts alone; None if nothing."""
+    def alone(self, k: int, body: Body, contacts: Mask) -> Look:
+        """Step k as if a body had some of its contacts alone."""
         step = self.run.posed(k)
         live = contacts & self.run.presses[k]
         look = Look(k, step, {}, live, np.zeros_like(live))
         self._solve(look, step, {body.name}, False)
-        return look.missing[SLOW].get(body.name)
+        return look
 
     def _solve(self, look: Look, whole: StepData, names: set[str], corners: bool) -> None:
         run = self.run

@@ -47,9 +47,11 @@ STICKS = 1e-9
 """Slip that is none, over the size of the smaller shape [-], or spin [rad]."""
 CLOSE = {"floats": 1e-9, "proved": 1e-10, "round": 1e-6}
 """Residual of s over the longest motion of a contact, by how answers are found [-]."""
+NEARLY = 1e-4
+"""Residual of s over the largest, from which on proved answers take it on [-]."""
 NOISE = 1e-12
 """Slip that floats leave where a contact sticks [m]."""
-MOST = {"floats": 20, "proved": 8, "round": 40}
+MOST = {"floats": 60, "proved": 8, "round": 40}
 """Their iterates after which no fixed point is expected."""
 AGREES = 0.01
 """Change of r that is none, where no T beyond it has a fixed point [-]."""
@@ -203,7 +205,7 @@ def by_coulomb(
         limit = CLOSE[kind] * longest if proved else max(CLOSE[kind] * longest, NOISE)
         return Iterate(s, slip, residual, bool(residual <= limit), answer)
 
-    found, _ = fixed_point(at, start, most or MOST[kind])
+    found, _ = fixed_point(at, start, most or MOST[kind], leaps=True)
     return found
 
 
@@ -257,7 +259,8 @@ def rung(step: StepData, T: float, solvers: Solvers, sizes: Array, start: Array)
     The iteration starts at start [m], and shapes have sizes [m], each of shape (n_c,).
     """
     at = by_coulomb(step.replace(h=T), solvers, start, proved=False)
-    if not at.converged and cone(step.cone).polyhedral:
+    nearly = at.residual <= NEARLY * at.s.max(initial=0.0)
+    if nearly and not at.converged and cone(step.cone).polyhedral:
         at = by_coulomb(step.replace(h=T), solvers, at.image, proved=True)
     return _rung(step, T, sizes, at)
 
@@ -344,6 +347,8 @@ def _confirmed(
         if not _sticks(one, sizes):
             at = by_coulomb(step.replace(h=one.T), solvers, one.s, proved=True)
             if not at.converged:
+                if lost:
+                    break
                 lost = True
                 continue
             one = Rung(one.T, at.of, at.image, _moves(step, at.of.delta_q, sizes))

@@ -90,7 +90,7 @@ def beyond_effort(run: Run) -> Iterator[Finding]:
         remedy = f"lower K_q of {joint.name} to {softer:.3g} {unit}/{did.unit}, move its target "
         remedy += "nearer, or correct its effort in the URDF"
         why = ""
-        if (bears := _bears(run, joint, k)) > joint.effort:
+        if (bears := _bears(run, joint, k)) > max(joint.effort, did.spring[k] / 2):
             needed = f"{rounded_up(bears):.3g} {unit} or more"
             remedy = f"carry less by {joint.name}, or correct its effort in the URDF to {needed}"
             why = "; no K_q changes what it bears"
