@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
-from quasistatic_ref.optional.doctor.looks import SLOW
+from quasistatic_ref.optional.doctor.looks import COULOMB, SLOW
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import table
 from quasistatic_ref.optional.doctor.telling import amount, length
@@ -48,7 +48,8 @@ def lost(run: Run) -> Iterator[Finding]:
         agrees = lacks is not None and _agreement(run, body, k, on[k], lacks) > AGREES
         if not agrees and (run.presses[k] & body.contacts & ~driven).any():
             continue  # it is stroked, and others bear it
-        forces = look.laws[SLOW].forces if look.knows(SLOW, on[k]) else run["wrench"][k]
+        known = look.knows(COULOMB, on[k])  # what the layer adds is none of the grip
+        forces = look.laws[COULOMB].forces if known else run["wrench"][k]
         yield _finding(run, body, k, on[k], forces[:, 2], lacks, slips, turns)
 
 
