@@ -323,7 +323,7 @@ class Minimiser:
         with working_precision(EXACT):
             differences = (exact_matrix(guess) * every).tolist()
         of_guess = compress(some, near.tolist())
-        proved = {i for i, d in zip(of_guess, differences, strict=True) if _vanishes(d)}
+        proved = {*compress(of_guess, _vanish(differences))}
         return [i for i in some if i not in proved]
 
     def implied(self, some: Sequence[int]) -> list[int]:
@@ -336,8 +336,8 @@ class Minimiser:
         if doubtful:
             with working_precision(EXACT):
                 values = self.form.values(doubtful, arb_mat(self.null_space))
-        no = {i for i, row in zip(doubtful, values, strict=True) if not _vanishes(row)}
-        return sorted({*some} - no)
+        combined = {*compress(doubtful, _vanish(values))}
+        return sorted({*some} - ({*doubtful} - combined))
 
     @cached_property
     def doubtful_rows(self) -> list[int]:
@@ -485,8 +485,9 @@ def _chosen(where: Sequence[bool], here: Sequence[arb], elsewhere: Sequence[arb]
     return [a if first else b for first, a, b in zip(where, here, elsewhere, strict=True)]
 
 
-def _vanishes(numbers: Iterable[arb]) -> bool:
-    return all(v.is_zero() for v in numbers)
+def _vanish(rows: Iterable[Iterable[arb]]) -> list[bool]:
+    """Of each row, whether all of its numbers are zero."""
+    return [all(v.is_zero() for v in row) for row in rows]
 
 
 def _sign(number: arb) -> int:

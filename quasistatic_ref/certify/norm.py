@@ -175,7 +175,7 @@ def single_lengths(parts: Iterable[StepData]) -> list[float]:
         [(N m s)^0.5].
     """
     every = [
-        [energy_norm(part.H).of_impulse(p) for p in (*single_loads(part), linear_term(part))]
+        [*map(energy_norm(part.H).of_impulse, (*single_loads(part), linear_term(part)))]
         for part in parts
     ]
     return [math.hypot(*lengths) for lengths in zip(*every, strict=True)]

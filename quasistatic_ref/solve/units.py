@@ -22,7 +22,7 @@ import numpy as np
 from quasistatic_ref.certify.curved_cone import judge_of
 from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.norm import energy_norm, single_lengths
-from quasistatic_ref.certify.residuals import Residuals, largest, optimality_residuals
+from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, Mask, finite, read_only
@@ -401,7 +401,7 @@ class StepInBothUnits:
             for (group, part), form in zip(self.parts, self.natural_forms, strict=True)
         ]
         worst = np.array([[*vars(residuals).values()] for residuals in each])
-        residuals = Residuals(*map(largest, worst.T))
+        residuals = Residuals(*worst.max(axis=0).tolist())
         if not self.si_step.n_v:
             return residuals
         length = max(single_lengths(part for _, part in self.parts)[:-1])
