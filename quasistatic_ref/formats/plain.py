@@ -11,11 +11,11 @@ import numpy as np
 class Plain:
     """What a frozen dataclass inherits to be plain data.
 
-    Two objects are equal if one class declares their fields and these hold the same bits. NaN
-    is then NaN, and -0.0 is 0.0, as which it is written everywhere. Fields of
-    ``compare=False``, such as wall times, do not count. The hash is one of the content. A copy,
-    also one through a pickle, has the fields as they were: nothing is computed, and an array
-    that could not be written still cannot.
+    Two objects are equal if they are of one class and their fields hold the same bits. NaN is then
+    NaN, and -0.0 is 0.0, as which it is written everywhere. Fields of ``compare=False``, such as
+    wall times, do not count. The hash is one of the content. A copy, also one through a pickle, has
+    the fields as they were: nothing is computed, and an array that could not be written still
+    cannot.
     """
 
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
@@ -26,9 +26,9 @@ class Plain:
         return bool(bits(self) == bits(other))
 
     @classmethod
-    def declared(cls) -> type:
-        """The class that declares its fields; a class made of it only forms some of them later."""
-        return next(kind for kind in cls.__mro__ if "__dataclass_fields__" in vars(kind))
+    def compared_as(cls) -> type:
+        """The class whose object it equals: its own, unless it forms fields of another one late."""
+        return cls
 
     @classmethod
     def kept(cls) -> tuple[str, ...]:
@@ -75,7 +75,7 @@ def bits(value: Any) -> Any:
         return type(value), value
     if isinstance(value, Plain):
         compared = [f.name for f in fields(value) if f.compare]
-        return type(value).declared(), tuple(bits(getattr(value, name)) for name in compared)
+        return type(value).compared_as(), tuple(bits(getattr(value, name)) for name in compared)
     if isinstance(value, np.ndarray):
         numbers = value + 0.0 if value.dtype.kind == "f" else value
         return value.dtype.str, value.shape, numbers.tobytes()

@@ -48,6 +48,11 @@ class JoinedContacts(Contacts):
         return Contacts(**fields) if fields else super().__new__(cls)
 
     @classmethod
+    def compared_as(cls) -> type:
+        """The class Contacts, whose fields it forms."""
+        return Contacts
+
+    @classmethod
     def kept(cls) -> tuple[str, ...]:
         """As of Contacts, without J."""
         fields = (name for name in super().kept() if name != "J")
@@ -127,6 +132,11 @@ class JoinedStep(StepData):
     def __new__(cls, *_: object, **fields: Any) -> Any:
         """A StepData as any other where all fields are given."""
         return StepData(**fields) if fields else super().__new__(cls)
+
+    @classmethod
+    def compared_as(cls) -> type:
+        """The class StepData, whose fields it forms."""
+        return StepData
 
     @classmethod
     def kept(cls) -> tuple[str, ...]:
