@@ -235,7 +235,7 @@ class FastSimulator(Simulator):
             steps = self._steps
             self.solver = solver = FastSolver(steps.template, parts=steps.groups)
             self._natural = natural = NaturalProgram(steps, solver.program)
-        natural.take(self._steps.masses)
+        without_warnings(natural.take, self._steps.masses)
         both = FormedStep(step, natural.blocks, natural.program)
         units = natural.units()
         both.units = without_warnings(lambda: both.units) if units is None else units

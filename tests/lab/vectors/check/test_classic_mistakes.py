@@ -197,7 +197,7 @@ MISTAKES = {
     "q_bar (-) q the long way": [
         ("step", "g", targets_as_they_are({kind})) for kind in ("continuous", "planar", "floating")
     ],
-    "another compliance by default": [("step", "forces", step_with("COMPLIANCE", 1e-8, forces))],
+    "the compliance of a run": [("step", "forces", step_with("COMPLIANCE", 1e-8, forces))],
     "gaps ranked in another unit": [
         ("step", "contacts.index", ranked(np.rint, of=max)),
         ("step", "contacts.index", ranked(np.rint, unit=1e-8)),
@@ -232,7 +232,7 @@ PROGRAMS = [one for each in MISTAKES.values() for one in each]
 
 
 IN_FILES_ALONE = {
-    "another compliance by default",
+    "the compliance of a run",
     "gaps ranked in another unit",
     "gaps rounded another way",
     "another angle between normals",
