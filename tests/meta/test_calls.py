@@ -13,7 +13,7 @@ from quasistatic_ref.simulate.simulator import Simulator
 
 PACKAGE = str(Path(quasistatic_ref.__file__).parent)
 CALLS = 450
-KINDS = 20  # with a clock, and what a with block begins and ends
+KINDS = 20, 23  # with a clock and a with block; the last three in few of the 300 steps
 MAKERS = {"__init__", "<lambda>", "unchecked"}  # a lambda makes what inherits from NamedTuple
 
 
@@ -28,9 +28,10 @@ def made(frame):
 
 
 @pytest.mark.parametrize(
-    ("steps", "apart"), [(31, 10), pytest.param(300, 1, marks=pytest.mark.long)]
+    ("steps", "apart", "most"),
+    [(31, 10, KINDS[0]), pytest.param(300, 1, KINDS[1], marks=pytest.mark.long)],
 )
-def test_a_step_makes_few_calls_and_few_kinds_of_objects(steps, apart, monkeypatch):
+def test_a_step_makes_few_calls_and_few_kinds_of_objects(steps, apart, most, monkeypatch):
     """Calls of the package's functions, generators and lambdas apart, in the median step."""
     plain = Simulator.step
     calls, kinds = [], set()
@@ -55,4 +56,4 @@ def test_a_step_makes_few_calls_and_few_kinds_of_objects(steps, apart, monkeypat
     monkeypatch.setattr(Simulator, "step", traced)
     load_scenario("bunny_grasp", steps=steps).run(progress=False)
     assert statistics.median(filter(None, calls)) <= CALLS
-    assert len(kinds) <= KINDS, sorted(kind.__name__ for kind in kinds)
+    assert len(kinds) <= most, sorted(kind.__name__ for kind in kinds)
