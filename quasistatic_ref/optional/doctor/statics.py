@@ -3,7 +3,7 @@
 All of them compare one step by four laws (:mod:`~quasistatic_ref.optional.doctor.slowly`).
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -193,12 +193,7 @@ def _corner(cause: str, numbers: dict[str, float]) -> Finding:
 
 def drag(run: Run) -> Iterator[Finding]:
     """The pair whose forces, or whose sticking, drag changes most."""
-    every = statics(run)
-    best: Change | None = None
-    for look in every.looks:
-        for change in _changes(every, look, RUN, SLOW):
-            if change.of_drag and (best is None or change.share > best.share):
-                best = change
+    best = _largest(run, SLOW, lambda change: change.of_drag)
     if best is None:
         return
     pair = best.pair.name
@@ -216,12 +211,7 @@ def drag(run: Run) -> Iterator[Finding]:
 
 def layer(run: Run) -> Iterator[Finding]:
     """The pair whose forces, or whose sticking, the boundary layer changes most."""
-    every = statics(run)
-    best: Change | None = None
-    for look in every.looks:
-        for change in _changes(every, look, RUN, COULOMB):
-            if change.of_layer and (best is None or change.share > best.share):
-                best = change
+    best = _largest(run, COULOMB, lambda change: change.of_layer)
     if best is None:
         return
     look = best.look
@@ -322,6 +312,13 @@ class Change(NamedTuple):
             f"{words[self.what]} {self.here[self.what]:.3g} {unit}, {where} "
             f"{self.there[self.what]:.3g} {unit}"
         )
+
+
+def _largest(run: Run, other: str, counts: Callable[[Change], bool]) -> Change | None:
+    """The change of largest share, from the run to another law, of those that count."""
+    every = statics(run)
+    changes = (change for look in every.looks for change in _changes(every, look, RUN, other))
+    return max(filter(counts, changes), key=lambda change: change.share, default=None)
 
 
 def _changes(every: Statics, look: Look, one: str, other: str) -> Iterator[Change]:
