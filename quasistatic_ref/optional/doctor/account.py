@@ -42,6 +42,9 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.friction import slip_norm
 from quasistatic_ref.tolerances import NEAR, SLIDES, SPINS, TOUCHES
 
+SMALL = 1e-6
+"""Angle of a rotation whose axis is rounding [rad]."""
+
 
 def scene_notes(recorder: Recording) -> dict[str, Any]:
     """Names and constants that the arrays of a trajectory do not hold.
@@ -183,12 +186,27 @@ def _first_joint(positions: list[str], actuated: bool) -> Joint:
     raise InputError("is no entry of a base or joint", field="positions", value=positions[0])
 
 
-def _angle(joint: Joint, q: Array, q_0: Array) -> Array:
-    """Angle from q_0 to q, both of shape (n, n_q) [rad]; 0 of a joint that only slides."""
+def _turns(joint: Joint, q: Array, q_0: Array) -> Array:
+    """Rotation vectors from q_0 to q, (n, n_q) each, shape (n, ...) [rad]; of a slide no entries."""
     here = q_0[:, joint.q].tolist()
     there = q[:, joint.q].tolist()
     turns = [joint.change(*ends)[joint.lengths :] for ends in zip(here, there, strict=True)]
-    return np.asarray(np.linalg.norm(np.array(turns), axis=1))
+    return np.array(turns)
+
+
+def _turned(turns: Array) -> Array:
+    """Angles of rotation vectors, (n, ...), of which each is within half a turn of the last [rad].
+
+    Those of rotations are half a turn at most: whole turns about the same axis are added.
+    """
+    turned = [turns[0]]
+    for turn in turns[1:]:
+        angle = np.linalg.norm(turn)
+        along = turn if angle > SMALL else turned[-1]
+        axis = along / (np.linalg.norm(along) or 1.0)
+        more = np.round((turned[-1] @ axis - angle) / (2 * np.pi))
+        turned.append(turn + 2 * np.pi * more * axis)
+    return np.asarray(np.linalg.norm(turned, axis=1))
 
 
 def pair_accounts(
@@ -364,14 +382,15 @@ def _motion(joint: Joint, q: Array, hands: Sequence[Joint]) -> Motion:
     turned_in = {
         hand.name.removesuffix("/base"): _angle_in(joint, hand, q) for hand in hands if joint.free
     }
-    return Motion(joint, moved, _angle(joint, q, np.broadcast_to(q[0], q.shape)), turned_in)
+    turned = _turned(_turns(joint, q, np.broadcast_to(q[0], q.shape)))
+    return Motion(joint, moved, turned, turned_in)
 
 
 def _angle_in(body: Joint, hand: Joint, q: Array) -> Array:
     """Angle [rad] by which a free body has turned in the frame of a free hand since the start."""
     of_body, of_hand = (Rotation.from_quat(q[:, one.q][:, one.lengths :]) for one in (body, hand))
     seen = of_hand.inv() * of_body
-    return np.asarray((seen * seen[0].inv()).magnitude())
+    return _turned((seen * seen[0].inv()).as_rotvec())
 
 
 def _stops(run: Trajectory, joints: set[str]) -> Iterator[Stop]:
@@ -398,5 +417,5 @@ def drive(joint: Joint, run: Trajectory, K: Array) -> Drive:
 def _distance(joint: Joint, q: Array, target: Array) -> Array:
     """From q to a target, both of shape (n, n_q_a) [m]; of a joint that only turns [rad]."""
     if not joint.lengths:
-        return _angle(joint, q, target)
+        return np.asarray(np.linalg.norm(_turns(joint, q, target), axis=1))
     return np.asarray(np.linalg.norm((q - target)[:, joint.q][:, : joint.lengths], axis=1))

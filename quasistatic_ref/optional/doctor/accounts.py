@@ -85,7 +85,7 @@ class Motion(Plain):
     moved : ndarray, shape (steps + 1, 3)
         From the start, along the world's axes [m]; of a prismatic joint its position, along x.
     turned : ndarray, shape (steps + 1,)
-        From the start [rad].
+        From the start, whole turns counted [rad].
     turned_in : dict of str to ndarray, shape (steps + 1,)
         The same of a free body as each driven base that moves freely sees it, such as a hand [rad].
     """

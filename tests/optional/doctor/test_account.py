@@ -182,3 +182,11 @@ def test_a_body_rises_against_gravity():
     box = {"box": free(block(1.0, (0.1, 0.1, 0.1)), (0, 0, 1), (-10, 0, 0))}
     run = scene(box, {"floor": ("floor", "box", 0.5, 4)}, 5, gravity=[4, 0, 0]).run(progress=False)
     assert run.account().numbers["bodies"]["box"]["largest_rise_mm"] == pytest.approx(3.0)
+
+
+def test_a_body_that_turns_on_has_turned_by_more_than_half_a_turn():
+    """I = m a^2 / 6, so that a torque of 40 I / h^2 degrees turns it by 40 degrees a step."""
+    torque = np.radians(40) * 0.1**2 / 6 / 0.01**2
+    box = {"box": free(block(1.0, (0.1, 0.1, 0.1)), (0, 0, 1), torque=(0, torque, 0))}
+    run = scene(box, {"floor": ("floor", "box", 0.5, 4)}, 10, gravity=[0, 0, 0]).run(progress=False)
+    assert run.account().numbers["bodies"]["box"]["largest_rotation_deg"] == pytest.approx(400)
