@@ -21,6 +21,9 @@ EARTH = 9.80665
 """Unit of acceleration in a sentence [m/s^2]."""
 COUNTS = 0.1
 """Part of an amount from which on it is said [-]."""
+NOTHING = 1e-4
+"""Part of the first kinetic energy [-] that is none: a torque of a hundredth of the force times the
+radius of gyration, which is how right r is."""
 
 
 class Missing(NamedTuple):
@@ -38,8 +41,6 @@ class Missing(NamedTuple):
         Acceleration with which it would start [m/s^2, rad/s^2].
     r : ndarray
         What would have to be added, along its coordinates [N, N m].
-    k : int
-        The step.
     turning : float
         Part of its first kinetic energy that is in turning [-].
     """
@@ -50,7 +51,6 @@ class Missing(NamedTuple):
     slides: float
     turns: float
     r: Array
-    k: int
     turning: float
 
     def __str__(self) -> str:
@@ -110,29 +110,23 @@ class Body:
         """Its block of M_u, shape (n_u, n_u); n_a coordinates come before."""
         return np.asarray(M_u[np.ix_(self.coordinates - n_a, self.coordinates - n_a)])
 
-    def missing(self, r: Array, step: StepData, k: int) -> Missing:
+    def missing(self, r: Array, step: StepData) -> Missing:
         """What is missing, from r along its coordinates [N, N m]."""
         M = self.inertia(step.M_u, step.n_a)
         force, torque = r[self.lengths], r[~self.lengths]
         start = np.linalg.solve(M, r)
         slides, turns = start[self.lengths], start[~self.lengths]
-        turning = float(torque @ turns)
         if self.free:
             S = M[3:6, :3] / M[0, 0]  # [c]x, of the centre of mass
             torque = torque - S @ force
             slides = force / M[0, 0]
-            turning = float(torque @ turns)
-        whole = float(r @ start)
-        return Missing(
-            float(self.amount(M, r)),
-            float(np.linalg.norm(force)),
-            float(np.linalg.norm(torque)),
-            float(np.linalg.norm(slides)),
-            float(np.linalg.norm(turns)),
-            r,
-            k,
-            turning / whole if whole > 0 else 0.0,
-        )
+        whole = float(r @ start) or 1.0
+        turning = float(torque @ turns) / whole
+        forces = np.linalg.norm([force, slides], axis=1) * (abs(1 - turning) > NOTHING)
+        torques = np.linalg.norm([torque, turns], axis=1) * (abs(turning) > NOTHING)
+        (force, slides), (torque, turns) = forces.tolist(), torques.tolist()
+        amount = float(self.amount(M, r))
+        return Missing(amount, force, torque, slides, turns, r, turning)
 
     def moves(self, q: Array) -> tuple[float, float]:
         """How far it gets from where q, (n, n_q), starts: [m] and [rad]."""

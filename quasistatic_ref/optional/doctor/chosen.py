@@ -142,12 +142,12 @@ def looked(run: Run) -> int:
     seen: set[tuple[str, int]] = set()
     known: set[str] = set()
     every = asked(run)
+    far = {body.name for body in run.bodies_of if run.gets_far(body)}
     corners = {one.k for one in every if one.corners}
     for one in every:
         if (one.name, one.k) in seen:
             continue
-        must = one.name not in known and run.gets_far(one.name)
-        if run.looking.solvers.proved >= PROVED and not must:
+        if run.looking.solvers.proved >= PROVED and one.name not in far - known:
             left += 1
             continue
         look = run.looking.at(one.k, {one.name}, one.k in corners)

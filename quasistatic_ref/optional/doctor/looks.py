@@ -209,16 +209,18 @@ class Looking:
         sizes = run.sizes[at]
         nothing = np.zeros(len(at))
         first = slowly.rung(part, part.h, self.solvers, sizes, nothing)
-        if first is not None:
-            self._note(look, COULOMB, part, first.answer, at)
         climbed = slowly.climb(part, self.solvers, sizes, first)
         if climbed.open:
             look.lost |= {b.name for b in bodies}
             return
         look.bodies |= {b.name for b in bodies}
         last = climbed.rungs[-1]
-        self._note(look, SLOW, part, last.answer, at)
         self._missing(look, SLOW, part, climbed, coordinates, at, bodies)
+        if last.answer.creeps or (first is not None and first.answer.creeps):
+            return
+        self._note(look, SLOW, part, last.answer, at)
+        if first is not None:
+            self._note(look, COULOMB, part, first.answer, at)
         layer = first is not None and RUN in look.laws and self._differs(look, at)
         if layer:
             model = self.solvers(part.replace(h=last.T), proved=False)
@@ -275,7 +277,7 @@ class Looking:
             r = np.zeros(len(here))
             places = np.searchsorted(of_u, body.coordinates[here])
             r[here] = slowly.missing(part, climbed, places)
-            lacks = body.missing(r, look.step, look.k)
+            lacks = body.missing(r, look.step)
             if body.free and not body.contacts[at].any():
                 continue  # it falls freely, which is said elsewhere
             if lacks.amount > slowly.LITTLE * self.run.load(body, look.k):

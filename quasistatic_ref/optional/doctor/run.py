@@ -163,13 +163,10 @@ class Run(Start):
         steps = np.unique(np.linspace(first, self.steps, SAMPLED).round().astype(int))
         return body.moves(self["q"][steps])
 
-    def gets_far(self, name: str) -> bool:
-        """Whether a body moves by more than a tenth of its size, or 0.1 rad."""
-        for body in self.bodies_of:
-            if body.name == name:
-                length, angle = self.way(body)
-                return length > FAR * body.size or angle > FAR
-        return False
+    def gets_far(self, body: Body, first: int = 0) -> bool:
+        """Whether a body moves by more than a tenth of its size, or 0.1 rad, from a step on."""
+        length, angle = self.way(body, first)
+        return length > FAR * body.size or angle > FAR
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]

@@ -29,6 +29,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.numbers.fixed_point import Iterate, fixed_point
+from quasistatic_ref.optional.doctor.artifacts import gives
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
@@ -47,6 +48,11 @@ STICKS = 1e-9
 """Slip that is none, over the size of the smaller shape [-], or spin [rad]."""
 CLOSE = {"floats": 1e-9, "proved": 1e-10, "round": 1e-6}
 """Residual of s over the longest motion of a contact, by how answers are found [-]."""
+CREEPS = 1e-5, 1e-3
+"""The same of a proved answer whose s creeps on, and what the stiffest spring then adds to the
+largest force [-]. It is that of a scene whose gaps are off by the residual, a millionth of a shape
+at most, so that loads are balanced in both or in neither. Forces may be one of many: where what is
+pushed sticks to what pushes it, its friction may be any, and more or less load slides."""
 NEARLY = 1e-4
 """Residual of s over the largest, from which on proved answers take it on [-]."""
 NOISE = 1e-12
@@ -69,10 +75,13 @@ class Answer(NamedTuple):
     delta_q : ndarray, shape (n_v,)
     forces : ndarray, shape (n_c, 4)
         Along d1, d2 and n, and about n [N, N m].
+    creeps : bool
+        Whether these are one of many.
     """
 
     delta_q: Array
     forces: Array
+    creeps: bool = False
 
 
 class Solvers:
@@ -195,15 +204,25 @@ def by_coulomb(
     kind = "proved" if proved else "floats"
     if not cone(step.cone).polyhedral:
         kind = "round"
+    soft = gives(step)
+    stiffness = (1 / soft[soft > 0]).max(initial=0.0)
+
+    before = np.inf
 
     def at(s: Array) -> Iterate[Answer]:
+        nonlocal before
         answer = solvers(_raised(step, s), proved=proved, tangents=tangents)
         slip = slip_of(step, answer.delta_q)
         moves = J @ np.abs(answer.delta_q)
         longest = (mu[:, 0] * moves[:, :3].sum(axis=1) + mu[:, 2] * moves[:, 3]).max(initial=0.0)
         residual = np.abs(slip - s).max(initial=0.0)
         limit = CLOSE[kind] * longest if proved else max(CLOSE[kind] * longest, NOISE)
-        return Iterate(s, slip, residual, bool(residual <= limit), answer)
+        presses = answer.forces[:, 2].max(initial=0.0)
+        slight = residual <= CREEPS[0] * longest and stiffness * residual <= CREEPS[1] * presses
+        creeps = bool(proved and residual > limit and slight and residual > before / 2)
+        before = residual
+        converged = creeps or bool(residual <= limit)
+        return Iterate(s, slip, residual, converged, answer._replace(creeps=creeps))
 
     found, _ = fixed_point(at, start, most or MOST[kind], leaps=True)
     return found

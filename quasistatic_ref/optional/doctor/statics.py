@@ -24,7 +24,8 @@ DISTANCE = "the step shows where to, not how far"
 STILL = 0.01
 """What a body that lies still drags, over its own load [-]."""
 SLID = 0.01
-"""Slip over the smaller shape, or spin [rad], in a run, from which it counts [-]."""
+"""Slip over the smaller shape, or spin [rad], of a run, or of as many steps like the one that is
+looked at, from which it counts [-]."""
 QUANTITIES = ("normal", "friction", "torque")
 
 
@@ -78,9 +79,9 @@ class Statics:
             self._rests[body.name] = still
         return self._rests[body.name]
 
-    def settles(self, body: Body) -> bool:
-        """Whether a body moves little in the run, and lies still at its end."""
-        return self.rests(body) and not self.run.gets_far(body.name)
+    def settles(self, body: Body, first: int = 0) -> bool:
+        """Whether a body moves little from a step on, and lies still at the end of the run."""
+        return self.rests(body) and not self.run.gets_far(body, first)
 
 
 def statics(run: Run) -> Statics:
@@ -363,7 +364,7 @@ def _changes(every: Statics, look: Look, one: str, other: str) -> Iterator[Chang
         share = shares[what]
         slips = [_slips(run, look, law, of_pair) for law in (one, other)]
         stops = _stops(run, look, pair, of_pair, slips, other)
-        settles = near and all(every.settles(body) for body in near)
+        settles = near and all(every.settles(body, look.k) for body in near)
         of_drag, of_layer, drags, layers = _parts(run, look, of_pair, what, sizes[what], stops)
         moves = bool(run.targets_move[look.k])
         of_drag &= moves
@@ -444,8 +445,8 @@ def _stops(
     far = (way[:, :2] > SLID * run.sizes[of_pair][:, None]).any(), (way[:, 2] > SLID).any()
     rubs = pair.mu_v > 0, pair.rows == 6 and pair.mu_omega > 0
     (slip, spin), (slip_there, spin_there) = slips
-    slides = slip > 1e-6 * pair_size(run, of_pair) and slip_there < COUNTS * slip
-    turns = spin > 1e-6 and spin_there < COUNTS * spin
+    slides = slip * run.steps > SLID * least(pair) and slip_there < COUNTS * slip
+    turns = spin * run.steps > SLID and spin_there < COUNTS * spin
     if not _presses(look, other, of_pair):
         return False
     return bool((far[0] and rubs[0] and slides) or (far[1] and rubs[1] and turns))
@@ -455,11 +456,6 @@ def _presses(look: Look, law: str, of_pair: Mask) -> bool:
     """Whether a pair presses by a law, with more than a tenth of what it does in the run."""
     here, there = (look.laws[x].forces[of_pair, 2].sum() for x in (RUN, law))
     return bool(there > COUNTS * here)
-
-
-def pair_size(run: Run, of_pair: Mask) -> float:
-    """Size of the smaller shape of a pair [m]."""
-    return float(run.sizes[of_pair][0])
 
 
 def _known(look: Look, inner: Array, of_pair: Mask) -> dict[str, bool]:

@@ -51,7 +51,7 @@ def scenes_written(folder):
         np.savetxt(folder / name, points, delimiter=",", fmt="%.9f")
 
 
-def findings_after(folder, scene, edits=(), settings=()):
+def findings_after(folder, scene, edits=(), settings=(), fast=True):
     """What is found in a run of a scene, after edits: file, old text, new text."""
     scenes_written(folder)
     for file, old, new in edits:
@@ -60,7 +60,7 @@ def findings_after(folder, scene, edits=(), settings=()):
         (folder / file).write_text(text.replace(old, new), "utf-8")
     try:
         run = load_scenario(
-            folder / f"{scene}.toml", ["solver.certify=off", *settings], fast=True
+            folder / f"{scene}.toml", ["solver.certify=off", *settings], fast=fast
         ).run(progress=False)
     except RunFailed as failure:
         error = Finding("the run failed", True, "", failure.reason, {})

@@ -18,6 +18,7 @@ from tests.optional.doctor.drawn_scenes import (
     bar,
     gripped,
     pile,
+    pressed_on_a_wall,
     slope,
 )
 
@@ -77,7 +78,7 @@ def test_what_is_healthy_is_borne_at_its_end_and_has_no_finding(kind, seed):
     assert not run.scene.system.n_u or bears(run, run.steps - 1, pressed)
 
 
-@pytest.mark.parametrize(("kind", "seed"), [*drawn(BROKEN)])
+@pytest.mark.parametrize(("kind", "seed"), [*drawn(BROKEN), (pressed_on_a_wall, 64)])
 def test_hand_values_are_said_and_hold_in_the_run_or_in_a_step_that_converges(kind, seed):
     """Of drag and layer in the run; of what is missing by Coulomb's law at 0.1 s, from the start.
 

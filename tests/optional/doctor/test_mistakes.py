@@ -50,6 +50,11 @@ def test_a_scene_without_a_mistake_has_no_finding(scene, tmp_path):
     assert findings_after(tmp_path, scene) == ()
 
 
+def test_what_comes_down_from_its_layer_once_its_pusher_stops_has_settled(tmp_path):
+    """The layer 0.4 h v = 0.3 mm under the box is lost, and its pusher's spring goes on by 0.2."""
+    assert findings_after(tmp_path, "push", fast=False) == ()
+
+
 @pytest.mark.parametrize("one", healthy_scenes()[1::4], ids=lambda one: one["what"])
 def test_a_scene_without_a_mistake_has_no_grave_finding_however_it_is_made(one, tmp_path):
     findings = findings_after(tmp_path, one["scene"], one["edits"])

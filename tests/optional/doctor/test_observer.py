@@ -133,6 +133,15 @@ def test_of_a_scenario_that_comes_along_nothing_grave_is_found(name):
     assert [found.name for found in run.findings] == ARTIFACTS.get(name, [])
 
 
+def test_a_body_that_sticks_to_what_pushes_it_is_looked_at():
+    """The arm's tip bears any part of mu_v N of its weight: one solution of many is approached."""
+    run = load_scenario("arm_push", ["solver.certify=off", "record=light"], fast=True).run(
+        progress=False
+    )
+    assert run.findings == ()
+    assert "fixed point" not in run.header.not_looked_at
+
+
 def test_what_is_not_looked_at_in_a_large_scene_is_said(tmp_path, cli, monkeypatch):
     monkeypatch.setattr(start, "SEARCHED", 0)
     arguments = ["block_push", "--set", "steps=3"]
