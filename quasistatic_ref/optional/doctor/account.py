@@ -187,7 +187,7 @@ def _first_joint(positions: list[str], actuated: bool) -> Joint:
 
 
 def _turns(joint: Joint, q: Array, q_0: Array) -> Array:
-    """Rotation vectors from q_0 to q, (n, n_q) each, shape (n, ...) [rad]; of a slide no entries."""
+    """Rotation vectors from q_0 to q, both (n, n_q), shape (n, ...) [rad]; of a slide none."""
     here = q_0[:, joint.q].tolist()
     there = q[:, joint.q].tolist()
     turns = [joint.change(*ends)[joint.lengths :] for ends in zip(here, there, strict=True)]
