@@ -28,12 +28,6 @@ RESIDUAL_LIMIT: Final = 1e-6
 Six orders above the default accuracy: an answer beyond it is not a less exact answer but
 a wrong one."""
 
-LOADED: Final = 1e-9
-"""Largest difference between what a URDF says and what was loaded, relative to its size.
-
-Rotations travel through quaternions and chains of products, 1e-15 a link; what was dropped or
-misread differs by far more."""
-
 LARGE: Final = 1e15
 """Largest number in a scenario, a URDF or a point cloud, in whatever unit.
 

@@ -12,7 +12,7 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.urdf.urdf import body_frame, urdf_model, with_turns
+from quasistatic_ref.model.urdf.urdf import body_frame, urdf_model
 from quasistatic_ref.model.world import World, joined
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array, Indices
@@ -133,15 +133,15 @@ def _groups(world: World) -> Iterator[tuple[pin.Model, list[str]]]:
 
     A model has PART coordinates at most, or one body that has more; its revolute joints have
     cosine and sine in place of an angle, as
-    :func:`~quasistatic_ref.model.urdf.urdf.with_turns` says.
+    :func:`~quasistatic_ref.model.urdf.urdf.urdf_model` says.
     """
     links: dict[str, list[str]] = {}
     for link in world.links[1:]:
         links.setdefault(link.partition("/")[0], []).append(link)
     bodies: list[Body] = []
     models: list[pin.Model] = []
-    for body, text in zip(world.bodies, world.texts, strict=True):
-        model = urdf_model(with_turns(text), body.base)
+    for body, file in zip(world.bodies, world.files, strict=True):
+        model = urdf_model(file, body.base, turns=True)
         if models and sum(m.nv for m in models) + model.nv > PART:
             yield joined(bodies, models), [link for b in bodies for link in links[b.name]]
             bodies, models = [], []

@@ -1,7 +1,7 @@
 """All URDFs in one pinocchio model, named, placed and numbered; what `System` is made from."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -25,6 +25,7 @@ from quasistatic_ref.model.urdf.urdf import (
     loaded_urdf,
     urdf_model,
 )
+from quasistatic_ref.model.urdf.urdf_file import UrdfFile
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
@@ -33,7 +34,7 @@ from quasistatic_ref.shapes.placed_shape import PlacedShape
 class World(Plain):
     """Several bodies in one pinocchio model.
 
-    It holds the texts of the URDFs, of which :attr:`model` is made: pinocchio 4.1's own pickles
+    It holds the files, of which :attr:`model` is made: pinocchio 4.1's own pickles
     lose which joint a mimic follows, and a model that is read from one may end the process.
 
     Parameters
@@ -41,6 +42,8 @@ class World(Plain):
     bodies : tuple of Body
     texts : tuple of str
         The URDF of each.
+    files : tuple of UrdfFile
+        What they say.
     joints : tuple of Joint
         Those with coordinates of their own, numbered as pinocchio does.
     mimics : tuple of MimicJoint
@@ -67,6 +70,7 @@ class World(Plain):
 
     bodies: tuple[Body, ...]
     texts: tuple[str, ...]
+    files: tuple[UrdfFile, ...] = field(compare=False)
     joints: tuple[Joint, ...]
     mimics: tuple[MimicJoint, ...]
     links: tuple[str, ...]
@@ -83,7 +87,7 @@ class World(Plain):
     @cached_property
     def model(self) -> pin.Model:
         """All bodies in one pinocchio model."""
-        models = [urdf_model(text, b.base) for b, text in zip(self.bodies, self.texts, strict=True)]
+        models = [urdf_model(file, b.base) for b, file in zip(self.bodies, self.files, strict=True)]
         return joined(self.bodies, models)
 
 
@@ -125,7 +129,8 @@ def world_of(bodies: tuple[Body, ...]) -> World:
             start[joint.q] = position
     return World(
         bodies=bodies,
-        texts=tuple(urdf.text for urdf in urdfs.values()),
+        texts=tuple(urdf.file.text for urdf in urdfs.values()),
+        files=tuple(urdf.file for urdf in urdfs.values()),
         joints=tuple(joints),
         mimics=tuple(m for name, urdf in urdfs.items() for m in _mimics(name, urdf)),
         links=tuple(links),
@@ -159,8 +164,7 @@ def _prefixed(model: pin.Model, name: str) -> pin.Model:
         model.names[number] = joint_key(f"{name}/{model.names[number]}")
     for number in range(1, model.nframes):  # frame 0 is the universe
         frame = model.frames[number]
-        prefixed = f"{name}/{frame.name}"
-        frame.name = prefixed if frame.type == pin.FrameType.BODY else joint_key(prefixed)
+        frame.name = f"{name}/{frame.name}"
     return model
 
 
@@ -220,13 +224,8 @@ def _joints(body: Body, urdf: Urdf, model: pin.Model) -> list[tuple[Joint, Array
         if isinstance(joint, TwistJoint):
             joints.append((joint, np.array(joint.at(np.zeros(3), np.zeros(3)))))
             continue
-        effort = float(model.effortLimit[joint.v.start]) or np.inf
-        joint = replace(joint, effort=effort)
-        if joint.unit is None:
-            lower = float(model.lowerPositionLimit[joint.q.start])
-            upper = float(model.upperPositionLimit[joint.q.start])
-            bounded = lower <= upper and written.bounded
-            joint = replace(joint, limits=(lower, upper) if bounded else None)
+        limits = written.limits if joint.unit is None else None
+        joint = replace(joint, effort=written.effort, limits=limits)
         joints.append((joint, np.array(joint.at(body.positions.get(written.name, 0.0)))))
     return joints
 

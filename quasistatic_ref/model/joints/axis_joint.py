@@ -1,8 +1,10 @@
 """Joints with one axis: along it or about it, by one number."""
 
-from typing import ClassVar
+from collections.abc import Callable
+from typing import Any, ClassVar
 
 import numpy as np
+import pinocchio as pin
 
 from quasistatic_ref.model.joints.joint import Coordinate, Joint, Position
 from quasistatic_ref.numbers.arrays import Array
@@ -15,9 +17,17 @@ class AxisJoint(Joint):
     ----------
     measure : str
         The unit of its coordinate, ``"m"`` or ``"rad"``.
+    pinocchio : tuple of callable
+        The joint's classes in pinocchio: along x, y and z, and along any unit vector.
     """
 
     measure: ClassVar[str] = "rad"
+    pinocchio: ClassVar[tuple[Callable[..., Any], ...]] = (
+        pin.JointModelRX,
+        pin.JointModelRY,
+        pin.JointModelRZ,
+        pin.JointModelRevoluteUnaligned,
+    )
     lengths = 0
 
     @property
@@ -29,6 +39,14 @@ class AxisJoint(Joint):
     def positions(self) -> tuple[Position, ...]:
         """Its entry of q."""
         return (Position(self.name, self.measure),)
+
+    @classmethod
+    def model(cls, axis: Array) -> Any:
+        """The joint in pinocchio, about or along a unit vector, shape (3,) [-]."""
+        for direction, made in zip(np.eye(3), cls.pinocchio, strict=False):
+            if (axis == direction).all():
+                return made()
+        return cls.pinocchio[-1](axis)
 
     @classmethod
     def at(cls, position: float) -> list[float]:
@@ -57,6 +75,12 @@ class Revolute(AxisJoint):
 class Prismatic(AxisJoint):
     """A joint that slides along its axis."""
 
+    pinocchio = (
+        pin.JointModelPX,
+        pin.JointModelPY,
+        pin.JointModelPZ,
+        pin.JointModelPrismaticUnaligned,
+    )
     measure = "m"
     lengths = 1
     in_c = 3

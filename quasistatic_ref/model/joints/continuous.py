@@ -1,6 +1,9 @@
 """A joint that turns about its axis as often as it likes: q holds cos and sin of its angle."""
 
+from typing import Any
+
 import numpy as np
+import pinocchio as pin
 
 from quasistatic_ref.model import screw
 from quasistatic_ref.model.joints.axis_joint import AxisJoint
@@ -9,9 +12,20 @@ from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array
 
 
+def _wheel(axis: Array) -> Any:
+    """A wheel of pinocchio's about any unit vector, which it makes of a URDF alone."""
+    xyz = " ".join(map(repr, axis.tolist()))
+    text = (
+        '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous">'
+        f'<parent link="a"/><child link="b"/><axis xyz="{xyz}"/></joint></robot>'
+    )
+    return pin.buildModelFromXML(text).joints[1]
+
+
 class Continuous(AxisJoint):
     """A wheel."""
 
+    pinocchio = (pin.JointModelRUBX, pin.JointModelRUBY, pin.JointModelRUBZ, _wheel)
     unit = COSINE_SINE
     in_c = 2
 

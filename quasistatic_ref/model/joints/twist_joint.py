@@ -1,7 +1,7 @@
 """Joints with several coordinates: entries of the twist of the link that they move."""
 
 from abc import abstractmethod
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from quasistatic_ref.model.joints.joint import Coordinate, Joint, Position
 from quasistatic_ref.numbers.arrays import Array
@@ -26,6 +26,11 @@ class TwistJoint(Joint):
     twist: ClassVar[tuple[int, ...]]
     entries: ClassVar[tuple[str, ...]]
     pinocchio: ClassVar[type]
+
+    @classmethod
+    def model(cls, axis: Array) -> Any:
+        """The joint in pinocchio, for which an axis says nothing."""
+        return cls.pinocchio()
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:

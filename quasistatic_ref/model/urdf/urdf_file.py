@@ -18,7 +18,7 @@ from quasistatic_ref.model.readers.xml_text import xml_root
 from quasistatic_ref.model.urdf.urdf_tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.model.urdf.urdf_xml import Tag
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.ordered import product
+from quasistatic_ref.numbers.ordered import length, product
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
 
 TEXT: Final = Path("<robot>")
@@ -261,7 +261,8 @@ def _inertial(link: Tag) -> tuple[float, Array, Array, Defect | None, float]:
     defect = inertia_defect(inertia, digit)
     if not mass > 0:
         defect = ("mass", "must be greater than 0", mass)
-    return mass, com, product(product(R, inertia), R.T), defect, digit
+    turned = product(R, product(inertia, R.T))
+    return mass, com, np.triu(turned) + np.triu(turned, 1).T, defect, digit
 
 
 def inertia_defect(inertia: Array, digit: float = 0.0) -> Defect | None:
@@ -367,16 +368,16 @@ def _joint(
     elif written is not None:
         written.only("xyz")
         axis = written.numbers("xyz", 3)
-        length = float(np.hypot.reduce(axis))
-        if not length > 0:
+        size = length(axis)
+        if not size > 0:
             raise ModelError("must not be zero", field=f"{written.where}.xyz", value=axis.tolist())
-        axis = axis / length
-    bounded = _check_limit(joint, notes, limits_needed and kind in _TURNING, kind in _TURNING)
+        axis = axis / size
+    limits, effort = _limits(joint, notes, limits_needed and kind in _TURNING, kind in _TURNING)
     mimic = _mimic(joint)
     if kind == "fixed" and mimic is not None:
         ignored.append(f"{joint.where}.mimic")
         mimic = None
-    return FileJoint(name, kind, parent, child, R, t, axis, mimic, bounded)
+    return FileJoint(name, kind, parent, child, R, t, axis, mimic, limits, effort)
 
 
 def _followers(joints: list[FileJoint], notes: list[str]) -> list[FileJoint]:
@@ -405,16 +406,20 @@ _ENDLESS = ("continuous", "ball")
 """Types of joints whose positions have no bounds."""
 
 
-def _check_limit(joint: Tag, notes: list[str], needed: bool, bounded: bool) -> bool:
-    """Limits are no part of the model, but urdfdom refuses a joint without good ones."""
+def _limits(
+    joint: Tag, notes: list[str], needed: bool, bounded: bool
+) -> tuple[tuple[float, float] | None, float]:
+    """Bounds of a joint's position [m, rad], if it has any, and its largest effort [N, N m]."""
     limit = joint.perhaps("limit")
     bounds = None
+    effort = 0.0
     if limit is None and needed:
         problem = "is missing: URDF requires effort and velocity, although they are not used"
         raise ModelError(problem, field=f"{joint.where}.limit")
     if limit is not None:
         for name in ("effort", "velocity", "lower", "upper"):
             limit.number(name, None if needed and name[0] in "ev" else 0.0, most=np.inf)
+        effort = limit.number("effort", 0.0, most=np.inf)
         bounds = limit.position_limits()
         if bounds is not None and joint.text("type") in _ENDLESS:
             joint.unread.append(f"{limit.where}.bounds")
@@ -425,7 +430,7 @@ def _check_limit(joint: Tag, notes: list[str], needed: bool, bounded: bool) -> b
             notes.append(f"{limit.where}: has no {missing[0]} bound, which is 0 then")
         elif bounded and bounds == (0.0, 0.0):
             notes.append(f"{limit.where}: both bounds are 0, which hold the joint there")
-    return bounds is not None
+    return bounds if bounds is not None and bounds[0] <= bounds[1] else None, effort or np.inf
 
 
 def _mimic(joint: Tag) -> Mimic | None:

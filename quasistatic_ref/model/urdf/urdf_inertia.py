@@ -21,23 +21,27 @@ from quasistatic_ref.model.urdf.urdf_file import (
     UrdfFile,
     inertia_defect,
 )
-from quasistatic_ref.model.urdf.urdf_tree import link_poses
 
 
-def group_inertias(file: UrdfFile) -> dict[str, pin.Inertia]:
-    """Inertia of each rigid group as written, in the frame of its first link."""
-    poses = _poses(file)
-    return {
-        first: poses[first].actInv(_welded(links, poses)) for first, links in _groups(file).items()
-    }
+def link_inertia(link: FileLink) -> pin.Inertia:
+    """The inertia of a link as written, in its frame."""
+    inertia = pin.Inertia.Zero()  # with numbers, its constructor refuses what no body has
+    inertia.mass = link.mass
+    inertia.lever = link.com
+    inertia.inertia = link.inertia
+    return inertia
 
 
-def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> tuple[str, ...]:
+def checked_inertias(
+    file: UrdfFile, model: pin.Model, unactuated: Collection[str], base: str
+) -> tuple[str, ...]:
     """Notes on inertias that no rigid body can have and that M_u does not need.
 
     Parameters
     ----------
     file : UrdfFile
+    model : pinocchio.Model
+        Made of it.
     unactuated : collection of str
         The un-actuated joints, the base's name among them where it moves and is un-actuated.
     base : str
@@ -48,7 +52,7 @@ def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> 
     ModelError
         If an un-actuated joint moves a group of links whose inertia no rigid body can have.
     """
-    poses = _poses(file)
+    poses = _poses(model)
     mover = _movers(file, unactuated, base)
     loaded = _loaded(file)
     notes = []
@@ -80,11 +84,11 @@ def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> 
     return tuple(notes)
 
 
-def _poses(file: UrdfFile) -> dict[str, pin.SE3]:
+def _poses(model: pin.Model) -> dict[str, pin.SE3]:
     """Where each link is at position zero, in the frame of the root link."""
-    zero = {joint.name: 0.0 for joint in file.joints}
-    poses = link_poses(file.root, file.joints, zero)
-    return {name: pin.SE3(*pose) for name, pose in poses.items()}
+    data = model.createData()
+    pin.framesForwardKinematics(model, data, pin.neutral(model))
+    return {frame.name: data.oMf[i].copy() for i, frame in enumerate(model.frames)}
 
 
 def _groups(file: UrdfFile) -> dict[str, list[FileLink]]:
@@ -102,11 +106,7 @@ def _welded(links: Sequence[FileLink], poses: Mapping[str, pin.SE3]) -> pin.Iner
     """Links as one body, in the frame of the root link."""
     total = pin.Inertia.Zero()
     for link in links:
-        inertia = pin.Inertia.Zero()  # with numbers, its constructor refuses what no body has
-        inertia.mass = link.mass
-        inertia.lever = link.com
-        inertia.inertia = link.inertia
-        total += poses[link.name].act(inertia)
+        total += poses[link.name].act(link_inertia(link))
     return total
 
 

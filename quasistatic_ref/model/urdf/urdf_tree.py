@@ -1,17 +1,12 @@
 """The tree of links and joints in a URDF file: one root, one parent each, mimics that can be."""
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from xml.etree.ElementTree import Element
-
-import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.numbers.arrays import Array
-
-Pose = tuple[Array, Array]
 
 
 @dataclass(frozen=True)
@@ -39,8 +34,10 @@ class FileJoint:
     axis : ndarray, shape (3,)
         Unit vector in the child's frame.
     mimic : Mimic or None
-    bounded : bool
-        Whether its limit has a lower or an upper bound.
+    limits : tuple of (float, float) or None
+        Lower and upper bound of its position, if it has one [m, rad].
+    effort : float
+        Largest force or torque; infinity where none is written [N, N m].
     """
 
     name: str
@@ -51,7 +48,8 @@ class FileJoint:
     t: Array
     axis: Array
     mimic: Mimic | None
-    bounded: bool = False
+    limits: tuple[float, float] | None = None
+    effort: float = math.inf
 
 
 def checked_tree(
@@ -118,96 +116,64 @@ def _check_mimic(joint: FileJoint, named: Mapping[str, FileJoint]) -> None:
         raise ModelError(problem, field=field, value=of)
 
 
-def visiting_order(robot: Element) -> list[str]:
-    """All joints, those of a link in the order in which to visit them; [] if any order will do.
+def visiting_order(root: str, joints: Sequence[FileJoint]) -> list[FileJoint]:
+    """All joints, depth first from the root link on, those of a link in alphabetical order.
 
-    It is alphabetical, except that joints wait for a joint that they, or joints that they move,
-    mimic, or that moves a joint that is mimicked.
+    But a joint waits for one that it, or a joint that it moves, mimics, or that moves a joint that
+    is mimicked.
 
     Raises
     ------
     ModelError
         If a joint mimics one that it moves, or joints wait for each other.
     """
-    joints = {joint.attrib["name"]: joint for joint in robot.findall("joint")}
-    parent = {name: _end(joint, "parent") for name, joint in joints.items()}
-    mover = {_end(joint, "child"): name for name, joint in joints.items()}
-    waits: dict[str, set[str]] = {name: set() for name in joints}
-    moving = {name: joint for name, joint in joints.items() if joint.get("type") != "fixed"}
-    for name, joint in moving.items():
-        for mimic in joint.findall("mimic"):
-            followers = _movers(name, parent, mover)
-            leaders = _movers(mimic.attrib["joint"], parent, mover)
-            for after, before in zip(followers, leaders, strict=False):
-                if after != before:
-                    waits[after].add(before)
-                    break
-            else:
-                if len(followers) < len(leaders):
-                    problem = "is a joint that this one moves; let that one mimic this one"
-                    of = mimic.attrib["joint"]
-                    raise ModelError(problem, field=f"joint[{name}].mimic", value=of)
-    if all(before < after for after, others in waits.items() for before in others):
-        return []
+    mover = {joint.child: joint for joint in joints}
+    named = {joint.name: joint for joint in joints}
+    below: dict[str, list[FileJoint]] = {}
+    for joint in sorted(joints, key=lambda joint: joint.name):
+        below.setdefault(joint.parent, []).append(joint)
+    waits: dict[str, set[str]] = {joint.name: set() for joint in joints}
+    for joint in joints:
+        if joint.mimic is None:
+            continue
+        followers = _movers(joint, mover)
+        leaders = _movers(named[joint.mimic.of], mover)
+        for after, before in zip(followers, leaders, strict=False):
+            if after != before:
+                waits[after].add(before)
+                break
+        else:
+            if len(followers) < len(leaders):
+                problem = "is a joint that this one moves; let that one mimic this one"
+                field = f"joint[{joint.name}].mimic"
+                raise ModelError(problem, field=field, value=joint.mimic.of)
     order = []
-    for link in dict.fromkeys(parent.values()):
-        left = sorted(name for name in joints if parent[name] == link)
-        while left:
-            ready = [name for name in left if waits[name].isdisjoint(left)]
-            if not ready:
-                problem = "joints that they move mimic joints that the others move, both ways round"
-                raise ModelError(problem, field="joints", value=left)
-            order.append(ready[0])
-            left.remove(ready[0])
+    front = _after_waiting(below.get(root, []), waits)[::-1]
+    while front:
+        order.append(front.pop())
+        front += _after_waiting(below.get(order[-1].child, []), waits)[::-1]
     return order
 
 
-def _end(joint: Element, end: str) -> str:
-    """The parent or child link of a joint."""
-    element = joint.find(end)
-    assert element is not None  # files are checked before
-    return element.attrib["link"]
+def _after_waiting(
+    joints: Sequence[FileJoint], waits: Mapping[str, Collection[str]]
+) -> list[FileJoint]:
+    """The joints of one link, each after those that it waits for."""
+    left = {joint.name: joint for joint in joints}
+    order = []
+    while left:
+        ready = [name for name in left if left.keys().isdisjoint(waits[name])]
+        if not ready:
+            problem = "joints that they move mimic joints that the others move, both ways round"
+            raise ModelError(problem, field="joints", value=list(left))
+        order.append(left.pop(ready[0]))
+    return order
 
 
-def _movers(name: str, parent: Mapping[str, str], mover: Mapping[str, str]) -> list[str]:
+def _movers(joint: FileJoint, mover: Mapping[str, FileJoint]) -> list[str]:
     """The joints from the root to a joint."""
-    chain = [name]
-    while above := mover.get(parent[chain[0]]):
-        chain.insert(0, above)
+    chain = [joint.name]
+    while above := mover.get(joint.parent):
+        joint = above
+        chain.insert(0, joint.name)
     return chain
-
-
-def link_poses(
-    root: str, joints: Sequence[FileJoint], positions: Mapping[str, float]
-) -> dict[str, Pose]:
-    """Pose (R, t) of every link in the frame of the root link, from the file alone.
-
-    Parameters
-    ----------
-    root : str
-    joints : sequence of FileJoint
-        Parents before children.
-    positions : mapping of str to float
-        Position of every moving joint that is no mimic [m or rad].
-    """
-    poses: dict[str, Pose] = {root: (np.eye(3), np.zeros(3))}
-    for joint in joints:
-        R, t = poses[joint.parent]
-        t = R @ joint.t + t
-        R = R @ joint.R
-        if joint.kind != "fixed":
-            mimic = joint.mimic or Mimic(joint.name, 1.0, 0.0)
-            position = mimic.multiplier * positions[mimic.of] + mimic.offset
-            if JOINTS[joint.kind].lengths:  # its coordinate is a length: it slides
-                t = t + R @ joint.axis * position
-            else:
-                R = R @ turn(joint.axis, position)
-        poses[joint.child] = R, t
-    return poses
-
-
-def turn(axis: Array, angle: float) -> Array:
-    """Rotation (3, 3) by an angle [rad] about a unit axis (3,), by Rodrigues' formula."""
-    cross = np.cross(axis, np.eye(3)).T  # [axis x]
-    R: Array = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-    return R

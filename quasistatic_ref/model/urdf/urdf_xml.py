@@ -14,8 +14,9 @@ import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.model.readers.text import decimal
-from quasistatic_ref.model.rotation import rotation
+from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import length
 from quasistatic_ref.tolerances import LARGE
 
 ALIKE = 0.6
@@ -163,7 +164,9 @@ class Tag:
         origin = self.perhaps("origin", "xyz", "rpy", "quat_xyzw")
         if origin is None:
             return np.eye(3), np.zeros(3)
-        return rotation(origin.rpy()), origin.numbers("xyz", 3, default=0.0)
+        turn = quaternion(origin.rpy())
+        R = pin.Quaternion(turn / length(turn)).matrix()
+        return R, origin.numbers("xyz", 3, default=0.0)
 
     def rpy(self) -> Array:
         """Roll, pitch and yaw of an origin, shape (3,) [rad].

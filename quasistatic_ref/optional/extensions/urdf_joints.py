@@ -33,7 +33,7 @@ def urdf_joints(system: System, bodies: Collection[str]) -> Iterator[UrdfJoint]:
     moves = {coordinate.name: (coordinate.name, 1.0, 0.0) for coordinate in system.coordinates}
     moves |= {mimic.name: (mimic.of, mimic.multiplier, mimic.offset) for mimic in system.mimics}
     for body, text in zip(system.bodies, system.texts, strict=True):
-        for joint in xml_root(text).iter("joint") if body.name in bodies else ():
+        for joint in xml_root(text).findall("joint") if body.name in bodies else ():
             name = f"{body.name}/{joint.get('name')}"
             if name in moves:
                 tag = Tag(joint, f"{body.name}: joint[{joint.get('name')}]")

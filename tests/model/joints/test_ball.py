@@ -135,17 +135,24 @@ def test_a_target_turns_it_the_shorter_way(base, name):
 def test_what_a_ball_cannot_is_refused():
     with pytest.raises(ModelError, match=r"arm\.positions: has no position that is one number"):
         System([Body("arm", HANGING, positions={"ball": 0.1})])
-    both = robot(
-        link("hook"), BOB, link("a"), link("b"), joint("ball", "hook", "bob", "ball", "1 0 0"),
-        joint("swing", "hook", "a"), joint("follow", "hook", "b", more=mimic("swing")),
-    )  # fmt: skip
-    with pytest.raises(ModelError, match=r"joint\[ball\]: cannot stand in a file with mimic"):
-        System([Body("arm", both)])
     away = [{"t": 0.0, "base": {"xyz": [0, 0, 1], "rpy": [0, 0, 0]}}]
     with pytest.raises(ScenarioError, match="moves or turns by x, y, z"):
         scene(True, actuated=["base"], K_q={"base": 40}, targets=away)
     with pytest.raises(ModelError, match=r"arm\.xyz: is unknown"):
         pendulum(True).placed({"arm": {"xyz": [0, 0, 1]}})
+
+
+def test_a_file_may_have_balls_and_mimics():
+    """The follower is where its leader is, 0.3 about z, and the ball's link where it was."""
+    both = robot(
+        link("hook"), BOB, link("a"), link("b"), joint("ball", "hook", "bob", "ball", "1 0 0"),
+        joint("swing", "hook", "a"), joint("follow", "hook", "b", more=mimic("swing")),
+    )  # fmt: skip
+    system = System([Body("arm", both, positions={"swing": 0.3})])
+    R = dict(zip(system.links, system.kinematics(system.q_start).R, strict=True))
+    assert_within(R["arm/b"], R["arm/a"], ROUNDING)
+    assert_within(R["arm/b"][0, 0], np.cos(0.3), ROUNDING)
+    assert_within(R["arm/bob"], np.eye(3), ROUNDING)
 
 
 @pytest.mark.parametrize("more", ["", "ball before", "ball behind"])
