@@ -12,7 +12,6 @@ from quasistatic_ref.certify.groups import labels
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.doctor.start import FARTHEST
-from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
     from quasistatic_ref.optional.doctor.start import Start
@@ -110,9 +109,8 @@ class Body:
         """Its block of M_u, shape (n_u, n_u); n_a coordinates come before."""
         return np.asarray(M_u[np.ix_(self.coordinates - n_a, self.coordinates - n_a)])
 
-    def missing(self, r: Array, step: StepData) -> Missing:
-        """What is missing, from r along its coordinates [N, N m]."""
-        M = self.inertia(step.M_u, step.n_a)
+    def missing(self, r: Array, M: Array) -> Missing:
+        """What is missing, from r along its coordinates [N, N m] and its block of M_u."""
         force, torque = r[self.lengths], r[~self.lengths]
         start = np.linalg.solve(M, r)
         slides, turns = start[self.lengths], start[~self.lengths]

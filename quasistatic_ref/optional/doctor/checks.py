@@ -58,9 +58,7 @@ def is_beyond(run: Run) -> str:
 
 def has_own_terms(run: Run) -> str:
     """Why no step is asked by other laws."""
-    if run.small and run.own_terms:
-        return "the user's own costs or constraints are not asked"
-    return is_large(run)
+    return "the user's own costs or constraints are not asked" if run.own_terms else ""
 
 
 def is_cut_short(run: Run) -> str:

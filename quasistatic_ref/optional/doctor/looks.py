@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -18,6 +17,7 @@ from quasistatic_ref.step.friction import frame_jacobian
 if TYPE_CHECKING:
     from quasistatic_ref.numbers.arrays import Array, Indices, Mask
     from quasistatic_ref.optional.doctor.run import Run
+    from quasistatic_ref.step.contacts import Contacts
     from quasistatic_ref.step.data import StepData
 
 RUN, COULOMB, SLOW, ROUND, MODEL = "run", "coulomb", "slow", "round", "model"
@@ -26,6 +26,8 @@ TOUCHES = 1e-6
 """Gap that is none, over the smaller shape [-]."""
 NULL = 1e-9
 """Singular value that is none, over the largest [-]."""
+GROUP = 10_000
+"""Most entries of J, 4 n_c n_v, of a group that is looked at."""
 
 
 class Law(NamedTuple):
@@ -48,84 +50,121 @@ class Look:
     Parameters
     ----------
     k : int
-    step : StepData
-        As it is in the run.
     laws : dict of str to Law
+    live : ndarray of bool, shape (n_c,)
+        Contacts that touch or press.
     missing : dict of str to dict of str to Missing
         By law, of each body of which something is missing.
-    live, asked : ndarray of bool, shape (n_c,)
-        Contacts that touch or press, and those of groups that were looked at.
-    groups : list of ndarray of int
-        The contacts of each of these.
+    inner : dict of int to ndarray, shape (5, dimensions)
+        Of each pair, how far inner loads that nothing but contacts feels change its resultants.
+    asked : ndarray of bool, shape (n_c,)
+        Contacts of groups that were looked at.
     bodies : set of str
         That were looked at, and of which the answer is not open.
-    lost : set of str
-        Of which it is.
+    lost, large : set of str
+        Of which it is, and which are in a group that is too large.
     """
 
     k: int
-    step: StepData
     laws: dict[str, Law]
     live: Mask
-    asked: Mask
     missing: dict[str, dict[str, Missing]] = field(default_factory=lambda: {SLOW: {}, ROUND: {}})
-    groups: list[Indices] = field(default_factory=list)
+    inner: dict[int, Array] = field(default_factory=dict)
     bodies: set[str] = field(default_factory=set)
     lost: set[str] = field(default_factory=set)
+    large: set[str] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        self.asked = np.zeros_like(self.live)
 
     def knows(self, law: str, contacts: Mask | Indices) -> bool:
         """Whether a law has an answer for some contacts, shape (n_c,)."""
         return law in self.laws and bool(np.isfinite(self.laws[law].forces[contacts]).all())
 
-    @cached_property
-    def undetermined(self) -> Array:
-        """How far inner loads that nothing but contacts feels change forces, shape (n_c, 4, ...).
 
-        They are z with J'z = 0, of contacts with load in the slow step; what slips keeps its ray
-        (n, -mu slip). Along d1, d2 and n, and about n; a column a dimension of a group.
-        """
-        each = [(at, self._inner(at)) for at in self.groups if self.knows(SLOW, at)]
-        most = max((z.shape[2] for _, z in each), default=0)
-        inner = np.zeros((len(self.live), 4, most))
-        for at, z in each:
-            inner[at, :, : z.shape[2]] = z
-        return inner
+def resultants(axes: tuple[Array, Array], forces: Array) -> Array:
+    """Sums of forces, (n_c, 4, ...): the normal one, friction along the axes, and torque, (5, ...).
 
-    def _inner(self, at: Indices) -> Array:
-        """Of one group, shape (len(at), 4, dimensions)."""
-        forces = self.laws[SLOW].forces[at]
-        loaded = np.flatnonzero(forces[:, 2] > NULL * forces[:, 2].max(initial=0.0))
-        if not loaded.size:
-            return np.zeros((len(at), 4, 0))
-        contacts = self.step.contacts
-        J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
-        frames = np.stack([J_1, J_2, J_n, J_w], axis=1)[at]  # as forces are
-        moves = frames.any(axis=(0, 1))
-        mu = contacts.mu[at]
-        columns = []
-        for j in loaded.tolist():
-            if mu[j].any() and self._slips(at[j]):
-                columns.append((j, forces[j] / forces[j, 2]))
-            else:
-                rubs = [0, 1] if mu[j, 0] > 0 else []
-                rubs = [*rubs, 2, *([3] if mu[j, 2] > 0 else [])]
-                columns += [(j, np.eye(4)[i]) for i in rubs]
-        z = np.array([column for _, column in columns])
-        of = np.array([j for j, _ in columns])
-        rows = np.einsum("ki,kiv->kv", z, frames[of][..., moves])
-        rows = rows / np.maximum(np.abs(rows).max(axis=0), 1e-300)
-        _, sizes, vt = np.linalg.svd(rows.T)
-        null = vt[int((sizes > NULL * sizes[0]).sum()) :].T
-        inner = np.zeros((len(at), 4, null.shape[1]))
-        np.add.at(inner, of, z[:, :, None] * null[:, None, :])
-        return inner
+    The axes are d1 and d2, each (n_c, 3) [-]. Units are those of the forces [N, N, N, N, N m].
+    """
+    f_1, f_2, f_n, torque = np.moveaxis(forces, 1, 0)
+    rubs = axes[0].T @ f_1 + axes[1].T @ f_2
+    return np.concatenate([[f_n.sum(axis=0)], rubs, [torque.sum(axis=0)]])
 
-    def _slips(self, j: int) -> bool:
-        """Whether contact j slips or spins in the slow step."""
-        contacts = self.step.contacts
-        motion = self.laws[SLOW].motion[j]
-        slip = np.hypot(motion[:3] @ contacts.d1[j], motion[:3] @ contacts.d2[j])
-        return bool(slip > 1e-9 or (contacts.mu[j, 2] > 0 and abs(motion[3]) > 1e-9))
+
+def inner_loads(contacts: Contacts, forces: Array, motion: Array) -> Array:
+    """Forces z with J'z = 0, of contacts with load; what slips keeps its ray (n, -mu slip).
+
+    Parameters
+    ----------
+    contacts : Contacts
+    forces, motion : ndarray, shape (n_c, 4)
+        Along d1, d2 and n, and about n [N, N m]; J delta_q [m, rad].
+
+    Returns
+    -------
+    ndarray, shape (n_c, 4, dimensions)
+    """
+    loaded = np.flatnonzero(forces[:, 2] > NULL * forces[:, 2].max(initial=0.0))
+    if not loaded.size:
+        return np.zeros((len(forces), 4, 0))
+    J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
+    frames = np.stack([J_1, J_2, J_n, J_w], axis=1)  # as forces are
+    mu = contacts.mu
+    d1, d2 = (np.vecdot(motion[:, :3], d) for d in (contacts.d1, contacts.d2))
+    slips = (np.hypot(d1, d2) > NULL) | ((mu[:, 2] > 0) & (np.abs(motion[:, 3]) > NULL))
+    columns = []
+    for j in loaded.tolist():
+        if mu[j].any() and slips[j]:
+            columns.append((j, forces[j] / forces[j, 2]))
+        else:
+            rubs = [0, 1] if mu[j, 0] > 0 else []
+            rubs = [*rubs, 2, *([3] if mu[j, 2] > 0 else [])]
+            columns += [(j, np.eye(4)[i]) for i in rubs]
+    z = np.array([column for _, column in columns])
+    of = np.array([j for j, _ in columns])
+    rows = np.einsum("ki,kiv->kv", z, frames[of])
+    rows = rows / np.maximum(np.abs(rows).max(axis=0), 1e-300)
+    _, sizes, vt = np.linalg.svd(rows.T)
+    null = vt[int((sizes > NULL * sizes[0]).sum()) :].T
+    inner = np.zeros((len(forces), 4, null.shape[1]))
+    np.add.at(inner, of, z[:, :, None] * null[:, None, :])
+    return inner
+
+
+class Part(NamedTuple):
+    """A group of a step that is looked at.
+
+    Parameters
+    ----------
+    look : Look
+    whole, step : StepData
+        Of all that touches or presses, and of the group, from where its bodies have come down.
+    coordinates, at : ndarray of int
+        Its entries of delta_q, and its contacts.
+    bodies : list of Body
+    """
+
+    look: Look
+    whole: StepData
+    step: StepData
+    coordinates: Indices
+    at: Indices
+    bodies: list[Body]
+
+    @property
+    def names(self) -> set[str]:
+        """Of its bodies."""
+        return {body.name for body in self.bodies}
+
+    def note(self, law: str, answer: slowly.Answer) -> None:
+        """Keep what its contacts do by a law."""
+        look = self.look
+        if law not in look.laws:
+            of_all = np.where(look.live[:, None], np.nan, 0.0)
+            look.laws[law] = Law(np.tile(of_all, 4), np.tile(of_all, 4))
+        look.laws[law].forces[self.at] = answer.forces
+        look.laws[law].motion[self.at] = self.step.contacts.motion(answer.delta_q)
 
 
 class Looking:
@@ -152,142 +191,112 @@ class Looking:
             Whether the round cone is asked.
         """
         run = self.run
-        step = run.posed(k)
         if k not in self.looks:
             live = (run["phi"][k] <= TOUCHES * run.sizes) | run.presses[k]
             of_run = Law(np.asarray(run["wrench"][k]), run.noted("moved")[k])
-            self.looks[k] = Look(k, step, {RUN: of_run}, live, np.zeros_like(live))
-        look = self.looks[k]
-        self._solve(look, step, names, corners)
-        return look
+            self.looks[k] = Look(k, {RUN: of_run}, live)
+        self._solve(self.looks[k], names, corners)
+        return self.looks[k]
 
     def alone(self, k: int, body: Body, contacts: Mask) -> Look:
         """Step k as if a body had some of its contacts alone."""
-        step = self.run.posed(k)
-        live = contacts & self.run.presses[k]
-        look = Look(k, step, {}, live, np.zeros_like(live))
-        self._solve(look, step, {body.name}, False)
+        look = Look(k, {}, contacts & self.run.presses[k])
+        self._solve(look, {body.name}, False)
         return look
 
-    def _solve(self, look: Look, whole: StepData, names: set[str], corners: bool) -> None:
+    def _solve(self, look: Look, names: set[str], corners: bool) -> None:
         run = self.run
+        step = run.posed(look.k)
         live = np.flatnonzero(look.live)
-        every = np.arange(whole.n_v)
-        delta_q = run.delta_q_of(look.k, whole.n_v)
-        extra = whole.extra
-        reach = np.abs(extra.A) @ np.abs(delta_q)
-        near = np.flatnonzero(-extra.b <= reach + 1e-12)
-        kept = whole.replace(contacts=whole.contacts.some(live, every), extra=extra.of(near, every))
+        every = np.arange(step.n_v)
+        delta_q = run.delta_q_of(look.k, step.n_v)
+        reach = np.abs(step.extra.A) @ np.abs(delta_q)
+        near = np.flatnonzero(-step.extra.b <= reach + 1e-12)
+        kept = step.replace(
+            contacts=step.contacts.some(live, every), extra=step.extra.of(near, every)
+        )
         for group in groups(kept):
             at = live[group.contacts]
             moved = set(group.coordinates.tolist())
             bodies = [b for b in run.bodies_of if not moved.isdisjoint(b.coordinates.tolist())]
-            pairs = {run.pairs[i].name for i in run.pair_of[at]}
-            asked = look.asked[at].any() or {b.name for b in bodies} & (look.bodies | look.lost)
-            if asked or not names & ({b.name for b in bodies} | pairs):
+            of = {body.name for body in bodies}
+            asked = look.asked[at].any() or of & (look.bodies | look.lost)
+            if asked or not names & (of | {run.pairs[i].name for i in run.pair_of[at]}):
                 continue
             look.asked[at] = True
-            look.groups.append(at)
-            part = group_step(kept, group)
+            if 4 * len(at) * len(moved) > GROUP:
+                look.large |= of
+                continue
             try:
-                of_run = delta_q[group.coordinates]
-                part = slowly.landed(part, run.presses[look.k, at], of_run)
-                self._group(look, part, group.coordinates, at, bodies, corners)
+                part = group_step(kept, group)
+                part = slowly.landed(part, run.presses[look.k, at], delta_q[group.coordinates])
+                self._group(Part(look, kept, part, group.coordinates, at, bodies), corners)
             except QuasistaticError:  # a step that has no solution, or no float64
-                look.lost |= {b.name for b in bodies}
+                look.lost |= of
 
-    def _group(
-        self,
-        look: Look,
-        part: StepData,
-        coordinates: Indices,
-        at: Indices,
-        bodies: list[Body],
-        corners: bool,
-    ) -> None:
-        run = self.run
-        sizes = run.sizes[at]
-        nothing = np.zeros(len(at))
-        first = slowly.rung(part, part.h, self.solvers, sizes, nothing)
-        climbed = slowly.climb(part, self.solvers, sizes, first)
+    def _group(self, part: Part, corners: bool) -> None:
+        look = part.look
+        step = part.step
+        sizes = self.run.sizes[part.at]
+        first = slowly.rung(step, step.h, self.solvers, sizes, np.zeros(len(part.at)))
+        climbed = slowly.climb(step, self.solvers, sizes, first)
         if climbed.open:
-            look.lost |= {b.name for b in bodies}
+            look.lost |= part.names
             return
-        look.bodies |= {b.name for b in bodies}
+        look.bodies |= part.names
         last = climbed.rungs[-1]
-        self._missing(look, SLOW, part, climbed, coordinates, at, bodies)
+        self._missing(part, SLOW, climbed)
         if last.answer.creeps or (first is not None and first.answer.creeps):
             return
-        self._note(look, SLOW, part, last.answer, at)
+        part.note(SLOW, last.answer)
+        self._inner(part)
         if first is not None:
-            self._note(look, COULOMB, part, first.answer, at)
-        layer = first is not None and RUN in look.laws and self._differs(look, at)
-        if layer:
-            model = self.solvers(part.replace(h=last.T), proved=False)
-            self._note(look, MODEL, part, model, at)
+            part.note(COULOMB, first.answer)
+            if RUN in look.laws and self._differs(part):
+                part.note(MODEL, self.solvers(step.replace(h=last.T), proved=False))
+        asked = corners or part.names & look.missing[SLOW].keys()
         slips = (last.s > slowly.STICKS * sizes).any()
-        if cone(part.cone).polyhedral and part.cone != "frictionless" and slips:
-            missing = any(b.name in look.missing[SLOW] for b in bodies)
-            if corners or missing:
-                self._in_round(look, part, coordinates, at, bodies, climbed)
+        if cone(step.cone).polyhedral and step.cone != "frictionless" and slips and asked:
+            self._in_round(part, climbed)
 
-    def _in_round(
-        self,
-        look: Look,
-        part: StepData,
-        coordinates: Indices,
-        at: Indices,
-        bodies: list[Body],
-        climbed: slowly.Climb,
-    ) -> None:
+    def _in_round(self, part: Part, climbed: slowly.Climb) -> None:
+        part = part._replace(step=part.step.replace(cone=ELLIPSOID))
+        sizes = self.run.sizes[part.at]
         try:
-            other = part.replace(cone=ELLIPSOID)
             rungs = [
-                slowly.rung(other, one.T, self.solvers, self.run.sizes[at], one.s)
-                for one in climbed.rungs
+                slowly.rung(part.step, one.T, self.solvers, sizes, one.s) for one in climbed.rungs
             ]
         except QuasistaticError:  # no optional/ellipsoid, or no solution
             return
         found = [one for one in rungs if one is not None]
         if len(found) == len(rungs):
-            self._note(look, ROUND, other, found[-1].answer, at)
-            of_round = slowly.Climb(found, False)
-            self._missing(look, ROUND, other, of_round, coordinates, at, bodies)
+            part.note(ROUND, found[-1].answer)
+            self._missing(part, ROUND, slowly.Climb(found, False))
 
-    def _differs(self, look: Look, at: Indices) -> bool:
+    def _differs(self, part: Part) -> bool:
         """Whether Coulomb's law has other forces than the run."""
-        run, coulomb = (look.laws[law].forces[at] for law in (RUN, COULOMB))
-        most = np.abs(run[:, 2]).max(initial=0.0)
-        return bool(np.abs(run - coulomb)[:, 2].max(initial=0.0) > 0.01 * most)
+        run, coulomb = (part.look.laws[law].forces[part.at, 2] for law in (RUN, COULOMB))
+        return bool(np.abs(run - coulomb).max(initial=0.0) > 0.01 * np.abs(run).max(initial=0.0))
 
-    def _missing(
-        self,
-        look: Look,
-        law: str,
-        part: StepData,
-        climbed: slowly.Climb,
-        coordinates: Indices,
-        at: Indices,
-        bodies: list[Body],
-    ) -> None:
-        n_a = int((coordinates < look.step.n_a).sum())
-        of_u = coordinates[n_a:]
-        for body in bodies:
+    def _missing(self, part: Part, law: str, climbed: slowly.Climb) -> None:
+        n_a = part.whole.n_a
+        of_u = part.coordinates[part.step.n_a :]
+        for body in part.bodies:
+            if body.free and not body.contacts[part.at].any():
+                continue  # it falls freely, which is said elsewhere
             here = np.isin(body.coordinates, of_u)
             r = np.zeros(len(here))
             places = np.searchsorted(of_u, body.coordinates[here])
-            r[here] = slowly.missing(part, climbed, places)
-            lacks = body.missing(r, look.step)
-            if body.free and not body.contacts[at].any():
-                continue  # it falls freely, which is said elsewhere
-            if lacks.amount > slowly.LITTLE * self.run.load(body, look.k):
-                look.missing[law][body.name] = lacks
+            r[here] = slowly.missing(part.step, climbed, places)
+            lacks = body.missing(r, body.inertia(part.whole.M_u, n_a))
+            if lacks.amount > slowly.LITTLE * self.run.load(body, part.look.k):
+                part.look.missing[law][body.name] = lacks
 
-    def _note(
-        self, look: Look, law: str, part: StepData, answer: slowly.Answer, at: Indices
-    ) -> None:
-        if law not in look.laws:
-            of_all = np.where(look.live[:, None], np.nan, 0.0)
-            look.laws[law] = Law(np.tile(of_all, 4), np.tile(of_all, 4))
-        look.laws[law].forces[at] = answer.forces
-        look.laws[law].motion[at] = part.contacts.motion(answer.delta_q)
+    def _inner(self, part: Part) -> None:
+        """Note how far inner loads change the resultants of each pair."""
+        forces, motion = (x[part.at] for x in part.look.laws[SLOW])
+        inner = inner_loads(part.step.contacts, forces, motion)
+        of = self.run.pair_of[part.at]
+        for i in np.unique(of).tolist():
+            axes = self.run.axes(part.look.k, part.at[of == i])
+            part.look.inner[i] = resultants(axes, inner[of == i])

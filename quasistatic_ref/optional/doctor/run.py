@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.doctor.account import (
     contact_mu,
     contact_slips,
@@ -65,7 +65,7 @@ class Run(Start):
         self.arrays = trajectory.arrays
         self.steps = trajectory.steps
         self.complete = trajectory.failed is None
-        self._steps: dict[int, RunStep] = {}
+        self._last: RunStep | None = None
         self._solvers: dict[str, Solver] = {}
         self.looking = Looking(self)
         self.statics: Statics | None = None
@@ -196,16 +196,15 @@ class Run(Start):
         """Whether a user's own costs or constraints are more than rows and rises."""
         return self.extension is not None and not posed(self.at(0).step, self.extension)[1]
 
-    @property
-    def compared(self) -> bool:
-        """Whether steps of it are compared by several laws."""
-        return self.small and not self.own_terms
-
     def at(self, k: int) -> RunStep:
-        """Step k, which is kept."""
-        if k not in self._steps:
-            self._steps[k] = RunStep(self, k)
-        return self._steps[k]
+        """Step k, which is kept until another is asked for."""
+        if self._last is None or self._last.k != k:
+            self._last = RunStep(self, k)
+        return self._last
+
+    def axes(self, k: int, contacts: Mask | Indices) -> tuple[Array, Array]:
+        """The tangents d1 and d2 of some contacts in step k, shape (n, 3) each [-]."""
+        return self["d1"][k, contacts], self["d2"][k, contacts]
 
     def solved(self, step: StepData) -> StepSolution | None:
         """A step, unproved; None where it is not solved."""

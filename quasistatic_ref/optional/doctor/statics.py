@@ -13,7 +13,7 @@ from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor import chosen
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
-from quasistatic_ref.optional.doctor.looks import COULOMB, MODEL, ROUND, RUN, SLOW, Look
+from quasistatic_ref.optional.doctor.looks import COULOMB, MODEL, ROUND, RUN, SLOW, Look, resultants
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least
 from quasistatic_ref.optional.doctor.telling import amount, length
@@ -26,7 +26,10 @@ STILL = 0.01
 SLID = 0.01
 """Slip over the smaller shape, or spin [rad], of a run, or of as many steps like the one that is
 looked at, from which it counts [-]."""
-QUANTITIES = ("normal", "friction", "torque")
+TORQUE = 2
+"""Its number among normal force, friction and torque."""
+INNER = 1e-6
+"""Part of an inner load, of length 1, that is none in the resultants of a pair [-]."""
 
 
 class Statics:
@@ -51,10 +54,12 @@ class Statics:
 
     @property
     def not_looked_at(self) -> str:
-        """One line on bodies whose looks have no answer, and on steps beyond the budget."""
+        """One line on bodies whose looks have no answer, and on what is beyond the budget."""
         lines = []
         if self.open:
             lines.append(f"equilibrium of {listed(sorted(self.open))}: no fixed point was found")
+        if large := {name for look in self.looks for name in look.large}:
+            lines.append(f"equilibrium of {len(large)} bodies: too many of them touch")
         if self.left:
             lines.append(f"{self.left} steps with other contacts: {chosen.PROVED} were proved")
         return "; ".join(lines)
@@ -174,17 +179,11 @@ def corners(run: Run) -> Iterator[Finding]:
             {"missing_N": here.force, "ellipsoid_N": there.force, "step": k},
         )
         return
-    changes = [change for look in every.looks for change in _changes(every, look, SLOW, ROUND)]
-    changes = [x for x in changes if x.counts]
-    if changes:
-        change = max(changes, key=lambda x: x.share)
+    change = _largest(run, SLOW, ROUND, lambda change: change.stops or change.share > COUNTS)
+    if change is not None:
         yield _corner(
-            f"{change.pair.name} {change.says('in the ellipsoid')}, in step {change.look.k}",
-            {
-                **change.numbers(),
-                "ellipsoid_N": change.there.get("normal", 0.0),
-                "step": change.look.k,
-            },
+            f"{change.pair.name} {change.says('in the ellipsoid')}, in step {change.k}",
+            {**change.numbers(), "ellipsoid_N": float(change.there.forces[0])},
         )
 
 
@@ -194,49 +193,53 @@ def _corner(cause: str, numbers: dict[str, float]) -> Finding:
 
 def drag(run: Run) -> Iterator[Finding]:
     """The pair whose forces, or whose sticking, drag changes most."""
-    best = _largest(run, SLOW, lambda change: change.of_drag)
-    if best is None:
-        return
-    pair = best.pair.name
-    numbers = {"without_drag_N": best.there[best.what], **best.numbers(), "step": best.look.k}
-    does = best.says("without it")
-    yield Finding(
-        "drag",
-        False,
-        "move more slowly, or take a larger h",
-        f"the drag m v / h of the step counts in {pair}: it {does}{best.parts()}, in step "
-        f"{best.look.k}",
-        numbers,
-    )
+    if best := _largest(run, RUN, SLOW, lambda change: change.of_drag):
+        yield Finding(
+            "drag",
+            False,
+            "move more slowly, or take a larger h",
+            f"the drag m v / h of the step counts in {best.pair.name}: it "
+            f"{best.says('without it')}{best.parts()}, in step {best.k}",
+            {"without_drag_N": float(best.there.forces[best.what]), **best.numbers()},
+        )
 
 
 def layer(run: Run) -> Iterator[Finding]:
     """The pair whose forces, or whose sticking, the boundary layer changes most."""
-    best = _largest(run, COULOMB, lambda change: change.of_layer)
+    best = _largest(run, RUN, COULOMB, lambda change: change.of_layer)
     if best is None:
         return
-    look = best.look
-    of_pair = run.pair_of == run.pairs.index(best.pair)
-    slides = bool((run.mu[of_pair, 0] > 0).any())
-    rises = "slides rises by mu_v h v" if slides else "spins rises by mu_omega h omega"
-    what = {"normal": "presses with", "friction": "rubs with", "torque": "bears"}[best.what]
-    unit = "N m" if best.what == "torque" else "N"
-    does = f"{what} {best.here[best.what]:.3g} {unit}, where Coulomb's law allows "
-    does += f"{best.there[best.what]:.3g} {unit}{best.parts()}"
+    rises = "slides rises by mu_v h v" if best.pair.mu_v > 0 else "spins rises by mu_omega h omega"
+    here, there = best.amounts()
+    does = (
+        f"{('presses with', 'rubs with', 'bears')[best.what]} {here}, where Coulomb's law allows "
+    )
+    does += f"{there}{best.parts()}"
     if best.stops:
         does = best.says("by Coulomb's law")
+    normal, slip = float(best.there.forces[0]), float(best.there.moves[0])
     yield Finding(
         "boundary layer",
         False,
         'move more slowly, take a smaller h, or set law = "coulomb"',
-        f"{best.pair.name} {does}, in step {look.k}: what {rises}, against what presses it",
-        {
-            **best.numbers(),
-            "coulomb_N": best.there["normal"],
-            "coulomb_mm": 1e3 * best.slips_there,
-            "step": look.k,
-        },
+        f"{best.pair.name} {does}, in step {best.k}: what {rises}, against what presses it",
+        {**best.numbers(), "coulomb_N": normal, "coulomb_mm": 1e3 * slip},
     )
+
+
+class Acts(NamedTuple):
+    """What a pair does by a law.
+
+    Parameters
+    ----------
+    forces : ndarray, shape (3,)
+        Normal force, friction and torque [N, N, N m].
+    moves : ndarray, shape (2,)
+        The longest slip and spin of contacts that press [m, rad].
+    """
+
+    forces: Array
+    moves: Array
 
 
 class Change(NamedTuple):
@@ -244,15 +247,11 @@ class Change(NamedTuple):
 
     Parameters
     ----------
-    run : Run
-    look : Look
+    k : int
     pair : ContactPair
-    here, there : dict of str to float
-        Normal force, friction and torque [N, N, N m].
-    slips_here, slips_there, spins_here, spins_there : float
-        [m, rad]
-    what : str
-        The quantity of which most changes.
+    here, there : Acts
+    what : int
+        The force of which most changes.
     share : float
         How much, over the larger one [-].
     stops : bool
@@ -263,15 +262,11 @@ class Change(NamedTuple):
         By how much [N, N, N m].
     """
 
-    look: Look
+    k: int
     pair: ContactPair
-    here: dict[str, float]
-    there: dict[str, float]
-    slips_here: float
-    slips_there: float
-    spins_here: float
-    spins_there: float
-    what: str
+    here: Acts
+    there: Acts
+    what: int
     share: float
     stops: bool
     of_drag: bool
@@ -279,20 +274,21 @@ class Change(NamedTuple):
     drag: float
     layer: float
 
-    @property
-    def counts(self) -> bool:
-        """Whether anything changes by a tenth."""
-        return self.stops or self.share > COUNTS
-
     def numbers(self) -> dict[str, float]:
         """Of a finding."""
         return {
-            "normal_N": self.here["normal"],
-            "friction_N": self.here["friction"],
+            "normal_N": float(self.here.forces[0]),
+            "friction_N": float(self.here.forces[1]),
             "of_drag": self.drag,
             "of_layer": self.layer,
-            "slip_mm": 1e3 * self.slips_here,
+            "slip_mm": 1e3 * float(self.here.moves[0]),
+            "step": self.k,
         }
+
+    def amounts(self) -> list[str]:
+        """The force by both laws."""
+        unit = "N m" if self.what == TORQUE else "N"
+        return [f"{acts.forces[self.what]:.3g} {unit}" for acts in (self.here, self.there)]
 
     def parts(self) -> str:
         """Both parts where both count."""
@@ -303,170 +299,100 @@ class Change(NamedTuple):
     def says(self, where: str) -> str:
         """What it does by each."""
         if self.stops:
-            slides = self.slips_here >= least(self.pair) * self.spins_here
-            if slides and self.slips_there < COUNTS * self.slips_here:
-                return f"slips by {1e3 * self.slips_here:.2g} mm, and not {where}"
-            return f"turns by {np.degrees(self.spins_here):.2g} degrees, and not {where}"
-        unit = "N m" if self.what == "torque" else "N"
-        words = {"normal": "has", "friction": "rubs with", "torque": "bears a torque of"}
-        return (
-            f"{words[self.what]} {self.here[self.what]:.3g} {unit}, {where} "
-            f"{self.there[self.what]:.3g} {unit}"
-        )
+            slip, spin = self.here.moves
+            if slip >= least(self.pair) * spin and self.there.moves[0] < COUNTS * slip:
+                return f"slips by {1e3 * slip:.2g} mm, and not {where}"
+            return f"turns by {np.degrees(spin):.2g} degrees, and not {where}"
+        here, there = self.amounts()
+        words = ("has", "rubs with", "bears a torque of")
+        return f"{words[self.what]} {here}, {where} {there}"
 
 
-def _largest(run: Run, other: str, counts: Callable[[Change], bool]) -> Change | None:
-    """The change of largest share, from the run to another law, of those that count."""
+def _largest(run: Run, one: str, other: str, counts: Callable[[Change], bool]) -> Change | None:
+    """The change of largest share, from one law to another, of those that count."""
     every = statics(run)
-    changes = (change for look in every.looks for change in _changes(every, look, RUN, other))
+    changes = (change for look in every.looks for change in _changes(every, look, one, other))
     return max(filter(counts, changes), key=lambda change: change.share, default=None)
 
 
 def _changes(every: Statics, look: Look, one: str, other: str) -> Iterator[Change]:
     """The changes of pairs, from one law to another, whose bodies are in equilibrium."""
     run = every.run
-    if other not in look.laws or one not in look.laws:
-        return
-    inner = look.undetermined if SLOW in look.laws else np.zeros((len(look.asked), 4, 0))
+    k = look.k
     for i, pair in enumerate(run.pairs):
         of_pair = run.pair_of == i
-        at = of_pair & look.asked
-        if (
-            not (at & look.live).any()
-            or not look.knows(other, of_pair)
-            or not look.knows(one, of_pair)
-        ):
+        by = {law: _acts(run, look, law, of_pair) for law in look.laws if look.knows(law, of_pair)}
+        if not ({one, other} <= by.keys() and (of_pair & look.live).any()):
             continue
         near = [body for body in run.bodies_of if body.contacts[of_pair].any()]
         if {b.name for b in near} & (look.missing[SLOW].keys() | look.lost):
             continue
-        before = look.k - 1
         first = one == RUN and run.steps > 1  # of a run, which starts as it likes
-        if (first and not look.k) or (look.k and not run.presses[before, of_pair].any()):
+        if (first and not k) or (k and not run.presses[k - 1, of_pair].any()):
             continue  # it comes to press in this step
-        here, there = _sums(run, look, one, of_pair), _sums(run, look, other, of_pair)
-        known = _known(look, inner, of_pair)
-        force = max(here["normal"], there["normal"], here["friction"], there["friction"])
-        if near and force <= COUNTS * min(run.load(body, look.k) for body in near):
+        here, there = by[one], by[other]
+        force = max(here.forces[:TORQUE].max(), there.forces[:TORQUE].max())
+        if near and force <= COUNTS * min(run.load(body, k) for body in near):
             continue  # it hardly bears them, as where they are being put down or lifted
         most = float(run["wrench"][:, of_pair, 2].sum(axis=1).max())
         rubs = max(force, most / 2)
         arm = rubs * pair.mu_omega if pair.rows == 6 else np.inf
-        whole = force if force > COUNTS * most else most
-        sizes = {"normal": whole, "friction": rubs, "torque": arm}
-        shares = {
-            name: abs(here[name] - there[name]) / sizes[name]
-            if known[name] and sizes[name] > 0
-            else 0.0
-            for name in QUANTITIES
-        }
-        what = max(shares, key=lambda name: shares[name])
-        share = shares[what]
-        slips = [_slips(run, look, law, of_pair) for law in (one, other)]
-        stops = _stops(run, look, pair, of_pair, slips, other)
-        settles = near and all(every.settles(body, look.k) for body in near)
-        of_drag, of_layer, drags, layers = _parts(run, look, of_pair, what, sizes[what], stops)
-        moves = bool(run.targets_move[look.k])
-        of_drag &= moves
-        of_layer &= moves or not settles
+        sizes = np.array([force if force > COUNTS * most else most, rubs, arm])
+        known = (_sizes(look.inner[i]) <= INNER).all(axis=1) & (sizes > 0)
+        shares = known * np.abs(here.forces - there.forces) / np.where(known, sizes, 1.0)
+        what = int(shares.argmax())
+        stops = _stops(run, pair, of_pair, here, there)
+        stops &= bool(there.forces[0] > COUNTS * by[RUN].forces[0])
+        of_drag, of_layer, drags, layers = _parts(by, what, sizes[what], stops)
+        moves = bool(run.targets_move[k])
+        settles = near and all(every.settles(body, k) for body in near)
         yield Change(
-            look, pair, here, there, slips[0][0], slips[1][0], slips[0][1], slips[1][1],
-            what, share, stops, of_drag, of_layer, drags, layers,
+            k, pair, here, there, what, float(shares[what]), stops,
+            of_drag and moves, of_layer and (moves or not settles), drags, layers,
         )  # fmt: skip
 
 
 def _parts(
-    run: Run, look: Look, of_pair: Mask, what: str, size: float, stops: bool
+    by: dict[str, Acts], what: int, size: float, stops: bool
 ) -> tuple[bool, bool, float, float]:
-    """Whether drag and layer count in a pair, and how much of a quantity they are.
+    """Whether drag and layer count in a pair, and how much of a force they are.
 
     run = slow + drag + layer. Where the convex step has no layer slowly, the layer follows from
-    drag, whose the whole difference is then.
+    drag, whose the whole difference is then; as it is where there is no Coulomb's law at h.
     """
-    laws = [RUN, COULOMB, SLOW]
-    if not all(look.knows(law, of_pair) for law in laws):
-        if not look.knows(SLOW, of_pair):
-            return False, False, 0.0, 0.0
-        of_run, slow = (_sums(run, look, law, of_pair)[what] for law in (RUN, SLOW))
-        counts = stops or abs(of_run - slow) > COUNTS * size
-        return counts, False, of_run - slow, 0.0
-    of_run, coulomb, slow = (_sums(run, look, law, of_pair)[what] for law in laws)
-    layers = of_run - coulomb
-    drags = coulomb - slow
-    if look.knows(MODEL, of_pair) and abs(layers) > COUNTS * size:
-        model = _sums(run, look, MODEL, of_pair)[what]
-        if abs(model - slow) <= COUNTS * abs(layers):
-            drags, layers = drags + layers, 0.0
-    of_drag = abs(drags) > COUNTS * size
-    of_layer = abs(layers) > COUNTS * size
-    if stops:
-        sticks = max(_slips(run, look, COULOMB, of_pair)) <= COUNTS * max(
-            _slips(run, look, RUN, of_pair)
-        )
-        of_layer |= sticks
-        of_drag |= not sticks
-    return of_drag, of_layer, drags, layers
+    coulomb = by.get(COULOMB, by[RUN])
+    layers = float(by[RUN].forces[what] - coulomb.forces[what])
+    drags = float(coulomb.forces[what] - by[SLOW].forces[what])
+    slowly = abs(by.get(MODEL, by[RUN]).forces[what] - by[SLOW].forces[what])
+    if MODEL in by and abs(layers) > max(COUNTS * size, slowly / COUNTS):
+        drags, layers = drags + layers, 0.0
+    sticks = stops and bool(coulomb.moves.max() <= COUNTS * by[RUN].moves.max())
+    of_drag = abs(drags) > COUNTS * size or (stops and not sticks)
+    return of_drag, abs(layers) > COUNTS * size or sticks, drags, layers
 
 
-def _sums(run: Run, look: Look, law: str, of_pair: Mask) -> dict[str, float]:
-    """Normal force, friction and torque of a pair [N, N, N m]."""
-    forces = look.laws[law].forces[of_pair]
-    contacts = look.step.contacts
-    rubs = forces[:, :1] * contacts.d1[of_pair] + forces[:, 1:2] * contacts.d2[of_pair]
-    return {
-        "normal": float(forces[:, 2].sum()),
-        "friction": float(np.linalg.norm(rubs.sum(axis=0))),
-        "torque": abs(float(forces[:, 3].sum())),
-    }
+def _sizes(resultants: Array) -> Array:
+    """Normal force, friction and torque of resultants, shape (5, ...), shape (3, ...)."""
+    normal, *rubs, torque = resultants
+    return np.stack([np.abs(normal), np.linalg.norm(rubs, axis=0), np.abs(torque)])
 
 
-def _slips(run: Run, look: Look, law: str, of_pair: Mask) -> tuple[float, float]:
-    """The longest slip [m] and spin [rad] of contacts of a pair that press."""
+def _acts(run: Run, look: Look, law: str, of_pair: Mask) -> Acts:
+    """What a pair does by a law."""
     forces, motion = (x[of_pair] for x in look.laws[law])
-    contacts = look.step.contacts
+    axes = run.axes(look.k, of_pair)
     presses = forces[:, 2] > 1e-6 * forces[:, 2].max(initial=0.0)
-    if not presses.any():
-        return 0.0, 0.0
-    d1, d2 = (np.vecdot(motion[:, :3], d[of_pair]) for d in (contacts.d1, contacts.d2))
-    spins = np.where(contacts.torsion[of_pair], np.abs(motion[:, 3]), 0.0)
-    return float(np.hypot(d1, d2)[presses].max()), float(spins[presses].max())
+    slips = np.hypot(*(np.vecdot(motion[:, :3], d) for d in axes))
+    spins = np.where(run["rows"][of_pair] == 6, np.abs(motion[:, 3]), 0.0)
+    moves = np.stack([slips, spins])[:, presses].max(axis=1, initial=0.0)
+    return Acts(_sizes(resultants(axes, forces)), moves)
 
 
-def _stops(
-    run: Run,
-    look: Look,
-    pair: ContactPair,
-    of_pair: Mask,
-    slips: list[tuple[float, float]],
-    other: str,
-) -> bool:
+def _stops(run: Run, pair: ContactPair, of_pair: Mask, here: Acts, there: Acts) -> bool:
     """Whether a pair with friction slips or spins by the first law alone, and far in the run."""
     way = np.where(run.presses[:, of_pair, None], np.abs(run.slips[:, of_pair]), 0.0).sum(axis=0)
-    far = (way[:, :2] > SLID * run.sizes[of_pair][:, None]).any(), (way[:, 2] > SLID).any()
-    rubs = pair.mu_v > 0, pair.rows == 6 and pair.mu_omega > 0
-    (slip, spin), (slip_there, spin_there) = slips
-    slides = slip * run.steps > SLID * least(pair) and slip_there < COUNTS * slip
-    turns = spin * run.steps > SLID and spin_there < COUNTS * spin
-    if not _presses(look, other, of_pair):
-        return False
-    return bool((far[0] and rubs[0] and slides) or (far[1] and rubs[1] and turns))
-
-
-def _presses(look: Look, law: str, of_pair: Mask) -> bool:
-    """Whether a pair presses by a law, with more than a tenth of what it does in the run."""
-    here, there = (look.laws[x].forces[of_pair, 2].sum() for x in (RUN, law))
-    return bool(there > COUNTS * here)
-
-
-def _known(look: Look, inner: Array, of_pair: Mask) -> dict[str, bool]:
-    """Which forces of a pair no inner load changes."""
-    contacts = look.step.contacts
-    z = inner[of_pair]
-    rubs = np.einsum("cd,ci->cid", z[:, 0], contacts.d1[of_pair])
-    rubs = rubs + np.einsum("cd,ci->cid", z[:, 1], contacts.d2[of_pair])
-    resultants = {
-        "normal": z[:, 2].sum(axis=0),
-        "friction": rubs.sum(axis=0),
-        "torque": z[:, 3].sum(axis=0),
-    }
-    return {name: bool(np.abs(x).max(initial=0.0) <= 1e-6) for name, x in resultants.items()}
+    sizes = SLID * np.array([least(pair), 1.0])
+    far = [(way[:, :2] > sizes[0]).any(), (way[:, 2] > sizes[1]).any()]
+    rubs = [pair.mu_v > 0, pair.rows == 6 and pair.mu_omega > 0]
+    ends = (here.moves * run.steps > sizes) & (there.moves < COUNTS * here.moves)
+    return bool((np.array(far) & rubs & ends).any())

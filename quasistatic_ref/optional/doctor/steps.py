@@ -27,7 +27,7 @@ def leaps(run: Run) -> Iterator[Finding]:
     How far a body moves that is not in equilibrium says nothing: it has a finding of its own.
     """
     sides = run.sides
-    looks = statics(run).looks if run.compared else []
+    looks = [] if run.own_terms else statics(run).looks
     unbalanced = {name for look in looks for name in look.missing[SLOW]}
     jumps = {
         track.joint.name: abs(float(track.values[0, 0] - run.q_start[track.joint.q][0]))

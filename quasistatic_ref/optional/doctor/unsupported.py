@@ -130,7 +130,7 @@ def falls(run: Run) -> dict[str, Fall]:
 
 def _yields(run: Run, name: str) -> bool:
     """Whether what touches a body in the last step bears it slowly, as a soft spring does."""
-    if not run.compared:
+    if run.own_terms:
         return False
     look = run.looking.at(run.steps - 1, {name})
     touches = bool((look.asked & run.of_body(name)).any())

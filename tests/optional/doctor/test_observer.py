@@ -8,7 +8,7 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref import load_scenario, load_trajectory
-from quasistatic_ref.optional.doctor import start
+from quasistatic_ref.optional.doctor import looks, start
 from quasistatic_ref.simulate.finding import finding_table
 from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, urdf_of_text
@@ -112,7 +112,7 @@ def test_strict_is_content_with_findings_that_are_not_grave(tmp_path, cli):
     assert (found["name"], found["grave"]) == ("drag", False)
 
 
-OF_RUN = "locked guides, equilibrium, artifacts of the model, forces of single contacts"
+OF_RUN = "locked guides, forces of single contacts"
 ARTIFACTS = {
     "block_push": ["drag"],
     "panda_push": ["drag", "boundary layer"],
@@ -140,6 +140,18 @@ def test_a_body_that_sticks_to_what_pushes_it_is_looked_at():
     )
     assert run.findings == ()
     assert "fixed point" not in run.header.not_looked_at
+
+
+@pytest.mark.parametrize(("most", "names"), [(looks.GROUP, ["drag"]), (0, [])])
+def test_a_large_scene_is_looked_at_by_groups(most, names, monkeypatch):
+    monkeypatch.setattr(start, "SEARCHED", 0)
+    monkeypatch.setattr(looks, "GROUP", most)
+    run = load_scenario("block_push", ["solver.certify=off", "steps=60"], fast=True).run(
+        progress=False
+    )
+    assert [found.name for found in run.findings] == names
+    said = "equilibrium of 1 bodies: too many of them touch"
+    assert (said in run.header.not_looked_at) is (most == 0)
 
 
 def test_what_is_not_looked_at_in_a_large_scene_is_said(tmp_path, cli, monkeypatch):
