@@ -110,7 +110,7 @@ class Body:
         return np.asarray(M_u[np.ix_(self.coordinates - n_a, self.coordinates - n_a)])
 
     def missing(self, r: Array, M: Array) -> Missing:
-        """What is missing, from r along its coordinates [N, N m] and its block of M_u."""
+        """What is missing, of r along its coordinates [N, N m], with the inertia M, (n, n)."""
         force, torque = r[self.lengths], r[~self.lengths]
         start = np.linalg.solve(M, r)
         slides, turns = start[self.lengths], start[~self.lengths]

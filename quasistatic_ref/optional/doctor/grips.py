@@ -8,7 +8,7 @@ from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
 from quasistatic_ref.optional.doctor.looks import COULOMB, SLOW
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import table
+from quasistatic_ref.optional.doctor.start import least_mean, table
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.friction import frame_jacobian
@@ -59,10 +59,7 @@ def _closed(n: Array) -> bool:
         return False  # all of them have that much along their mean
     if np.linalg.norm(n[:, None] + n, axis=2).min() < 2 * CLOSED:
         return True  # two of them do it
-    from scipy.optimize import nnls  # takes as long as a short run
-
-    _, left = nnls(np.vstack([n.T, np.ones(len(n))]), np.array([0.0, 0.0, 0.0, 1.0]))
-    return bool(left < CLOSED)
+    return least_mean(n) < CLOSED
 
 
 def _agreement(run: Run, body: Body, k: int, on: Mask, lacks: Missing) -> float:

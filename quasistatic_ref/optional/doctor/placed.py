@@ -10,7 +10,15 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor.contradictions import farthest_points, hull_of
 from quasistatic_ref.optional.doctor.equilibrium import borne
-from quasistatic_ref.optional.doctor.start import Start, body, joining, least, slices, table
+from quasistatic_ref.optional.doctor.start import (
+    Start,
+    body,
+    joining,
+    least,
+    least_mean,
+    slices,
+    table,
+)
 from quasistatic_ref.optional.doctor.unsupported import fall, held, sinks
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
@@ -134,17 +142,13 @@ def _clamped(start: Start, name: str) -> bool:
 
     Of some contacts that are near, sum w n = 0 with w >= 0.
     """
-    from scipy.optimize import nnls  # takes as long as a short run
-
     assert start.points is not None
     normals = [
         start.points.n[at][start.points.phi[at] <= SUNK * least(pair)]
         for pair, at in slices(start.pairs)
         if name in start.bodies(pair)
     ]
-    n = np.concatenate(normals)
-    _, left = nnls(np.vstack([n.T, np.ones(len(n))]), np.array([0.0, 0.0, 0.0, 1.0]))
-    return bool(left <= SAME_NORMAL)
+    return least_mean(np.concatenate(normals)) <= SAME_NORMAL
 
 
 def _contacts(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float, float]]]]:

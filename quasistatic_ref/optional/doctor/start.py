@@ -243,3 +243,11 @@ def centre(system: System, kinematics: Kinematics, name: str) -> Array:
     mass = np.where([link.startswith(f"{name}/") for link in system.links], system.masses, 0.0)
     places = kinematics.t + np.einsum("lij,lj->li", kinematics.R, system.centres)
     return np.asarray(mass @ places / mass.sum())
+
+
+def least_mean(n: Array) -> float:
+    """Nearly the length of the least mean of normals, (n, 3), with weights >= 0 of sum 1 [-]."""
+    from scipy.optimize import nnls  # takes as long as a short run
+
+    _, left = nnls(np.vstack([n.T, np.ones(len(n))]), np.array([0.0, 0.0, 0.0, 1.0]))
+    return float(left)

@@ -123,17 +123,12 @@ def _surprise(
     deep = f"{depth:.3g} mm deep at step {step}"
     numbers = {"depth_mm": depth, "step": step}
     what = "point" if pair.has_cloud or number[i] < pair.corners else "candidate"
-    raised = more_points(run, pair)
-    if not considered[i]:
-        left_out = f"was not among its {pair.n_c} closest at step {step - 1}"
-        return Finding(
-            "sunk contact",
-            True,
-            raised,
-            f"{what} {number[i]} of {pair.name} {left_out} and is {deep}",
-            numbers,
-        )
-    more = f", or {raised}" if pair.n_c < pair.candidates else ""
-    left = f"the step before, which is right to first order, left it at {1e3 * predicted[i]:.3g} mm"
-    cause = f"{what} {number[i]} of {pair.name} is {deep}; {left}"
-    return Finding("sunk contact", True, f"take a smaller h or move slower{more}", cause, numbers)
+    remedy = more_points(run, pair)
+    cause = f"{what} {number[i]} of {pair.name} was not among its {pair.n_c} closest at step "
+    cause += f"{step - 1} and is {deep}"
+    if considered[i]:
+        more = f", or {remedy}" if pair.n_c < pair.candidates else ""
+        remedy = f"take a smaller h or move slower{more}"
+        cause = f"{what} {number[i]} of {pair.name} is {deep}; the step before, which is right to "
+        cause += f"first order, left it at {1e3 * predicted[i]:.3g} mm"
+    return Finding("sunk contact", True, remedy, cause, numbers)

@@ -321,15 +321,19 @@ def short(run: Run) -> Iterator[Finding]:
         unit = joint.coordinates[0].unit
         if stopped and not _stalled(task, int(np.abs(pushes[:, v]).argmax()), error, unit):
             continue
-        needed = rounded_up(abs(float(spring[v])) / (LAGS * ways[joint]))
-        yield Finding(
-            "far from target",
-            True,
-            f"raise K_q of {joint.name} to {needed:.3g} or more",
-            f"it ends {amount(error, unit)} from its last target, with "
-            f"{abs(spring[v]):.3g} {'N' if unit == 'm' else 'N m'} on its spring",
-            {f"error_{unit}": error, "K_q": needed},
-        )
+        yield _lags(joint, error, unit, abs(float(spring[v])), ways[joint])
+
+
+def _lags(joint: Joint, error: float, unit: str, spring: float, way: float) -> Finding:
+    needed = rounded_up(spring / (LAGS * way))
+    return Finding(
+        "far from target",
+        True,
+        f"raise K_q of {joint.name} to {needed:.3g} or more",
+        f"it ends {amount(error, unit)} from its last target, with {spring:.3g} "
+        f"{'N' if unit == 'm' else 'N m'} on its spring",
+        {f"error_{unit}": error, "K_q": needed},
+    )
 
 
 def _short_bases(task: Task, lag: Array) -> Iterator[Finding]:
@@ -365,14 +369,7 @@ def _short_bases(task: Task, lag: Array) -> Iterator[Finding]:
             push = (forces[of_pair, 2:3] * run["n"][k, of_pair]).sum(axis=0)
             stopped += abs(float(push @ error)) / far
         if stopped <= spring / 2:
-            needed = rounded_up(spring / (LAGS * way))
-            yield Finding(
-                "far from target",
-                True,
-                f"raise K_q of {joint.name} to {needed:.3g} or more",
-                f"it ends {length(far)} from its last target, with {spring:.3g} N on its spring",
-                {"error_m": far, "K_q": needed},
-            )
+            yield _lags(joint, far, "m", spring, way)
 
 
 def _at_a_stop(run: Run, joint: Joint) -> bool:

@@ -35,7 +35,7 @@ def sinks(start: Start, name: str) -> bool:
     """
     base = start.free_bases[name]
     columns = slice(base.v.start, base.v.start + base.lengths)
-    link = next(i for i, of in enumerate(start.system.links) if of.startswith(f"{name}/"))
+    link = start.system.link(name)
     down = start.gravity @ start.kinematics.J[link][:3, columns] / start.g
     return bool(start.load_at_start[columns] @ down > LIGHT * start.system.mass(name) * start.g)
 
@@ -236,7 +236,7 @@ def _sinks(start: Start, rows: Extra, shifts: list[int], base: Joint) -> float:
 
     system = start.system
     name = base.name.removesuffix("/base")
-    link = next(i for i, of in enumerate(system.links) if of.startswith(f"{name}/"))
+    link = system.link(name)
     columns = slice(base.v.start, base.v.start + base.lengths)
     way = start.gravity / start.g
     down = np.zeros(system.n_v)
