@@ -94,7 +94,6 @@ def test_runs_of_a_scene_that_has_changed_are_kept_and_refused(tmp_path, monkeyp
 
 OTHERS = {
     "another scenario": ("sphere_spin", {"h": [0.01, 0.02], "steps": [1]}),
-    "a field less": ("block_incline", {"h": [0.01, 0.02]}),
     "a value less": ("block_incline", {"h": [0.01], "steps": [1]}),
 }
 

@@ -90,13 +90,6 @@ def test_a_planted_word_is_found(name, source):
     assert len([*wrong_words(name, source)]) == 1
 
 
-@pytest.mark.parametrize("folder", ["cli", "formats", "scenario"])
-def test_a_file_of_tests_has_the_name_of_the_module_that_it_tests(folder):
-    modules = {path.stem for path in (PACKAGE / folder).glob("*.py")}
-    files = {path.stem for path in (PACKAGE.parent / "tests" / folder).glob("test_*.py")}
-    assert {name.removeprefix("test_") for name in files} <= modules
-
-
 def printed_text(*lines):
     """What these lines print in an interpreter of their own, which must end well."""
     command = [sys.executable, "-W", "error", "-c", "\n".join(lines)]

@@ -146,8 +146,3 @@ print("done")
         [sys.executable, "-c", source], capture_output=True, text=True, check=False, cwd=ROOT
     )
     assert (run.returncode, run.stdout.strip()) == (0, "done"), run.stderr
-
-
-def test_a_shape_that_cases_share_is_put_back():
-    (case,) = (case for case in cases("step") if case.id == "step/bunny_grasp/0")
-    assert 992 in [len(entry["shape"].get("points", ())) for entry in case.input["shapes"].values()]

@@ -19,24 +19,10 @@ ROOT = Path(__file__).parents[3]
 BOX = Box((0.05, 0.035, 0.025))
 CAN = Cylinder(0.03, 0.05)
 Z = np.array([0.0, 0.0, 1.0])
-TURNED = np.array(
-    [
-        [0.8407027266808451, 0.5294626426507755, 0.11352636428887106],
-        [-0.38352189538302806, 0.7302092886809533, -0.5654249291337142],
-        [-0.3822693829136751, 0.43181443324802515, 0.8169494562856903],
-    ]
-)
-AT = np.array([0.028068959806176144, -0.05576791989942169, 0.07487708484987524])
 
 
 def still(shape):
     return ShapeInWorld(shape, np.eye(3), np.zeros(3))
-
-
-def test_the_point_of_a_face_nearest_to_a_line_is_on_it():
-    top = face(still(BOX), Z)
-    for x, nearest in ((0.04, 0.04), (1.0, 0.05)):
-        assert_within(top.nearest(np.array([x, 0.01, 2.0])), [nearest, 0.01, 0.025], CURVED_PAIR)
 
 
 def test_a_side_ends_at_the_caps_though_the_normal_is_off_by_rounding():
@@ -58,22 +44,6 @@ def test_axes_that_are_nearly_parallel_have_a_normal_across_both(sine):
     found = solid_pair("p", low, top)
     assert_within(found.n, Z, CURVED_PAIR)
     assert_within(found.alpha, [x, 0.0, 0.1], 1e-10)
-
-
-def nearest_corner(solid, corners):
-    """Distance and normal of the nearest of some points from a solid, by its closed form [m, -]."""
-    phi, n = solid.shape.signed_distance((corners - solid.t) @ solid.R)
-    i = phi.argmin()
-    return phi[i], solid.R @ n[i]
-
-
-def test_a_corner_5_nm_from_a_rim_has_the_normal_of_its_own_distance():
-    can = ShapeInWorld(CAN, TURNED, AT)
-    found = solid_pair("p", still(BOX), can)
-    phi, out = nearest_corner(can, BOX.corners(Z)[0])
-    assert found.phi == pytest.approx(phi, abs=1e-16)
-    np.testing.assert_allclose(found.n, -out, atol=1e-8)
-    np.testing.assert_allclose(found.beta - found.alpha, found.phi * found.n, atol=1e-16)
 
 
 @pytest.mark.parametrize("gap", [3e-10, 5e-9, 1e-7])

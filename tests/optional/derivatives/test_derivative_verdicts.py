@@ -32,19 +32,15 @@ RAIL = robot(link("rail"), link("slider"), joint("slide", "rail", "slider", "pri
 LOPSIDED = """<robot name="box"><link name="box"><inertial><origin xyz=".02 .02 0"/>
 <mass value="1"/><inertia ixx="2e-3" iyy="2e-3" izz="2e-3" ixy="0" ixz="0" iyz="0"/></inertial>
 <collision><geometry><box size=".1 .1 .1"/></geometry></collision></link></robot>"""
-FLOORS = {
-    "a half-space": {"halfspace": {"normal": [0, 0, 1], "offset": 0}},
-    "a box": {"box": {"size": [0.6, 0.6, 0.1]}, "pose": {"xyz": [0, 0, -0.05]}},
-}
+FLOOR_BOX = {"box": {"size": [0.6, 0.6, 0.1]}, "pose": {"xyz": [0, 0, -0.05]}}
 
 
-@pytest.mark.parametrize("floor", FLOORS)
-def test_a_turn_by_rounding_changes_no_corner_of_a_box_that_lies_flat(floor):
+def test_a_turn_by_rounding_changes_no_corner_of_a_box_that_lies_flat():
     """With the middle of an edge in a corner's place, a turn of -1e-6 made a jump of 2.1e-3."""
     body = {"urdf": LOPSIDED, "base": "floating", "pose": {"xyz": [0, 0, 0.05]}}
     pair = {"alpha": "floor", "beta": "box", "mu_v": 0.5, "rows": 4, "k": 4}
     scene = {"h": 0.01, "steps": 1, "gravity": [0, 0, -9.81], "bodies": {"box": body}}
-    scene |= {"shapes": {"floor": FLOORS[floor]}, "contacts": {"floor": pair}}
+    scene |= {"shapes": {"floor": FLOOR_BOX}, "contacts": {"floor": pair}}
     scenario = load_scenario(scene)
     simulator = scenario.simulator()
     q = scenario.system.q_start
@@ -110,14 +106,6 @@ KINKS = {
     "faces that overlap in part, with one corner of either": (
         reason.MANY,
         lambda: free(BOX, (0.06, 0.05, 0.05), PYRAMID_ON_ITS_TIP, k=2),
-    ),
-    "faces that overlap in part, of which one point is kept": (
-        reason.MANY,
-        lambda: free(BOX, (0.06, 0.05, 0.05), PYRAMID_ON_ITS_TIP),
-    ),
-    "faces that overlap in part, with two corners of the upper one": (
-        reason.MANY,
-        lambda: free(PYRAMID, (0.29, 0, 0.05), SLAB, k=2),
     ),
     "faces that overlap in three corners, which are not all of either": (
         reason.MANY,

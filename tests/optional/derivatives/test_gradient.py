@@ -38,16 +38,12 @@ def test_along_a_direction_a_weak_row_holds_or_lets_go(way):
 def test_the_derivatives_on_one_side_are_those_of_states_just_beside(way):
     simulator, q = falling_ball()
     e = np.array(way)
-    down = np.array([0.0, 0, -1, 0, 0, 0])
     found = derivatives(simulator, q, NONE, towards={"q": e})
     assert found.differentiable
     nearby = derivatives(simulator, simulator.system.integrate(q, 1e-7 * e), NONE)
     assert nearby.differentiable
     assert np.allclose(found.dq_dq, nearby.dq_dq, rtol=0, atol=1e-5)
-    assert np.abs(found.dq_dtau - nearby.dq_dtau).max() < 1e-5 * np.abs(nearby.dq_dtau).max()
-    # A push decides as well, but a motion along the floor leaves every row as it is.
-    pressed = derivatives(simulator, q, NONE, towards={"tau": down})
-    assert np.allclose(pressed.dq_dq[2, 2], 0, atol=1e-12)
+    # A motion along the floor leaves every row as it is.
     along = derivatives(simulator, q, NONE, towards={"q": np.eye(6)[0]})
     assert {why.kind for why in along.reasons} == {reason.WEAK}
 

@@ -94,18 +94,6 @@ def step(scenario, *force):
     return scenario.simulator().step(q, np.zeros(0), np.array(force)).solution
 
 
-@pytest.mark.parametrize("force", [3.0, -20.0])
-def test_a_drawer_sticks_up_to_its_friction_and_then_opens(tmp_path, force):
-    """delta_q = h^2 (F - f) / (m + m_r) beyond f = 3 N, else exactly 0; m_r = 1e-6 m."""
-    m = 2.0
-    f = 3.0
-    expected = np.sign(force) * H**2 * max(abs(force) - f, 0.0) / (m + 1e-6 * m)
-    answers = [step(scene(tmp_path, DRAWN, fast=fast), force) for fast in (False, True)]
-    assert [answer.certificate.kind for answer in answers] == ["exact", "exact"]
-    assert answers[0].delta_q.tolist() == answers[1].delta_q.tolist()
-    assert_relative(answers[0].delta_q[0], expected, ROUNDING)
-
-
 @pytest.mark.parametrize("force", [4.999, -6.0])
 def test_a_joint_that_follows_adds_its_friction_by_its_multiplier(tmp_path, force):
     """The follower moves 2 delta_q against 1 N: beyond 3 N + 2 1 N both open.

@@ -5,10 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, solve_step
+from quasistatic_ref import solve_step
 from quasistatic_ref.certify.groups import Group
 from quasistatic_ref.lab.bench.scenes import boxes
-from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.optional.fast.program import NaturalProgram, Program, Workspace
 from quasistatic_ref.optional.fast.solver import FastSolver
@@ -105,25 +104,6 @@ def test_a_warm_start_that_fails_is_followed_by_a_cold_one(rng, monkeypatch):
     again = solve_step(step, solver, certify="off").delta_q
     assert error(step, again, right) <= ACTIVE_SET
     assert calls == [True, False]
-
-
-def test_boxes_that_cannot_touch_are_groups_of_their_own(rng):
-    """What is put together from their answers is that to all of it; rows that couple them join."""
-    scene = boxes(3)
-    step = scene.simulator("off", False).step(scene.q, np.zeros(0), scene.force).step
-    solver = FastSolver(step)
-    assert [len(group.coordinates) for group in solver.program.groups] == [6, 6, 6]
-    answer = solve_step(step, solver, certify="off")
-    assert error(step, answer.delta_q, solve_step(step, "none").delta_q) <= ACTIVE_SET
-    assert answer.statistics.iterations > 3
-    lifted = step.replace(contacts=repeated(step.contacts, range(8)))  # the third has no rows
-    free = solve_step(lifted, FastSolver(lifted), certify="off").delta_q
-    assert error(lifted, free, solve_step(lifted, "none").delta_q) <= ACTIVE_SET
-    coupled = step.replace(extra=Extra(("rod",), np.ones((1, 18)), [-1.0]))
-    joined = FastSolver(coupled)
-    assert len(joined.program.groups) == 1
-    found = solve_step(coupled, joined, certify="off").delta_q
-    assert error(coupled, found, solve_step(coupled, "none").delta_q) <= ACTIVE_SET
 
 
 def test_a_step_that_couples_what_the_step_before_did_not_is_solved(rng):

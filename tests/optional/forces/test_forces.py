@@ -44,13 +44,6 @@ def block(rows=6, push=0.0, mu_omega=0.01, cone="pyramid"):
     return rigid_step(M, (0.002, 0.002, 0.003), wrench, CORNERS, frames, **args).replace(cone=cone)
 
 
-@pytest.mark.parametrize("cone", CONES)
-def test_noise_of_rounding_size_does_not_change_them(cone):
-    step = block(push=1.0, cone=cone)
-    noise, bound = checks.noise_of_rounding(step, solve_step(step))
-    assert noise < bound < 1e-4
-
-
 def walled_block(wall=1e-4):
     """One that slides against a wall, x <= 0.1 mm, before another one, x <= 1 m."""
     rows = Extra(("beyond", "wall"), -np.eye(6)[[0, 0]], [-1.0, -wall])
@@ -134,18 +127,6 @@ def slider(directions, mu_v=0.5, K=1.0):
     J[:, :3, 0] = directions
     n_c = len(directions)
     return free_step([[K]], [0.0], contacts_of([0.0] * n_c, [np.eye(3)] * n_c, J, mu_v), H)
-
-
-def test_a_rail_does_not_stiffen_its_group_however_it_is_turned():
-    """Its b = h^2 / m u u' has the mobility h^2 / m along u, and none across, by rounding 1e-34.
-
-    Without friction the contact bears along n alone: b = h^2 / m cos^2 of the angle of u and n.
-    """
-    for angle in np.concatenate([[0.0, 1e-17], np.geomspace(1e-9, 1.5, 200)]):
-        u = [np.sin(angle), 0.0, np.cos(angle)]
-        for mu_v, share in ((0.5, 1.0), (0.0, np.cos(angle) ** 2)):
-            c = group_compliance(slider([u], mu_v))
-            assert abs(np.log2(c / (COMPLIANCE * H**2 * share))) <= 0.5 + ROUNDING
 
 
 def test_the_compliance_changes_by_one_power_of_two_at_a_time():

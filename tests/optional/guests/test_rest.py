@@ -137,18 +137,6 @@ CASES = {
         FREE, zero("actuator_gainprm", "actuator_biasprm"), {"ctrl": 0.3},
         act('<position joint="x" kp="{k}" gear="2"/>'), ALONG,
     ),
-    "servo at its joint's actuatorfrcrange": Case(
-        CART.format('actuatorfrcrange="-1 {a}" stiffness="{k}"', BALL),
-        zero("jnt_actfrclimited"), {"ctrl": 2}, act('<position joint="x" kp="{k}"/>'),
-    ),
-    "saturated servo": Case(
-        SPRUNG, zero("actuator_forcelimited"), {"ctrl": 2},
-        act('<position joint="x" kp="{k}" forcerange="-1 {a}"/>'),
-    ),
-    "tendon's actuatorfrcrange": Case(
-        SPRUNG, zero("tendon_actfrclimited"), {"ctrl": 2}, FIXED.format('actuatorfrcrange="-1 {a}"')
-        + act('<position tendon="t" kp="{k}"/>'),
-    ),
     "motor": Case(SPRUNG, zero("ctrl"), {"ctrl": 2}, act('<motor joint="x" gear="{b}"/>')),
     "activation": Case(
         FREE, zero("act"), {"act": 0.2}, act('<intvelocity joint="x" kp="{k}"/>'), ALONG,

@@ -134,18 +134,6 @@ def test_derivatives_of_a_scene_that_mujoco_moves_are_refused(lifted):
         qr.derivatives(scene.simulator(), run.q[0], run.q_bar_a[0])
 
 
-def test_a_contact_that_no_joint_opens_bears_nothing():
-    """A slider along a wall that it is 1 mm deep in: the step has a solution, and moves it."""
-    text = """<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 .099">
-    <joint name="x" type="slide" axis="1 0 0"/><geom size=".1" mass="1"/></body></worldbody>
-    </mujoco>"""
-    k = {"stiffness.x": 10.0}
-    scene = mujoco_scenario(model(text), targets=lambda t: {"x": 0.01}, settings=k, steps=1)
-    run = scene.run(progress=False)
-    assert run.q[-1].tolist() == [0.01]
-    assert not run.wrench.any()
-
-
 BALL = '<body name="b"><joint name="j" type="hinge"/><geom size=".1"/>{}</body>'
 
 

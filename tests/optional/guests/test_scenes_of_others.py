@@ -6,9 +6,7 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError, ModelError
-from quasistatic_ref.optional.guests import places
 from quasistatic_ref.optional.guests.compiler import compiled_model
-from quasistatic_ref.optional.guests.places import placed
 from quasistatic_ref.solve.problem_data import is_large
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 
@@ -159,13 +157,6 @@ def test_a_step_of_many_coordinates_is_solved_without_the_map_of_its_parameters(
     answer = qr.solve_step(step)
     assert answer.certificate.kind == "exact"
     assert answer.forces[:, 2].sum() == pytest.approx(48 * 9.81)
-
-
-def test_a_geom_of_many_pairs_has_one_shape(monkeypatch):
-    counts = []
-    monkeypatch.setattr(places, "placed", lambda state, g: counts.append(g) or placed(state, g))
-    scene(*many(5))
-    assert sorted(counts) == [*range(10)]
 
 
 @pytest.mark.parametrize("between", [False, True])

@@ -181,13 +181,6 @@ def test_a_mesh_is_weighed_where_and_as_large_as_its_file_places_it(tmp_path):
     assert_within(made.centre, np.array([0.5, 0.0, 0.1]), 1e-7)
 
 
-def test_the_file_of_parts_that_overlap_is_refused_by_name(tmp_path):
-    bars = [trimesh.creation.box(size) for size in ((0.2, 0.04, 0.04), (0.04, 0.2, 0.04))]
-    trimesh.util.concatenate(bars).export(tmp_path / "cross.stl")
-    with pytest.raises(InputError, match=r"cross\.stl: mesh: has shells that overlap: .* 640 cm"):
-        qr.scanned_body(tmp_path / "cross.stl", density=1000.0)
-
-
 def test_a_cloud_on_a_coarse_grid_is_told_so(tmp_path):
     points = on_block(np.random.default_rng(8), 4000, (0.06, 0.06, 0.06))
     assert not [note for note in body(tmp_path, points).notes if "grid" in note]

@@ -34,13 +34,10 @@ BAD = {
     "without a field": (ROWS, lambda output: {"A": output["A"]}, "b is missing"),
     "one row short": (ROWS, changed("b", lambda b: b[:-1]), "entries"),
     "NaN": (ROWS, first_b(float("nan")), "finite"),
-    "infinity": (ROWS, first_b(float("inf")), "finite"),
     "null": (ROWS, first_b(None), "must be a number, not null, which many programs write for NaN"),
-    "a string": (ROWS, first_b("0.5"), "must be a number"),
     "true": (ROWS, first_b(True), "must be a number"),
     "a huge integer": (ROWS, first_b(10**400), "finite"),
     "flattened": (ROWS, changed("A", lambda A: [v for row in A for v in row]), "A"),
-    "a number": (ROWS, lambda output: 3.0, "must be an object"),
     "nothing": (ROWS, lambda output: None, "must be an object"),
     "contacts of other fields": (
         "step/stack/0", changed("contacts", without_a_beta), "contacts[1].beta is missing",

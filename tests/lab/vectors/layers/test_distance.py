@@ -7,7 +7,6 @@ from quasistatic_ref.lab.program.distance import distance as program
 from quasistatic_ref.lab.vectors.layers.distance import own
 from quasistatic_ref.lab.vectors.tables import ORIGIN, at
 from tests.closeness import assert_within
-from tests.lab.vectors.committed_cases import cases, expected_of
 from tests.tolerances import CLOSED_FORM
 
 EACH = pytest.mark.parametrize("distance", [own, program])
@@ -25,22 +24,3 @@ def test_on_the_medial_plane_of_an_ellipsoid_two_sides_are_as_near(distance):
     x = np.sqrt((1 - 4 * y * y) / 16)
     assert_within(np.abs(found["alpha"]), [[x, y, 0]], CLOSED_FORM)
     assert_within(found["phi"], [-np.hypot(x, y - 0.1)], CLOSED_FORM)
-
-
-@EACH
-def test_exchanging_the_sides_exchanges_the_answer(distance):
-    for case in cases("distance")[:171:14]:  # those of no scenario
-        given = case.input
-        turned = {f"{pose}{side}": given[f"{pose}{other}"]
-                  for side, other in (("alpha", "beta"), ("beta", "alpha"))
-                  for pose in ("", "pose_")}  # fmt: skip
-        found = distance(given)
-        exchanged = distance(turned)
-        record = expected_of("distance")[case.id]
-        allowed = {
-            name: 2 * record["tolerance"][name]["absolute"] for name in ("phi", "alpha", "n")
-        }
-        assert_within(exchanged["phi"], found["phi"], allowed["phi"])
-        if record["flags"]["unique"]:
-            assert_within(exchanged["beta"], found["alpha"], allowed["alpha"])
-            assert_within(exchanged["n"], -np.array(found["n"]), allowed["n"])

@@ -4,57 +4,13 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario
-from quasistatic_ref.lab.program import step as program
-from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.lab.vectors.own.step import own_step, posed_case
-from quasistatic_ref.lab.vectors.tables import FLOOR, free_body, on, scene
+from quasistatic_ref.lab.vectors.own.step import posed_case
 from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.tolerances import ROUNDING
-
-BOX = {"kind": "box", "size": [0.2, 0.2, 0.2]}
-
-
-def box_on(pose, k):
-    """A step of a box on a floor."""
-    body = {**free_body("body"), "mass": 1.0, "com": [0.0] * 3, "inertia": np.eye(3).tolist()}
-    pair = {"name": "pair", "alpha": "floor", "beta": "box", "mu_v": 0.5, "mu_omega": 0.01}
-    shapes = {"floor": on(None, FLOOR), "box": on("body", BOX)}
-    q = [0.0, 0.0, 0.25, *pose]
-    return scene([body], shapes, q, pairs=[pair | {"rows": 6, "k": k}])
-
-
-# Tilted, the lower edge of a nearly level box is 4e-11 m nearer; the closest pair comes last.
-@pytest.mark.parametrize("pose", [(0.01, 0.02, 0.0, 1.0), (1e-10, 0.0, 0.0, 1.0), (0, 0, 0, 1.0)])
-@pytest.mark.parametrize("step", [program.step, own_step])
-def test_a_box_on_a_floor_keeps_its_lower_corners_in_order(step, pose):
-    contacts = step(box_on(pose, 4))["contacts"]
-    assert [contact["index"] for contact in contacts] == [0, 1, 2, 3]  # z < 0; x first
-
-
-def test_tilted_boxes_keep_corners_of_one_normal_alone():
-    # A small box stands on a corner over the middle of a plate's face, tilted by more than 0.25
-    # rad. Its corners are over that face, at their own heights; the plate's corners are nearest to
-    # sides of the box, whose normals are others: they are none. The closest pair repeats a corner,
-    # is none, and fills.
-    quaternion = np.array([0.2, 0.1, 0.0, 1.0])
-    plate = {"kind": "box", "size": [2.0, 2.0, 0.2]}
-    pairs = [{"name": "pair", "alpha": "plate", "beta": "box", "mu_v": 0.5, "mu_omega": 0.01,
-              "rows": 6, "k": 12}]  # fmt: skip
-    shapes = {"plate": on(None, plate), "box": on("body", BOX)}
-    body = {**free_body("body"), "mass": 1.0, "com": [0.0] * 3, "inertia": np.eye(3).tolist()}
-    case = scene([body], shapes, [0.0, 0.0, 0.3, *quaternion.tolist()], pairs=pairs)
-    signs = 2 * ((np.arange(8)[:, None] >> np.arange(3)) & 1) - 1
-    heights = 0.3 + 0.1 * signs @ rotation(quaternion)[2] - 0.1
-    for contacts in (program.step(case)["contacts"], own_step(case)["contacts"]):
-        found = {contact["index"]: contact for contact in contacts}
-        assert list(found) == [*range(8, 16), *range(17, 21)]
-        assert_within([found[8 + i]["phi"] for i in range(8)], heights, ROUNDING)
-        assert_within([one["n"] for one in contacts], np.tile([0.0, 0.0, 1.0], (12, 1)), ROUNDING)
-        assert [found[i]["phi"] for i in range(17, 21)] == [1e6] * 4
 
 
 def test_a_step_of_a_scenario_is_that_of_the_simulator():

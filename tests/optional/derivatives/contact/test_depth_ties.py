@@ -148,21 +148,6 @@ def test_a_corner_is_tied_between_faces_that_face_the_pair_s(side):
     assert not depth_tie(couple._replace(n=-n, centre=(side, corner)))
 
 
-def test_boxes_that_touch_at_their_edges_are_not_in_penetration():
-    edge = np.array([0.2 + 0.2, 0.0, 0.2 + 0.2])
-    assert not tied(B, B, STILL, (np.eye(3), edge))
-
-
-def test_a_capsule_whose_axis_is_above_the_edge_of_a_box_has_one_normal():
-    """The axis is 1 mm above and OFF beyond: the ways up and to the edge differ by OFF / 1 mm.
-
-    Along them the gaps differ by OFF^2 / 2 mm, which is below TIED.
-    """
-    off = 1e-7
-    above = np.array([B.half_extents[0] + off, 0.013, 0.4 + 1e-3])
-    assert not tied(B, LONG, STILL, (np.eye(3), above))
-
-
 def test_capsules_are_tied_where_their_axes_cross():
     # The capsules are apart where their axes are by more than 0.05 + 0.03. Equal is what differs by
     # at most TIED * extent; the extent is 0.5.

@@ -5,23 +5,11 @@ import pytest
 
 from quasistatic_ref import Body, Sphere, System
 from quasistatic_ref.optional.derivatives.model.tangent import (
-    adjoint,
     difference_rates,
-    right_jacobian,
     sum_rates,
 )
 from tests.closeness import assert_within
-from tests.tolerances import DIFFERENCE, FOUR_ULP
-
-
-@pytest.mark.parametrize("angle", [1e-3, 1.1, 3.0])
-def test_the_series_of_a_turn_is_summed_to_its_last_digits(angle):
-    # About z: J_xx = J_yy = sin(a) / a, J_xy = -J_yx = (1 - cos(a)) / a = 2 sin(a / 2)^2 / a.
-    along = np.sin(angle) / angle
-    across = 2 * np.sin(angle / 2) ** 2 / angle
-    turn = np.array([[along, across, 0], [-across, along, 0], [0, 0, 1]])
-    jacobian = right_jacobian(adjoint(np.array([0, 0, 0, 0, 0, angle])))
-    assert_within(jacobian, np.kron(np.eye(2), turn), FOUR_ULP)
+from tests.tolerances import DIFFERENCE
 
 
 @pytest.mark.parametrize("base", ["floating", "planar", "ball"])

@@ -65,12 +65,6 @@ def test_a_ball_whose_load_is_rounding_is_at_the_kink(gap):
     assert found.result.solution.lam.any()
 
 
-@pytest.mark.parametrize("gap", [1e-10, -1e-10])
-def test_a_ball_a_little_farther_from_the_kink_has_derivatives(gap):
-    found, _ = verdict(*falling_ball(gap))
-    assert found.differentiable
-
-
 @pytest.mark.parametrize(("spare", "near"), [(1e-10, True), (1e-6, False)])
 def test_a_point_that_nearly_slides_is_at_a_kink_of_all_rows_but_one(spare, near):
     """It is pushed along x by mu W (1 - spare): all of its load but that share is on row -d1."""

@@ -191,11 +191,3 @@ def test_r25_r26_r27_r33_a_random_step_has_a_derivative_or_two_sides(family, rng
     smooth = {(True, True, False), (False, True, False)}
     kinks = {(True, False, True), (False, False, True)}
     assert seen >= (smooth if family is random_step else smooth | kinks)
-
-
-def by(step):
-    """The columns by name, and the names of those that do not exist."""
-    found, there = derivatives_of(step)
-    every = keys(step)
-    missing = {key for key, is_there in zip(every, there, strict=True) if not is_there}
-    return dict(zip(every, found.T, strict=True)), missing

@@ -6,7 +6,7 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref import InputError
 from quasistatic_ref.optional.show.figures import figure_style, figure_written, style_file
-from quasistatic_ref.optional.show.figures.style import STYLES, legend_above, scaled
+from quasistatic_ref.optional.show.figures.style import STYLES, scaled
 
 
 def test_a_style_is_that_of_the_enclosing_block_and_is_left_again():
@@ -41,15 +41,3 @@ def test_the_same_figure_has_the_same_bytes_as_png_and_pdf(tmp_path):
     for path, again in zip(one, other, strict=True):
         assert path.read_bytes().startswith(kinds[path.suffix])
         assert path.read_bytes() == again.read_bytes()
-
-
-@pytest.mark.parametrize("layout", [None, "constrained"])
-def test_a_title_stands_above_the_legend_that_stands_above_the_axes(layout):
-    page, axes = plt.subplots(layout=layout)
-    (line,) = axes.plot([0, 1], label="a line")
-    legend_above(axes, [line])
-    axes.set_title("a title")
-    page.canvas.draw()
-    legend = axes.get_legend().get_window_extent()
-    assert axes.title.get_window_extent().ymin >= legend.ymax > axes.get_window_extent().ymax
-    plt.close(page)
