@@ -40,16 +40,15 @@ from quasistatic_ref.scenario.scenario_table import (
 )
 from quasistatic_ref.scenario.scene_words import HERE, scene_tables
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.law import check_law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.rollout import rollout
-from quasistatic_ref.simulate.settings import Settings, usable_backend
+from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import Target
-from quasistatic_ref.solve.backends import is_function
+from quasistatic_ref.solve.backends import DEFAULT, is_function
 from quasistatic_ref.step.cones import cone
 
 if TYPE_CHECKING:
@@ -98,6 +97,7 @@ class Scenario(Settings, Plain, Shown):
     of_bodies: OfBodies | None = None
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         freeze_copies(self, "gravity", "K_q", "gravity_acts")
 
     def simulator(self, extension: ExtensionOfQ | None = None) -> Simulator:
@@ -241,7 +241,6 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     check_names(solver, SOLVER)
     certify = value(solver, SOLVER, "certify")
     law = value(top, TOP, "law")
-    check_law(law, certify)
     limits = _limits(value(top, TOP, "limits"))
 
     tables = value(top, TOP, "bodies")
@@ -269,10 +268,6 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
         raise solver.error_about("backend", problem, backend)
     if fast and backend is None:
         backend = fast_backend(system, pairs, named, law)
-    try:  # here rather than in the first step
-        backend = usable_backend(backend, named, certify)
-    except BackendError as error:
-        raise solver.error_about(error.field or "backend", error.problem, error.value) from None
     check_motion(system, pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")
@@ -286,28 +281,31 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
         tracks += joint_tracks(system, entry)
         if entry.wrenches is not None:
             wrenches.append(entry.wrenches)
-    return Scenario(
-        path=path,
-        h=h,
-        steps=value(top, TOP, "steps"),
-        gravity=gravity,
-        system=system,
-        pairs=pairs,
-        K_q=K_q,
-        gravity_acts=gravity_acts,
-        targets=Targets(system.q_start[: system.n_q_a], tracks),
-        wrenches=tuple(wrenches),
-        backend=backend,
-        accuracy=value(solver, SOLVER, "accuracy"),
-        certify=certify,
-        record=value(top, TOP, "record"),
-        cone=named,
-        limits=limits,
-        bodies=entries,
-        fast=fast,
-        of_bodies=of_bodies,
-        law=law,
-    )
+    try:
+        return Scenario(
+            path=path,
+            h=h,
+            steps=value(top, TOP, "steps"),
+            gravity=gravity,
+            system=system,
+            pairs=pairs,
+            K_q=K_q,
+            gravity_acts=gravity_acts,
+            targets=Targets(system.q_start[: system.n_q_a], tracks),
+            wrenches=tuple(wrenches),
+            backend=DEFAULT if backend is None else backend,
+            accuracy=value(solver, SOLVER, "accuracy"),
+            certify=certify,
+            record=value(top, TOP, "record"),
+            cone=named,
+            limits=limits,
+            bodies=entries,
+            fast=fast,
+            of_bodies=of_bodies,
+            law=law,
+        )
+    except BackendError as error:
+        raise solver.error_about(error.field or "backend", error.problem, error.value) from None
 
 
 def _limits(table: TableReader) -> Limits:

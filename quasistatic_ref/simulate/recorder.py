@@ -103,7 +103,6 @@ class Recorder:
         if record == "forces":
             check_there("forces", 'record = "forces"')
         self.simulator = simulator
-        self.scene = simulator.scene
         self.system = simulator.system
         self.h = simulator.h
         self.backend = simulator.backend
@@ -288,7 +287,7 @@ class Recorder:
         arrays = {"q": q + 0.0, **arrays, **constant}
         timed = [name for name in kept if name.startswith(SECONDS)]
         seconds = {name.removeprefix(SECONDS): _over_all_steps(parts, name) for name in timed}
-        trajectory = Trajectory(header, arrays, seconds, self.scene)
+        trajectory = Trajectory(header, arrays, seconds, self.simulator)
         for observer in self.observers:
             trajectory = observer.end(self, trajectory, interrupted)
         return replace(trajectory, seconds={**seconds, **self._seconds_of_run()})

@@ -1,31 +1,22 @@
 """What moves, and what may touch."""
 
-from typing import NamedTuple, Protocol
+from dataclasses import dataclass
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import System
 
 
-class Scene(NamedTuple):
-    """What moves, and what may touch.
+@dataclass(frozen=True, eq=False, repr=False)
+class Scene:
+    """What moves, and what may touch: a Scenario and a Simulator are scenes, too.
 
     Parameters
     ----------
     system : System
+        What moves.
     pairs : tuple of ContactPair
+        What may touch.
     """
 
     system: System
     pairs: tuple[ContactPair, ...]
-
-
-class HasScene(Protocol):
-    """A Scenario, a Simulator or a Scene."""
-
-    @property
-    def system(self) -> System:
-        """What moves."""
-
-    @property
-    def pairs(self) -> tuple[ContactPair, ...]:
-        """What may touch."""

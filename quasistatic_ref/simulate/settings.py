@@ -3,26 +3,24 @@
 from dataclasses import dataclass, field, fields
 from typing import Any
 
-from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.simulate.law import CONVEX
+from quasistatic_ref.simulate.law import CONVEX, check_law
 from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
+from quasistatic_ref.solve.solve import check_accuracy
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.tolerances import ACCURACY
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Settings:
-    """What a scenario and a simulator have in common; it does not change.
+class Settings(Scene):
+    """What a scenario and a simulator have in common: checked once, it does not change.
 
     Parameters
     ----------
-    system : System
-        What moves.
-    pairs : tuple of ContactPair
-        What may touch.
+    system, pairs
+        As of :class:`~quasistatic_ref.simulate.scene.Scene`.
     h : float
         Time step [s].
     K_q : ndarray, shape (n_a, n_a)
@@ -39,10 +37,14 @@ class Settings:
         ``"convex"``, the model's, or ``"coulomb"``, without the rise of sliding contacts.
     limits : Limits
         Penetration and reach beyond which a run ends.
+
+    Raises
+    ------
+    InputError
+        If the accuracy, what is to be certified, the law or the backend is none, or they do not go
+        together.
     """
 
-    system: System
-    pairs: tuple[ContactPair, ...]
     h: float
     K_q: Array
     gravity: Array
@@ -54,19 +56,11 @@ class Settings:
     law: str = CONVEX
     limits: Limits = field(default_factory=Limits)
 
+    def __post_init__(self) -> None:
+        check_accuracy(self.accuracy)
+        check_law(self.law, self.certify)
+        check_backend(self.backend, self.cone, self.certify)
+
     def settings(self) -> dict[str, Any]:
         """All of them by name."""
         return {setting.name: getattr(self, setting.name) for setting in fields(Settings)}
-
-
-def usable_backend(name: str | None, cone: str, certify: str) -> str:
-    """The backend of a name; of None the default one.
-
-    Raises
-    ------
-    BackendError
-        If the backend is unknown or not installed, or does not support `certify` or the cone.
-    """
-    name = DEFAULT if name is None else name
-    check_backend(name, cone, certify)
-    return name

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import FrozenInstanceError, replace
-from functools import cached_property, wraps
-from typing import TYPE_CHECKING, Any, ClassVar, Concatenate, ParamSpec, TypeVar
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,23 +21,20 @@ from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, checked_pairs, contact_layout
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.model.mechanism import StepSystem
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.numbers.arrays import Array, checked_array, without_warnings
 from quasistatic_ref.parts import coulomb_solution, extended_solution, findings_of_scene
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.law import (
-    COULOMB,
-    check_law,
-)
+from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.scene import Scene
-from quasistatic_ref.simulate.settings import Settings, usable_backend
+from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.simulate.user_functions import checked_force
-from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED, check_certify
+from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.solve import check_accuracy, solve_step, solved
+from quasistatic_ref.solve.solve import solve_step, solved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.cones import cone
@@ -47,32 +45,24 @@ if TYPE_CHECKING:
     from quasistatic_ref.optional.extensions.extension import Extension
 
 GRAVITY = (0.0, 0.0, -9.81)
-P = ParamSpec("P")
-R = TypeVar("R")
-S = TypeVar("S", bound="Simulator")
 
 
-def by_one_thread(step: Callable[Concatenate[S, P], R]) -> Callable[Concatenate[S, P], R]:
-    """A method of a simulator that is refused while another thread takes a step of its system.
+@contextmanager
+def by_one_thread(system: StepSystem) -> Iterator[None]:
+    """Around a step of a system: refused while another thread takes one.
 
     Raises
     ------
     InputError
     """
-
-    @wraps(step)
-    def alone(simulator: S, /, *arguments: P.args, **named: P.kwargs) -> R:
-        lock = simulator.system.lock
-        if not lock.acquire(blocking=False):
-            problem = "another thread is using the same system; "
-            problem += "give each thread its own copy, copy.deepcopy(simulator)"
-            raise InputError(problem, field="simulator")
-        try:
-            return step(simulator, *arguments, **named)
-        finally:
-            lock.release()
-
-    return alone
+    if not system.lock.acquire(blocking=False):
+        problem = "another thread is using the same system; "
+        problem += "give each thread its own copy, copy.deepcopy(simulator)"
+        raise InputError(problem, field="simulator")
+    try:
+        yield
+    finally:
+        system.lock.release()
 
 
 class Stopwatch:
@@ -184,9 +174,6 @@ class Simulator(Settings, Shown):
         limits: Limits | None = None,
     ) -> None:
         pairs = checked_pairs(pairs)
-        check_accuracy(accuracy)
-        check_certify(backend, certify)
-        check_law(law, certify)
         acts = np.zeros(system.n_a) if gravity_acts is None else np.asarray(gravity_acts) * 1.0
         super().__init__(
             system=system,
@@ -195,7 +182,7 @@ class Simulator(Settings, Shown):
             K_q=stiffness_matrix(system, K_q),
             gravity=checked_array(gravity, "gravity", (3,)),
             gravity_acts=checked_array(acts, "gravity_acts", (system.n_a,)),
-            backend=usable_backend(backend, cone, certify),
+            backend=DEFAULT if backend is None else backend,
             accuracy=accuracy,
             certify=certify,
             cone=cone,
@@ -204,7 +191,6 @@ class Simulator(Settings, Shown):
         )
         self.extension = extension
         self.named_backend = backend
-        self.scene = Scene(system, pairs)
         self.layout = contact_layout(pairs)
         self.gravity_factor = np.concatenate([self.gravity_acts, np.ones(system.n_u)])
         self.solver: Solver | None = None
@@ -243,7 +229,6 @@ class Simulator(Settings, Shown):
         chosen = {"backend": self.named_backend, "extension": self.extension}
         return _remade, (type(self), self.settings() | chosen)
 
-    @by_one_thread
     def step(self, q: ArrayLike, q_bar_a: ArrayLike, force: ArrayLike | None = 0.0) -> StepResult:
         """One step from q towards the target q_bar_a.
 
@@ -273,24 +258,27 @@ class Simulator(Settings, Shown):
             If the backend's answer cannot be trusted, the step has no solution, or it
             starts or ends beyond the limits.
         """
-        lap = Stopwatch()
-        kinematics = self.system.kinematics(q)
-        here = np.asarray(q, np.float64)
-        points = self.closest_points(kinematics)
-        lap("distances")
-        step = self.step_data(here, q_bar_a, force, points, kinematics)
-        lap("rows")
-        solution = self.solution(step) if self.extension is None else self.extended(step, here)
-        self.limits.check_penetration(step)  # after the solve: a proof of infeasibility says more
-        # An extension adds rows and coordinates: from here on the step is the one that was solved.
-        # Without an extension it is the same.
-        step = solution.step
-        lap("solve")
-        lap.separate("proof", solution.statistics.proof_time, "solve")
-        q_next = self.system.integrate(here, solution.delta_q[: self.system.n_v])  # q (+) delta_q
-        self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
-        lap("integrate")
-        return StepResult(q_next, step, solution, points, lap.seconds, here, self.scene)
+        with by_one_thread(self.system):
+            lap = Stopwatch()
+            kinematics = self.system.kinematics(q)
+            here = np.asarray(q, np.float64)
+            points = self.closest_points(kinematics)
+            lap("distances")
+            step = self.step_data(here, q_bar_a, force, points, kinematics)
+            lap("rows")
+            solution = self.solution(step) if self.extension is None else self.extended(step, here)
+            # After the solve: a proof of infeasibility says more.
+            self.limits.check_penetration(step)
+            # An extension adds rows and coordinates: from here on the step is the one that was
+            # solved. Without an extension it is the same.
+            step = solution.step
+            lap("solve")
+            lap.separate("proof", solution.statistics.proof_time, "solve")
+            delta_q = solution.delta_q[: self.system.n_v]
+            q_next = self.system.integrate(here, delta_q)  # q (+) delta_q
+            self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
+            lap("integrate")
+            return StepResult(q_next, step, solution, points, lap.seconds, here, self)
 
     def start_cold(self) -> None:
         """Forget what is kept of earlier steps, if answers depend on it."""

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
     from quasistatic_ref.optional.doctor.accounts import Account
-    from quasistatic_ref.simulate.scene import HasScene, Scene
+    from quasistatic_ref.simulate.scene import Scene
 
 WHAT = "a trajectory written by this program"
 
@@ -238,7 +238,7 @@ class Trajectory(Plain, HasPage):
         near = (delta_q, self["wrench"][k]) if step.n_v == len(delta_q) else None
         return parts.contact_forces(step, near)
 
-    def wrench_on(self, name: str, scene: HasScene | None = None) -> Array:
+    def wrench_on(self, name: str, scene: Scene | None = None) -> Array:
         """Sum of the contact wrenches on a body or a link, in each step, as lam has them.
 
         Parameters
@@ -265,7 +265,7 @@ class Trajectory(Plain, HasPage):
             wrenches.contacts_over_steps(self.arrays, self["wrench"]), scene, name
         )
 
-    def forces_on(self, name: str, scene: HasScene | None = None) -> Array:
+    def forces_on(self, name: str, scene: Scene | None = None) -> Array:
         """Sum of :attr:`forces` on a body or a link: force [N] and torque [N m], shape (steps, 6).
 
         Parameters
@@ -320,7 +320,7 @@ class Trajectory(Plain, HasPage):
         """
         return parts.account(self, forces)
 
-    def _scene(self, scene: HasScene | None) -> HasScene:
+    def _scene(self, scene: Scene | None) -> Scene:
         if scene is None:
             scene = self.scene
         if scene is None:

@@ -9,7 +9,7 @@ from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import InputError, MissingKey
 from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.simulate.scene import HasScene
+from quasistatic_ref.simulate.scene import Scene
 
 
 class ContactsOverSteps(NamedTuple):
@@ -38,7 +38,7 @@ class ContactsOverSteps(NamedTuple):
         """Force of each contact on beta's body, shape (steps, n_c, 3) [N], world frame."""
         return np.asarray(np.einsum("kci,kcix->kcx", self.wrench[:, :, :3], self.frame))
 
-    def check(self, scene: HasScene) -> None:
+    def check(self, scene: Scene) -> None:
         """Refuse another scene than theirs: InputError."""
         n_c = len(contact_layout(scene.pairs).names)
         if self.wrench.shape[1] != n_c or self.q.shape[1] != scene.system.n_q:
@@ -53,7 +53,7 @@ def contacts_over_steps(arrays: Mapping[str, Array], wrench: Array) -> ContactsO
     return ContactsOverSteps(arrays["q"][:-1], *points, np.stack(axes, axis=2), wrench)
 
 
-def wrench_on(contacts: ContactsOverSteps, scene: HasScene, name: str) -> Array:
+def wrench_on(contacts: ContactsOverSteps, scene: Scene, name: str) -> Array:
     """Sum of the contact wrenches on a body or a link, in each step.
 
     A contact pushes beta's body with the force f = f_d1 d1 + f_d2 d2 + f_n n at the point beta
@@ -62,7 +62,7 @@ def wrench_on(contacts: ContactsOverSteps, scene: HasScene, name: str) -> Array:
     Parameters
     ----------
     contacts : ContactsOverSteps
-    scene : HasScene
+    scene : Scene
         Theirs.
     name : str
         A body, for all of its links; or one link, such as ``gripper/left_finger``.

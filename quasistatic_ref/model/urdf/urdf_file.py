@@ -32,9 +32,9 @@ SAME_MOMENT = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
 """Attributes that some exporters write beside URDF's own."""
 _MOVING = tuple(JOINTS)
 MOST_LINKS = 1000
-"""Most links in a file: urdfdom recurses from link to link, and ends the process at long chains."""
+"""Most links in a file: a model of them takes time with the square of their number."""
 MOST_SHAPES = 1000
-"""Most shapes that touch: pinocchio takes time with the cube of their number, 1.5 s for these."""
+"""Most shapes that touch."""
 MOST_COORDINATES = 250
 """Most coordinates of the joints of a file: pinocchio takes memory with the cube of their number,
 1 GiB for these; a humanoid has 60."""
@@ -417,9 +417,9 @@ def _limits(
         problem = "is missing: URDF requires effort and velocity, although they are not used"
         raise ModelError(problem, field=f"{joint.where}.limit")
     if limit is not None:
-        for name in ("effort", "velocity", "lower", "upper"):
-            limit.number(name, None if needed and name[0] in "ev" else 0.0, most=np.inf)
-        effort = limit.number("effort", 0.0, most=np.inf)
+        required = None if needed else 0.0
+        effort = limit.number("effort", required, np.inf)
+        limit.number("velocity", required, np.inf)
         bounds = limit.position_limits()
         if bounds is not None and joint.text("type") in _ENDLESS:
             joint.unread.append(f"{limit.where}.bounds")

@@ -174,21 +174,21 @@ class FastSimulator(Simulator):
     def __reduce__(self) -> tuple[object, ...]:
         return FastSimulator, (self.simulator,)
 
-    @by_one_thread
     def step(self, q: ArrayLike, q_bar_a: ArrayLike, force: ArrayLike | None = 0.0) -> StepResult:
         """One step, as of a Simulator."""
-        if self.by_c:
-            try:
-                result = self._step(q, q_bar_a, force)
-            except StepDataError:  # the plain path says of which number
-                return self.simulator.step(q, q_bar_a, force)
-            if result is not None:
-                return result
-            self.by_c = False
-            say(f"compiled code forms another step than the core (please report it); {INSTEAD}")
-        if self._own_data:
-            return super().step(q, q_bar_a, force)
-        return self.simulator.step(q, q_bar_a, force)
+        with by_one_thread(self.system):
+            if self.by_c:
+                try:
+                    result = self._step(q, q_bar_a, force)
+                except StepDataError:  # the plain path says of which number
+                    return self.simulator.step(q, q_bar_a, force)
+                if result is not None:
+                    return result
+                self.by_c = False
+                say(f"compiled code forms another step than the core (please report it); {INSTEAD}")
+            if self._own_data:
+                return super().step(q, q_bar_a, force)
+            return self.simulator.step(q, q_bar_a, force)
 
     def _step(self, q: ArrayLike, q_bar_a: ArrayLike, force: ArrayLike | None) -> StepResult | None:
         """The step; None if it is the first, and not that of the plain path."""
@@ -221,7 +221,7 @@ class FastSimulator(Simulator):
         if not squares <= self._surely_within:
             self.limits.check_reach(step, self.system.links, self._poses.kinematics().t)
         lap("integrate")
-        return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
+        return StepResult(q_next, step, solution, points, lap.seconds, q, self)
 
     def _in_both_units(self, step: StepData) -> FormedStep:
         """The step in both units, and its program written into DAQP's."""

@@ -28,10 +28,10 @@ from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.observer import Observer
-from quasistatic_ref.simulate.settings import usable_backend
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.step.cones import ELLIPSOID
 
 if TYPE_CHECKING:
@@ -211,7 +211,7 @@ def mujoco_scenario(
         K_q=system.K_q,
         gravity_acts=np.ones(system.n_a, dtype=bool),
         targets=Targets(system.q_start[: system.n_q_a], ()),
-        backend=usable_backend(backend, cone, certify),
+        backend=DEFAULT if backend is None else backend,
         accuracy=value(solver, SOLVER, "accuracy"),
         certify=certify,
         record=value(top, TOP, "record"),

@@ -14,7 +14,7 @@ from quasistatic_ref.optional.show.figures.surfaces import surface_points
 from quasistatic_ref.optional.show.figures.visuals import Visual
 from quasistatic_ref.optional.show.loads import bearing, shown_forces
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
-from quasistatic_ref.simulate.scene import HasScene
+from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 SLIP = 1e-9
@@ -94,12 +94,12 @@ class Moment:
         return np.asarray((points @ placed.R.T + placed.t) @ R.T + t)
 
 
-def still(scene: HasScene) -> Moment:
+def still(scene: Scene) -> Moment:
     """The start of a scene: its bodies where they are, without contacts."""
     return _moment(scene, scene.system.q_start, 0.0, ())
 
 
-def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
+def moment(scene: Scene, run: Trajectory, k: int) -> Moment:
     """Step k of a run: the poses and contacts that it starts from, and its forces.
 
     Parameters
@@ -127,14 +127,14 @@ def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
     return _moment(scene, run["q"][k], float(run["t"][k]) - run.header.h, _contacts(run, k))
 
 
-def _moment(scene: HasScene, q: Array, t: float, contacts: tuple[DrawnContact, ...]) -> Moment:
+def _moment(scene: Scene, q: Array, t: float, contacts: tuple[DrawnContact, ...]) -> Moment:
     """A scene at q, shape (n_q,), with contacts."""
     kinematics = scene.system.kinematics(q)
     colours = link_colours(scene.system)
     return Moment(t, drawn_shapes(scene), kinematics.R, kinematics.t, contacts, colours)
 
 
-def frames(scene: HasScene, run: Trajectory, fps: float) -> tuple[list[Moment], float]:
+def frames(scene: Scene, run: Trajectory, fps: float) -> tuple[list[Moment], float]:
     """Moments of a film in real time, and how many of them a second.
 
     Parameters
@@ -156,7 +156,7 @@ def frames(scene: HasScene, run: Trajectory, fps: float) -> tuple[list[Moment], 
     return [moment(scene, run, k) for k in range(0, run.steps, every)], 1 / (every * h)
 
 
-def drawn_shapes(scene: HasScene) -> tuple[PlacedShape, ...]:
+def drawn_shapes(scene: Scene) -> tuple[PlacedShape, ...]:
     """Every shape of a scene once: those of URDFs, clouds, and what is fixed in the world.
 
     A body with a cloud is drawn as that cloud.

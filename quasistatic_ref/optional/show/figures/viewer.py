@@ -34,7 +34,7 @@ from quasistatic_ref.optional.show.figures.visuals import AROUND, UP, Visual, vi
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
-from quasistatic_ref.simulate.scene import HasScene
+from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 FRAMES_PER_SECOND = 30
@@ -68,9 +68,7 @@ CAPTION: Final = (
 )
 
 
-def save_view(
-    path: str | Path, shown: HasScene | Trajectory, run: Trajectory | None = None
-) -> Path:
+def save_view(path: str | Path, shown: Scene | Trajectory, run: Trajectory | None = None) -> Path:
     """Write a scene, or a run of it, as one HTML file for a browser, without network.
 
     Bodies look as the visual elements of their URDFs say, or else as their collision shapes in one
@@ -140,9 +138,7 @@ def _visualizer(meshcat: ModuleType) -> Iterator[Any]:
         window.server_proc.communicate()
 
 
-def _scene(
-    shown: HasScene | Trajectory, run: Trajectory | None
-) -> tuple[HasScene, Trajectory | None]:
+def _scene(shown: Scene | Trajectory, run: Trajectory | None) -> tuple[Scene, Trajectory | None]:
     if not isinstance(shown, Trajectory):
         return shown, run
     if shown.scene is None:
@@ -151,7 +147,7 @@ def _scene(
     return shown.scene, shown
 
 
-def _caption(title: str, scene: HasScene, run: Trajectory | None, scale: float) -> str:
+def _caption(title: str, scene: Scene, run: Trajectory | None, scale: float) -> str:
     """What is shown, in HTML: the bodies and the states of contacts in their colours."""
     words = [escape(title)]
     if run is not None:

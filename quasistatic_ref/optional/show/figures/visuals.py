@@ -24,7 +24,7 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.looks import body_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points, triangles
 from quasistatic_ref.shapes.shape import Shape
-from quasistatic_ref.simulate.scene import HasScene
+from quasistatic_ref.simulate.scene import Scene
 
 AROUND, UP = 32, 12
 """Corners of round shapes around their axis and along it."""
@@ -47,7 +47,7 @@ class Visual(NamedTuple):
     colour: str
 
 
-def visuals(scene: HasScene) -> list[Visual]:
+def visuals(scene: Scene) -> list[Visual]:
     """Visual elements of all bodies; those that cannot be read are left out: they bear no load."""
     colours = body_colours(scene.system)
     return [
