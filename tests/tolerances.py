@@ -39,13 +39,10 @@ THRESHOLD = 1e-6
 """How near to its threshold of slip a grasp is tried: the answers are exact or enclosed to
 1e-13, so what limits it is the rounding of the threshold itself, 1e-16."""
 
-ENCLOSED = 1e-13
-"""Error of an enclosed answer, in the one definition: what the package itself promises."""
 
 SIGNED_DISTANCE = 1e-12
 """Closed-form distances [m] and normals against another closed form or coal, at sizes of a metre:
 some ten operations, each of 1e-16."""
-
 
 CLOSED_FORM = 1e-12
 """Distances [m] and normals of shapes of 0.1 m by closed forms: rounding is 1e-16."""
@@ -65,9 +62,6 @@ WAY_OUT = 1e-8
 """Distance of witness points from the surfaces [m] where two polytopes are parallel but for 1e-6:
 a gap that is right to 1e-13 leaves its square root of lateral freedom."""
 
-SCENE = 1e-9
-"""One exact step of a scene described in two ways, relative to its largest motion: poses of a metre
-are rounded at 1e-16, gaps of 1e-4 m and inertias carry four digits of that, the solution three."""
 
 SCENARIO = 1e-6
 """Steady states of whole scenarios against their closed forms: exact steps, but transients of a few
@@ -75,10 +69,6 @@ hundred of them and poses that are rounded at each."""
 
 FIRST_ORDER = 1e-3
 """Steady motions whose closed form holds to first order in h, or at the start of a slow turn."""
-
-FOUR_ULP = 4 * 2.220446049250313e-16
-"""The standard form against CVXPY's: a rounding more, of 1 / h or a product, on either side. And
-sums of a convergent series whose entries are at most 1, in an order of their own."""
 
 JAX_STEP = 1e-6
 """By what JAX moves its arguments to check a gradient [of their units]: rounding of a step, 1e-16,

@@ -2,14 +2,13 @@
 
 import json
 
-import numpy as np
 import pytest
 
 from quasistatic_ref.lab.bench.profile import BACKENDS, PARTS, profiles
 from quasistatic_ref.lab.bench.report import rows
 from quasistatic_ref.lab.bench.scenes import boxes, held_box
 from quasistatic_ref.lab.bench.six import FIGURES, MUJOCO, PLAIN, SCENES
-from quasistatic_ref.lab.bench.timing import in_turn, least
+from quasistatic_ref.lab.bench.timing import in_turn
 from tests.extras import is_missing
 
 
@@ -33,11 +32,6 @@ def test_a_figure_that_was_not_measured_is_a_dash_and_growth_stands_below():
     assert few[:2] == ("10 boxes", "4")
     assert many == ("40 boxes", "20", *"-----")
     assert growth == ("40 boxes over 10", "x 4.5", *"-----")
-
-
-def test_of_several_runs_the_least_time_of_each_round_is_kept():
-    runs = [{"a": np.array([1.0, 5.0, 3.0])}, {"a": np.array([4.0, 2.0, 3.0])}]
-    assert least(iter(runs))["a"].tolist() == [1.0, 2.0, 3.0]
 
 
 def test_times_are_taken_in_turn():

@@ -68,14 +68,11 @@ MISTAKES = {
     # name: a change of a good scene that makes it bad
     "a later version": ("version", 2),
     "no h": ("h", ...),
-    "h zero": ("h", 0.0),
     "gravity flat": ("gravity", [0.0, -9.81]),
     "an unknown cone": ("cone", "piramid"),
-    "a misspelt field": ("setps", 3),
     "no body": ("bodies", {}),
     "two solids in one": ("shapes/wall/sphere", {"radius": 1.0}),
     "a box of no size": ("shapes/wall/box/size", [1.0, 0.0, 1.0]),
-    "beta of nothing": (f"{FLOOR}/beta", []),
     "five rows": (f"{FLOOR}/rows", 5),
     "k zero": (f"{FLOOR}/k", 0),
 }  # fmt: skip

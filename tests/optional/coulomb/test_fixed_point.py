@@ -48,7 +48,7 @@ def sphere(mu):
 @pytest.mark.parametrize("cone", ["pyramid", "ellipsoid"])
 @pytest.mark.parametrize(
     ("scene", "mu"),
-    [(point, 0.5), (point, 5.0), (point, 50.0), (sphere, 0.01), (sphere, 0.02), (sphere, 0.5)],
+    [(point, 0.5), (point, 50.0), (sphere, 0.01), (sphere, 0.5)],
 )
 def test_point_and_sphere_slip_by_coulombs_law_however_slowly_s_converges(scene, mu, cone):
     """The iteration alone needs -27.6 / log(r) steps for 1e-12: 700 at mu_v = 5."""

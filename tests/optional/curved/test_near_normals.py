@@ -86,7 +86,7 @@ if "turned" in sys.argv:  # coal is first asked along a direction without zeros 
     R = Rotation.from_rotvec([0.3, 0.4, 0.5]).as_matrix()
     solid_pair("p", can, ShapeInWorld(box, R, np.array([0.3, 0.2, 0.1])))
 rng = np.random.default_rng(5)
-for _ in range(12):
+for _ in range(4):
     for shape in (Cylinder(0.03, 0.05), Cone(0.03, 0.05), Ellipsoid((0.02, 0.03, 0.05))):
         R = Rotation.random(rng=rng).as_matrix()
         t = 0.1 * rng.normal(size=3) + 0.1
@@ -107,5 +107,5 @@ def test_answers_for_a_box_do_not_depend_on_what_coal_was_asked_before():
         ).stdout
         for word in ("first", "turned")
     ]
-    assert said[0].count("\n") == 36
+    assert said[0].count("\n") == 12
     assert said[0] == said[1]

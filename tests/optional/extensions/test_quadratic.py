@@ -84,8 +84,6 @@ def quadratic_terms(step):
 
     return {
         "squares": (lambda s: [cp.sum_squares(C @ s.delta_q - d)], H_of_C, g_of_C),
-        "two squares": (lambda s: [cp.square(C[i] @ s.delta_q - d[i]) for i in (0, 1)],
-                        H_of_C, g_of_C),
         "a form": (lambda s: [cp.quad_form(s.delta_q, S)], 2 * S, np.zeros(n)),
         "a line": (lambda s: [C[0] @ s.delta_q], np.zeros((n, n)), -C[0]),
         "a variable bound by equations": (with_variable, H_of_C, g_of_C),

@@ -14,7 +14,6 @@ LIMITS = {
     "upper": lambda s: [s.delta_q <= UPPER],
     "lower, turned around": lambda s: [-s.delta_q >= -UPPER],
     "a Parameter": lambda s: [s.delta_q <= cp.Parameter(STEP.n_v, value=UPPER)],
-    "with one of gaps": lambda s: [s.delta_q <= UPPER, s.slack[0] >= -np.inf],
     "with one that binds nothing": lambda s: [s.delta_q <= UPPER, s.delta_q_u >= -np.inf],
     "of a generator": lambda s: (row for row in [s.delta_q <= UPPER]),
 }

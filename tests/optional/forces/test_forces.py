@@ -82,8 +82,6 @@ def test_walls_that_overlap_have_forces_only_where_a_solution_is_claimed():
 
 LOADS = {
     "1500 kg at 1 ms": {"masses": [1500.0], "h": 1e-3},
-    "10 kg at 0.1 ms": {"masses": [10.0], "h": 1e-4},
-    "4 of 50 kg at 2 ms": {"masses": [50.0] * 4, "h": 2e-3},
     "1000 kg on 1 kg": {"masses": [1.0, 1000.0], "h": 1e-2},
     "1 kg on 1000 kg": {"masses": [1000.0, 1.0], "h": 1e-2},
     "a spring of 1e8 N/m": {"masses": [0.1], "h": 1e-2, "spring": 1e8, "press": 100.0},
@@ -332,7 +330,7 @@ def test_whatever_should_not_matter_does_not(monkeypatch):
     assert checks.differences(step, oracle=True)["independent"] == 1
 
 
-@pytest.mark.parametrize("load", [5e-324, 1e-320, 1e-315, 1e-300])
+@pytest.mark.parametrize("load", [5e-324, 1e-315])
 def test_forces_of_a_tiny_load_are_that_load(load):
     """But for the millionth that the compliance leaves."""
     up = [[[0.0], [0.0], [1.0], [0.0]]]
@@ -343,7 +341,7 @@ def test_forces_of_a_tiny_load_are_that_load(load):
     assert solution.forces[0].tolist() == [0.0, 0.0, pytest.approx(load, rel=1e-6, abs=0.0), 0.0]
 
 
-@pytest.mark.parametrize("far", [1e3, 1e4, 1e6, 1e12])
+@pytest.mark.parametrize("far", [1e4, 1e12])
 @pytest.mark.parametrize("cone", ["pyramid", "ellipsoid"])
 def test_a_contact_that_bears_nothing_changes_no_force(cone, far):
     """However far away it is; the millionth is what the compliance leaves."""

@@ -21,13 +21,11 @@ BEYOND = ' ctrlrange="0.5 0.6"'
 SERVOS = {
     "timeconst": (POSITION.format(""), 0.2),
     "filter": (GENERAL.format("filter", ""), 0.2),
-    "exact filter": (GENERAL.format("filterexact", ""), 0.2),
     "range of the activation": (GENERAL.format("filter", RANGE), 0.1),
     "range of the control": (POSITION.format(' ctrlrange="0 0.15"'), 0.15),
     "no filter": ('<position name="a" joint="j" kp="100"/>', 0.2),
     # h times a control of 0.02, 0.04, ... 0.2, and of 0.2 in each of the 50 steps after them
     "integrator": (INTEGRATED.format("-1 1", ""), 0.01 * (1.1 + 50 * 0.2)),
-    "general integrator": (GENERAL.format("integrator", ""), 0.01 * (1.1 + 50 * 0.2)),
     "range of an integrator": (INTEGRATED.format("-1 0.03", ""), 0.03),
     "range of an integrator's control": (INTEGRATED.format("-1 1", BEYOND), 0.01 * 60 * 0.5),
 }

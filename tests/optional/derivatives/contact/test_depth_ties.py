@@ -53,7 +53,6 @@ TIES = {
 NO_TIES = {
     "the middle of a face of a box": (BOX, (0.07, 0.0, 0.0)),
     "beyond the rim of a cone, as far": (CONE, (0.3 + 2 * (0.3 - CONE_R), 0.0, -0.1 - 2 * D)),
-    "an edge of a box": (BOX, (0.1, 0.2, 0.05)),
     "near a face of a mesh": (TETRAHEDRON, (0.02, 0.03, 0.06)),
     "beyond where two sides of an ellipsoid tie": (WIDE, (1.01 * END, 0.0, 0.0)),
     "off the middle of a long ellipsoid": (Ellipsoid((0.3, 0.1, 0.1)), (0.05, 0, 0)),
