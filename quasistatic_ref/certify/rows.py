@@ -4,23 +4,19 @@ The rows of A are contact-major; the user's own rows come last, as if of one con
 """
 
 from collections.abc import Iterable
-from functools import lru_cache
+
+import numpy as np
 
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import StepData, row_layout
+from quasistatic_ref.step.data import StepData
 
 
 def contact_rows(step: StepData, rows: Iterable[int]) -> tuple[tuple[int, int], ...]:
     """(contact, row) of some rows of A; contact n_c stands for the user's own rows."""
-    every = _every_row(step.cone, step.contacts.rows.tobytes(), len(step.extra.names))
-    return tuple([every[i] for i in rows])
-
-
-@lru_cache(maxsize=32)
-def _every_row(cone_name: str, rows: bytes, extra: int) -> list[tuple[int, int]]:
-    """(contact, row) of every row of A, from what decides its layout."""
-    counts = [*row_layout(cone_name, rows).counts.tolist(), extra]
-    return [(contact, row) for contact, count in enumerate(counts) for row in range(count)]
+    every = np.array([*rows], dtype=np.int64)
+    contact = np.searchsorted(step.offsets[1:], every, side="right")
+    row = every - step.offsets[contact]
+    return tuple(zip(contact.tolist(), row.tolist(), strict=True))
 
 
 def flat_rows(step: StepData, pairs: Iterable[tuple[int, int]]) -> tuple[int, ...]:

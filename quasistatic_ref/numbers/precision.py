@@ -1,5 +1,7 @@
 """The precision of exact and ball arithmetic, which is FLINT's, one for all threads."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from threading import RLock
 from typing import Final
 
@@ -8,7 +10,8 @@ from flint import ctx
 _TURN: Final = RLock()
 
 
-class working_precision:
+@contextmanager
+def working_precision(bits: int) -> Iterator[None]:
     """Compute with a number of bits, while other threads wait for their turn.
 
     FLINT has one precision for the whole process: a thread that changed it in the middle of
@@ -18,17 +21,10 @@ class working_precision:
     ----------
     bits : int
     """
-
-    __slots__ = ("before", "bits")
-
-    def __init__(self, bits: int) -> None:
-        self.bits = bits
-
-    def __enter__(self) -> None:
-        _TURN.acquire()
-        self.before = ctx.prec
-        ctx.prec = self.bits
-
-    def __exit__(self, *exception: object) -> None:
-        ctx.prec = self.before
-        _TURN.release()
+    with _TURN:
+        before = ctx.prec
+        ctx.prec = bits
+        try:
+            yield
+        finally:
+            ctx.prec = before

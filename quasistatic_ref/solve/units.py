@@ -13,8 +13,7 @@ conversion loses nothing, unless a number leaves the range of float64.
 """
 
 import math
-from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -41,8 +40,6 @@ notice if it did not."""
 SMALLEST = 2.0**-960
 """Least size of a step, over the largest of 1 and of the units of its coordinates: what is divided
 by the size, times such a unit, is a float64."""
-VANISHING = 2.0**-800
-"""Sum of squares of loads, y'y [N m s], above which no square underflows that matters."""
 
 
 class Units(NamedTuple):
@@ -63,134 +60,51 @@ class Units(NamedTuple):
     size: float
 
 
-@dataclass(frozen=True, eq=False)
-class HessianInBothUnits:
-    """What natural units take from H alone.
+def coordinate_units(diagonal: Array) -> Array:
+    """Diagonal of S, shape (n_v,) [m or rad, per (N m s)^0.5], from the `diagonal` of H."""
+    return np.exp2(np.round(np.log2(1 / np.sqrt(diagonal))))
+
+
+def squared_lengths(A: Array, coordinate: Array) -> Array:
+    """Squared lengths of the rows of A S [m^2/(N m s)], shape (m,), ascending; NaN comes last.
 
     Parameters
     ----------
+    A : ndarray, shape (m, n_v)
+        [m] per unit of delta_q.
     coordinate : ndarray, shape (n_v,)
-        Diagonal of S [m or rad, per (N m s)^0.5].
-    H_inverse : ndarray, shape (n_v, n_v)
-        Of H [m^2/(N m s)].
-    squared : ndarray, shape (n_v,)
-        Squares of `coordinate` [m^2 or rad^2, per N m s].
-    natural_H : ndarray, shape (n_v, n_v)
-        H in natural units [-].
-    usable : bool
-        Whether the units of all coordinates are finite and positive.
+        Diagonal of S.
     """
-
-    coordinate: Array
-    H_inverse: Array
-    squared: Array
-    natural_H: Array
-    usable: bool
+    # Squares and sums are rounded, which is enough to choose a power of two.
+    squares: Array = np.square(A).dot(np.square(coordinate))
+    squares.sort()
+    return squares
 
 
-def hessian_in_both_units(H: Array) -> HessianInBothUnits:
-    """What natural units take from H alone, shape (n_v, n_v) [N m s/m^2]."""
-    return _in_both_units(H.tobytes(), len(H))
+def units_of(form: StandardForm) -> Units:
+    """Natural units of a step from its standard form; not finite where its numbers are not.
 
-
-@lru_cache(maxsize=4)
-def _in_both_units(entries: bytes, n: int) -> HessianInBothUnits:
-    """It is kept, since most steps of a run have the same H."""
-    H = np.frombuffer(entries).reshape(n, n)
-    coordinate = coordinate_units(np.diag(H))
-    usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
-    natural_H = H * np.outer(coordinate, coordinate)
-    inverse = float_inverse(H)
-    squared = coordinate * coordinate
-    for array in (coordinate, inverse, squared, natural_H):
-        read_only(array)
-    return HessianInBothUnits(coordinate, inverse, squared, natural_H, usable)
-
-
-def float_inverse(H: Array) -> Array:
-    """H^-1 in float64, shape (n_v, n_v) [m^2/(N m s)], roughly where H is nearly singular.
+    In C: natural.c.
 
     Raises
     ------
     StepDataError
         As :func:`~quasistatic_ref.certify.norm.energy_norm`.
     """
-    try:
-        return np.linalg.inv(H).astype(np.float64)
-    except np.linalg.LinAlgError:
-        norm = energy_norm(H)
-        root = norm.inverse * norm.unit
-        return root.T @ root
-
-
-def coordinate_units(diagonal: Array) -> Array:
-    """Diagonal of S, shape (n_v,) [m or rad, per (N m s)^0.5], from the `diagonal` of H."""
-    return np.exp2(np.round(np.log2(1 / np.sqrt(diagonal))))
-
-
-def squared_lengths(form: StandardForm, hessian: HessianInBothUnits) -> Array:
-    """Squared lengths of the rows of A S [m^2/(N m s)], shape (m,), ascending; NaN comes last."""
-    # Squares and sums are rounded, which is enough to choose a power of two.
-    squares: Array = np.square(form.A).dot(hessian.squared)
-    squares.sort()
-    return squares
-
-
-def units_of(form: StandardForm, hessian: HessianInBothUnits) -> Units:
-    """Natural units of a step from its standard form; not finite where its numbers are not.
-
-    In C: natural.c.
-
-    Parameters
-    ----------
-    form : StandardForm
-    hessian : HessianInBothUnits
-    """
-    squares = squared_lengths(form, hessian)
-    power = small_power(form.g * hessian.coordinate)
-    g = np.ldexp(form.g, -power) if power else form.g
-    square = max(float(g.dot(hessian.H_inverse).dot(g)), 0.0)
-    free_length = math.ldexp(math.sqrt(square), power)  # ||H^-1 g||_H
+    coordinate = coordinate_units(np.diag(form.H))
+    squares = squared_lengths(form.A, coordinate)
+    free_length = energy_norm(form.H).of_impulse(form.g)  # ||H^-1 g||_H
     length = _power_of_two(_median_length(squares))
     b = form.b
     push_out = max(float(b[b.argmax()]), 0.0) / length if b.size else 0.0  # from penetration
     size = max(free_length, push_out)
-    softest = float(hessian.coordinate.max(initial=0.0))
+    softest = float(coordinate.max(initial=0.0))
     if size == 0:  # no load, no penetration: the optimum is zero
-        size = UNMOVED / softest if hessian.coordinate.size else UNMOVED
+        size = UNMOVED / softest if coordinate.size else UNMOVED
     if not math.isfinite(free_length + push_out + (squares[-1] if b.size else 0.0)):
         size = math.nan
     size = _power_of_two(max(size, SMALLEST * max(1.0, softest)))
-    return Units(hessian.coordinate, length, size)
-
-
-def small_power(y: Array) -> int:
-    """The power of two next to the largest of loads so small that their squares vanish; else 0.
-
-    Parameters
-    ----------
-    y : ndarray, shape (n_v,)
-        In units of the coordinates [(N m s)^0.5].
-    """
-    if y.dot(y) > VANISHING:
-        return 0
-    return math.frexp(np.abs(y).max(initial=0.0))[1]
-
-
-def natural_form(form: StandardForm, units: Units, H: Array) -> StandardForm:
-    """A quadratic program in natural units, bit for bit that of :func:`natural_step`.
-
-    Parameters
-    ----------
-    form : StandardForm
-    units : Units
-    H : ndarray, shape (n_v, n_v)
-        In these units, of :func:`hessian_in_both_units` [-].
-    """
-    S = units.coordinate
-    ell = units.length
-    rho = units.size
-    return StandardForm(H, form.g * (S / rho), form.A * (S / ell), form.b * (1 / (rho * ell)))
+    return Units(coordinate, length, size)
 
 
 def natural_step(step: StepData, units: Units) -> StepData:
@@ -336,14 +250,6 @@ class StepInBothUnits:
         return standard_form(self.si_step)
 
     @cached_property
-    def hessian(self) -> HessianInBothUnits:
-        """What natural units take from H; StepDataError as of `units`."""
-        try:
-            return hessian_in_both_units(self.si_form.H)
-        except np.linalg.LinAlgError:
-            raise out_of_range() from None
-
-    @cached_property
     def units(self) -> Units:
         """Its natural units.
 
@@ -352,8 +258,8 @@ class StepInBothUnits:
         StepDataError
             If products of its numbers leave the range of float64.
         """
-        units = units_of(self.si_form, self.hessian)
-        if not (self.hessian.usable and 0 < units.length < math.inf and 0 < units.size < math.inf):
+        units = units_of(self.si_form)
+        if not (0 < units.length < math.inf and 0 < units.size < math.inf):
             raise out_of_range()
         return units
 
@@ -365,7 +271,7 @@ class StepInBothUnits:
     @cached_property
     def natural_form(self) -> StandardForm:
         """Its standard form in natural units."""
-        return natural_form(self.si_form, self.units, self.hessian.natural_H)
+        return standard_form(self.natural_step)
 
     @cached_property
     def parts(self) -> list[tuple[Group, StepData]]:
@@ -381,7 +287,7 @@ class StepInBothUnits:
     @property
     def row_ratio(self) -> float:
         """Length of the longest row over that of the shortest, rows of zeros left out [-]."""
-        squares = squared_lengths(self.si_form, self.hessian)
+        squares = squared_lengths(self.si_form.A, self.units.coordinate)
         first = int(squares.searchsorted(0.0, side="right"))
         return math.sqrt(squares[-1] / squares[first]) if first < len(squares) else 1.0
 

@@ -234,24 +234,12 @@ def direction(k: int, K: int) -> tuple[float, float]:
     >>> direction(1, 4), direction(4, 8), direction(1, 8)[0] == direction(1, 8)[1]
     ((0.0, 1.0), (-1.0, 0.0), True)
     """
-    octant, rest = divmod(8 * k, K)
-    octant %= 8
-    within = rest if octant % 2 == 0 else K - rest  # from the nearest axis, 0 .. 1/8 of a turn
-    c, s = _cos_sin(Decimal(within) / (8 * K) * 2) if within else (1.0, 0.0)
-    along, across = (c, s) if octant % 4 in (0, 3) else (s, c)
-    along = along if octant in (0, 1, 6, 7) else -along
-    across = across if octant in (0, 1, 2, 3) else -across
-    return along + 0.0, across + 0.0  # never -0.0
-
-
-def _cos_sin(half_turns: Decimal) -> tuple[float, float]:
-    """Cos and sin of pi * half_turns, 0 to 1/4, from their series to 50 digits."""
-    with localcontext() as context:
-        context.prec = 55
-        x = PI * half_turns
-        parts = [Decimal(1), x]
-        term = x
-        for k in range(2, 50):
-            term = term * x / k
-            parts.append(term if k % 4 < 2 else -term)
-        return float(sum(parts[0::2])), float(sum(parts[1::2]))
+    with localcontext(prec=60):
+        angle = 2 * PI * k / K
+        term = Decimal(1)
+        sums = [Decimal(0), Decimal(0)]
+        for i in range(80):  # the series of cosine and sine, in turn
+            sums[i % 2] += term if i % 4 < 2 else -term
+            term = term * angle / (i + 1)
+        cosine, sine = (float(round(x, 50)) + 0.0 for x in sums)  # never -0.0
+        return cosine, sine

@@ -7,13 +7,14 @@ import daqp
 import numpy as np
 
 from quasistatic_ref.certify.groups import Group
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.steps import Steps
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.units import Units, hessian_in_both_units
+from quasistatic_ref.solve.units import Units, coordinate_units
 from quasistatic_ref.step.standard_form import StandardForm
 
 STATUS = {1: "optimal", 2: "soft optimal", -1: "infeasible", -2: "cycling", -3: "unbounded",
@@ -222,14 +223,16 @@ class NaturalProgram:
         if masses is self._masses:
             return
         groups = self.program.groups
-        every = [hessian_in_both_units(masses.of(group.coordinates)) for group in groups]
+        every = [masses.of(group.coordinates) for group in groups]
+        units = [coordinate_units(np.diag(H)) for H in every]
+        roots = [norm.inverse * norm.unit for norm in map(energy_norm, every)]
         structure = self._structure
         coordinates = self.program.coordinates
-        structure["unit"][coordinates] = np.concatenate([H.coordinate for H in every])
+        structure["unit"][coordinates] = np.concatenate(units)
         structure["squared"][:] = np.square(structure["unit"])
-        structure["inverse"][:] = np.concatenate([H.H_inverse.ravel() for H in every])
+        structure["inverse"][:] = np.concatenate([(root.T @ root).ravel() for root in roots])
         self._coordinate = read_only(structure["unit"].copy())
-        self.blocks = [H.natural_H.copy() for H in every]  # DAQP takes what can be written
+        self.blocks = [H * np.outer(S, S) for H, S in zip(every, units, strict=True)]
         self._masses = masses
 
     def units(self) -> Units | None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 
+import numpy as np
+
 from quasistatic_ref.certify.groups import Group, group_step, group_steps, groups
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.fast.program import Program, Workspaces
@@ -12,7 +14,7 @@ from quasistatic_ref.solve.backends import Options, check_backend
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, Solver
-from quasistatic_ref.solve.units import HessianInBothUnits, StepInBothUnits, of_group
+from quasistatic_ref.solve.units import StepInBothUnits, of_group
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import StandardForm
@@ -115,22 +117,23 @@ class FastSolver(BackendSolver):
         self.program = Program(groups(template) if parts is None else parts)
         self.written: FormedStep | None = None
         self._kept: dict[int, Workspaces] = {}
-        self._hessian: HessianInBothUnits | None = None
+        self._H: Array | None = None
         self._blocks: Sequence[Array] = ()
 
     def write(self, both: StepInBothUnits) -> None:
         """Write the program, unless a simulator has."""
         if self.written is both:
             self._blocks = self.written.blocks
-            self._hessian = None
+            self._H = None
         else:
-            if not self.program.has_all_of(both.natural_form):
+            form = both.natural_form
+            if not self.program.has_all_of(form):
                 self.program = Program(groups(both.si_step))
-                self._hessian = None
-            self.program.write(both.natural_form)
-            if both.hessian is not self._hessian:
-                self._hessian = both.hessian
-                self._blocks = self.program.blocks(both.hessian.natural_H)
+                self._H = None
+            self.program.write(form)
+            if self._H is None or not np.array_equal(self._H, form.H):
+                self._H = form.H
+                self._blocks = self.program.blocks(form.H)
         self.written = None
 
     def reply(self, options: Options, both: StepInBothUnits) -> Reply:

@@ -12,7 +12,7 @@ from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.optional.fast.program import NaturalProgram, Program, Workspace
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.units import hessian_in_both_units, units_of
+from quasistatic_ref.solve.units import units_of
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.helpers import changed, error, planted_step
 from tests.tolerances import ACTIVE_SET
@@ -35,9 +35,8 @@ def units(H, g, A, b):
     in_c = natural.units()
     if in_c is not None:
         natural.write(in_c)
-    hessian = hessian_in_both_units(H)
     with np.errstate(all="ignore"):
-        expected = units_of(StandardForm(H, g, A, b), hessian)
+        expected = units_of(StandardForm(H, g, A, b))
     return in_c, expected, program
 
 

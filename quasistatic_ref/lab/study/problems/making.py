@@ -15,7 +15,7 @@ from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.solve.units import hessian_in_both_units, units_of
+from quasistatic_ref.solve.units import units_of
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -108,5 +108,5 @@ def problem_of(step: StepData, name: str, k: int, warm: Sequence[int]) -> Proble
         },
         "tags": [],
     }
-    units = units_of(form, hessian_in_both_units(form.H))
+    units = units_of(form)
     return Problem(facts, csr_matrix(H), g + 0.0, csr_matrix(A), b + 0.0, units, answer)
