@@ -242,7 +242,7 @@ class StepForm(ExactForm):
         contact, kind = np.nonzero(self._mask)
         self._places = [*zip(contact.tolist(), kind.tolist(), strict=True)]
         self._places += [(contacts.n_c + k, 0) for k in range(len(self._extra))]
-        self._factors: dict[int, tuple[arb_mat, arb_mat]] = {}
+        self._factors: dict[int, tuple[arb_mat, arb_mat, arb_mat]] = {}
         self._rows: dict[int, list[Row]] = {}
         self.n = step.n_v
         self.m = step.m
@@ -284,15 +284,19 @@ class StepForm(ExactForm):
     def motion(self, c: int) -> arb_mat:
         """Gap, slips and spin of a contact as rows [a, c], friction included: shape (4, n + 1)."""
         with working_precision(EXACT):
-            turn, J = self.motion_factors(c)
+            _, turn, J = self.factors(c)
             return turn * J
 
-    def motion_factors(self, c: int) -> tuple[arb_mat, arb_mat]:
-        """The frame of a contact with friction, and its J and phi: shapes (4, 5) and (5, n + 1).
+    def factors(self, c: int) -> tuple[arb_mat, arb_mat, arb_mat]:
+        """What the rows [a, c] of a contact are the product of; a user's own row counts as one.
 
-        Of 106 bits or more, the present precision makes them exact.
+        The matrix of the cone, the frame with friction, and J with phi, of shapes (R, 4), (4, 5)
+        and (5, n + 1). Of 106 bits or more, the present precision makes the last two exact.
         """
-        if c not in self._factors:
+        if c not in self._factors and c >= len(self._phi):
+            one = arb_mat([[1]])
+            self._factors[c] = one, one, exact_matrix(self._extra[[c - len(self._phi)]])
+        elif c not in self._factors:
             n, d1, d2, _ = self._frame[c, :, :3].tolist()
             mu_1, mu_2, mu_w = map(arb, self._mu[c].tolist())
             J = np.zeros((5, self.n + 1))
@@ -300,7 +304,7 @@ class StepForm(ExactForm):
             J[4, -1] = self._phi[c]
             d1, d2 = [mu_1 * v for v in d1], [mu_2 * v for v in d2]
             turn = [*n, 0, 1, *d1, 0, 0, *d2, 0, 0, 0, 0, 0, mu_w, 0]
-            self._factors[c] = arb_mat(4, 5, turn), exact_matrix(J)
+            self._factors[c] = self._exact_cone, arb_mat(4, 5, turn), exact_matrix(J)
         return self._factors[c]
 
     def exact_rows(self, some: Iterable[int]) -> list[Row]:
@@ -308,12 +312,9 @@ class StepForm(ExactForm):
         rows = []
         with working_precision(EXACT):
             for c, kind in (self._places[i] for i in some):
-                if c >= len(self._phi):
-                    rows.append([arb(v) for v in self._extra[c - len(self._phi)].tolist()])
-                    continue
                 if c not in self._rows:
-                    turn, J = self.motion_factors(c)
-                    self._rows[c] = (self._exact_cone * (turn * J)).tolist()
+                    combined, turn, J = self.factors(c)
+                    self._rows[c] = (combined * (turn * J)).tolist()
                 rows.append(self._rows[c][kind])
         return rows
 
@@ -321,14 +322,10 @@ class StepForm(ExactForm):
         """Slacks of some rows at z, from the motion of each contact."""
         of_contact: dict[int, list[list[arb]]] = {}
         values = []
-        for i in some:
-            c, kind = self._places[i]
-            if c >= len(self._phi):
-                values += super().values([i], z)
-                continue
+        for c, kind in (self._places[i] for i in some):
             if c not in of_contact:
-                turn, J = self.motion_factors(c)
-                of_contact[c] = (self._exact_cone * (turn * (J * z))).tolist()
+                combined, turn, J = self.factors(c)
+                of_contact[c] = (combined * (turn * (J * z))).tolist()
             values.append(of_contact[c][kind])
         return values
 

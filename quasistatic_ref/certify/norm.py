@@ -60,10 +60,6 @@ class EnergyNorm:
         """||H^-1 p||_H of each row p of P, shape (rows, n_v): how far an impulse moves; (rows,)."""
         return np.array([self.of_impulse(p) for p in P])
 
-    def moved(self, P: Array) -> Array:
-        """H^-1 p of each row p of P, shape (rows, n_v), in axes in which ||.||_H is the length."""
-        return np.asarray(np.linalg.solve(self.L, (P * self.unit).T).T, dtype=np.float64)
-
 
 def energy_norm(H: Array) -> EnergyNorm:
     """The norm of a step, from its float64 H, shape (n_v, n_v) [N m s/m^2].

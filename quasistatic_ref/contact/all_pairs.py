@@ -10,9 +10,11 @@ from quasistatic_ref.contact.batches.batch import Batch
 from quasistatic_ref.contact.batches.boxes import Boxes
 from quasistatic_ref.contact.batches.on_half_space import OnHalfSpaces
 from quasistatic_ref.contact.batches.spheres import Spheres
-from quasistatic_ref.contact.distance import ClosestPoints, check_finite, pair_closest_points
+from quasistatic_ref.contact.distance import ClosestPoints, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.numbers.arrays import finite
 from quasistatic_ref.numbers.ordered import norm
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, HalfSpace, Shape, Sphere
@@ -64,7 +66,14 @@ class AllPairs:
         ]
 
     def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
-        """As of :func:`~quasistatic_ref.contact.distance.closest_points`, with its errors."""
+        """The contacts of all pairs, in order, each pair's as they rank.
+
+        Raises
+        ------
+        ContactError
+            If a pair has no trustworthy normal, or a pose is not finite (given NaN, coal would
+            answer with a distance of 0).
+        """
         n_c = self.n_c
         vectors = np.zeros((3, n_c, 3))
         contacts = ClosestPoints(np.zeros(n_c), *vectors, *np.zeros((2, n_c), dtype=np.int64))
@@ -72,10 +81,11 @@ class AllPairs:
         return contacts
 
     def write(self, kinematics: Kinematics, contacts: ClosestPoints) -> None:
-        """Write the same into fields of shape (n_c, ...)."""
+        """Write the same, with the same errors, into fields of shape (n_c, ...)."""
         R = kinematics.R
         t = kinematics.t
-        check_finite(R, t)
+        if not (finite(R.ravel()) and finite(t.ravel())):
+            raise ContactError("must be finite", field="poses")
         left = [*self._singly]
         for batch, some, rows in self._batches:
             known, found = batch.contacts(R, t)
@@ -88,6 +98,11 @@ class AllPairs:
                 field[self._rows[i]] = values
         for field in (contacts.phi, contacts.n):
             field += 0.0  # zero is 0.0, never -0.0
+
+
+def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
+    """The contacts of some pairs once, as of :meth:`AllPairs.closest_points`."""
+    return AllPairs(pairs).closest_points(kinematics)
 
 
 def kind_of(pair: ContactPair) -> Kind | None:

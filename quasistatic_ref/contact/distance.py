@@ -35,9 +35,7 @@ from quasistatic_ref.contact.ranks import closest, rounded_gaps
 from quasistatic_ref.contact.separations import BISECTOR, UNIQUE_NORMAL, pair_normal, rounding
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
 from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, corner_surface
-from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.numbers.arrays import Array, Indices, Mask, finite
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.tolerances import FILLED, ON_RIM, OVER_FACE, REPEATED, SAME_NORMAL, UPRIGHT
@@ -105,27 +103,6 @@ class Search(NamedTuple):
     candidates: ClosestPoints
 
 
-def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
-    """The contacts of all pairs, in order, each pair's as they rank, by brute force.
-
-    Raises
-    ------
-    ContactError
-        If a pair has no trustworthy normal, or a pose is not finite (given NaN, coal would
-        answer with a distance of 0).
-    """
-    R = kinematics.R
-    t = kinematics.t
-    check_finite(R, t)
-    return joined_contacts([pair_closest_points(pair, R, t) for pair in pairs])
-
-
-def check_finite(R: Array, t: Array) -> None:
-    """Raise ContactError unless all poses are finite."""
-    if not (finite(R.ravel()) and finite(t.ravel())):
-        raise ContactError("must be finite", field="poses")
-
-
 def joined_contacts(lists: Sequence[ClosestPoints]) -> ClosestPoints:
     """Several lists of contacts as one, in which zero is 0.0, never -0.0."""
     if not lists:
@@ -164,7 +141,7 @@ def search(
     Raises
     ------
     ContactError
-        As of :func:`closest_points`.
+        As of :meth:`~quasistatic_ref.contact.all_pairs.AllPairs.closest_points`.
     """
     if pair.has_cloud:
         solid, cloud = (a, b) if isinstance(b.shape, PointCloud) else (b, a)

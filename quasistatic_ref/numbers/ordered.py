@@ -69,11 +69,6 @@ def rotated(R: Array, points: Array) -> Array:
     return turned
 
 
-def transposed(matrices: Array) -> Array:
-    """Each of some `matrices` (..., m, n) [any unit], transposed."""
-    return matrices.swapaxes(-1, -2)
-
-
 def dot(a: Array, b: Array) -> Array:
     """Products a . b, shape (...), of vectors of shape (..., 3) [any unit]."""
     products = a * b

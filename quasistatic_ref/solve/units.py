@@ -192,18 +192,12 @@ def reach(J: Array) -> Array:
 
 def in_si(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
     """delta_q (n_v,) [m, rad] and lam (m,) [N s] in SI units from their values in natural units."""
-    S = units.coordinate
-    ell = units.length
-    rho = units.size
-    return delta_q * (rho * S), lam * (rho / ell)
+    return delta_q * (units.size * units.coordinate), lam * (units.size / units.length)
 
 
 def in_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
     """delta_q (n_v,) and lam (m,) in natural units [-] from their values in SI units."""
-    S = units.coordinate
-    ell = units.length
-    rho = units.size
-    return delta_q / (rho * S), lam / (rho / ell)
+    return delta_q / (units.size * units.coordinate), lam / (units.size / units.length)
 
 
 def _median_length(squares: Array) -> float:

@@ -129,12 +129,6 @@ def wrenches(of_rows: Any, matrix: Any, mu: Any) -> Any:
     return wrench
 
 
-def slip_norms(contacts: Contacts, delta_q: Array, name: str = PYRAMID) -> Array:
-    """The norm s of each contact's slip, shape (n_c,) [m]: the least gap that its cone asks for."""
-    _, *slips = (J @ delta_q for J in frame_jacobian(contacts, contacts.J))
-    return slip_norm(contacts.mu * np.column_stack(slips), name)
-
-
 def slip_norm(scaled: Array, name: str) -> Array:
     """The norm of slips in a cone, shape (...) [m].
 

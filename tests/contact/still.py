@@ -3,7 +3,8 @@
 import numpy as np
 
 from quasistatic_ref import ContactPair, PlacedShape
-from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.all_pairs import closest_points
+from quasistatic_ref.contact.distance import joined_contacts, pair_closest_points
 from quasistatic_ref.model.system import Kinematics
 
 
@@ -20,6 +21,12 @@ def standing_links(*poses):
 
 def pair(alpha, beta, k=1):
     return ContactPair("p", alpha, beta, 0.5, 0.0, 4, k)
+
+
+def one_by_one(pairs, kinematics):
+    """The contacts of all pairs, each searched by itself."""
+    R, t = kinematics.R, kinematics.t
+    return joined_contacts([pair_closest_points(one, R, t) for one in pairs])
 
 
 def found_for(alpha, beta, kinematics, k=1):

@@ -11,9 +11,8 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Capsule, ContactError, Cylinder, HalfSpace, Sphere, convex_hull
 from quasistatic_ref.contact.all_pairs import AllPairs
-from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.formats.plain import bits
-from tests.contact.still import pair, placed_shape, standing_links
+from tests.contact.still import one_by_one, pair, placed_shape, standing_links
 
 QUARTER = np.pi / 2
 
@@ -103,12 +102,12 @@ def test_pairs_at_once_are_those_one_by_one(seed):
     pairs, links = scene(seed)
     at_once, singly = (
         found(AllPairs(pairs).closest_points, links),
-        found(closest_points, pairs, links),
+        found(one_by_one, pairs, links),
     )
     assert bits(at_once) == bits(singly)
-    every = [found(closest_points, [one], links) for one in pairs]
+    every = [found(one_by_one, [one], links) for one in pairs]
     sound = [one for one, each in zip(pairs, every, strict=True) if not isinstance(each, str)]
-    expected = closest_points(sound, links)
+    expected = one_by_one(sound, links)
     written = AllPairs(sound).closest_points(links)
     for name, values in written._asdict().items():
         assert values.tobytes() == getattr(expected, name).tobytes(), name

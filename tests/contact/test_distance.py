@@ -5,9 +5,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Capsule, ContactError, Cylinder, HalfSpace, PointCloud, Sphere
+from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.distance import (
     ClosestPoints,
-    closest_points,
     joined_contacts,
 )
 from quasistatic_ref.model.system import Kinematics

@@ -7,7 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, PointCloud, convex_hull
-from quasistatic_ref.contact.distance import closest_points, in_world, search
+from quasistatic_ref.contact.all_pairs import closest_points
+from quasistatic_ref.contact.distance import in_world, search
 from quasistatic_ref.contact.near_points import MANY, near_points
 from quasistatic_ref.contact.ranks import closest, rounded_gaps
 from quasistatic_ref.shapes import facets

@@ -8,10 +8,10 @@ from scipy.spatial.transform import Rotation
 
 import quasistatic_ref as qr
 from quasistatic_ref import Box, Capsule, Cylinder, HalfSpace, PointCloud, Sphere, convex_hull
+from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.distance import (
     FEW,
     ClosestPoints,
-    closest_points,
     repeated,
 )
 from quasistatic_ref.contact.pairs import RANKED

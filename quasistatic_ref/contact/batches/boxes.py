@@ -15,7 +15,7 @@ from quasistatic_ref.contact.solids.polytope_pair import padded
 from quasistatic_ref.contact.solids.solid_pair import polytopes_and_gaps
 from quasistatic_ref.contact.tied_faces import TURNED, corner_surface
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
-from quasistatic_ref.numbers.ordered import dot, norm, product, rotated, transposed
+from quasistatic_ref.numbers.ordered import dot, norm, product, rotated
 from quasistatic_ref.shapes.placed_shape import Box, Shape
 from quasistatic_ref.tolerances import FILLED, OVER_FACE, REPEATED, SAME_NORMAL
 
@@ -116,7 +116,7 @@ class Boxes(Batch):
         R, t = poses[on]
         R_other, t_other = poses[1 - on]
         corners = self._solids[1 - on].vertices
-        back = transposed(R)
+        back = R.mT
         x = rotated(product(back, R_other)[:, None], corners)
         x += rotated(back, t_other - t)[:, None]
         count = corners.shape[1]
@@ -138,7 +138,7 @@ class Boxes(Batch):
         ends: list[Array] = []
         of_side = zip(self._solids, self._extents, poses, nearest[1:3], (1, -1), strict=True)
         for flat, extent, (R, t), x, sign in of_side:
-            back = transposed(R)
+            back = R.mT
             way = rotated(back, sign * nearest.n)
             some.append(bearing(flat, extent[:, None], rotated(back, x - t), way))
             world = rotated(R[:, None], flat.vertices) + t[:, None]

@@ -13,7 +13,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import UNIQUE_NORMAL
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.numbers.ordered import dot, product, rotated, transposed
+from quasistatic_ref.numbers.ordered import dot, product, rotated
 from quasistatic_ref.shapes.placed_shape import HalfSpace
 from quasistatic_ref.shapes.shape import AXES
 
@@ -40,7 +40,7 @@ class OnHalfSpaces(Batch):
     def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
         """The n_c corners that rank first."""
         plane, solid = self.in_world(R, t)[:: self._turn]
-        towards_plane = transposed(plane[0])
+        towards_plane = plane[0].mT
         turn = product(towards_plane, solid[0])
         place = rotated(towards_plane, solid[1] - plane[1])
         x = rotated(turn[:, None], self._corners) + place[:, None]

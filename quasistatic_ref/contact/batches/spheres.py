@@ -9,7 +9,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import TIED_FACES, UNIQUE_NORMAL
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.numbers.ordered import dot, rotated, transposed
+from quasistatic_ref.numbers.ordered import dot, rotated
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.shapes.rounded import Rounded, distance_to_rounded_box
 
@@ -34,7 +34,7 @@ class Spheres(Batch):
     def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
         """The closest pair of each; of those that touch by their cores, which is not unique."""
         solid, ball = self.in_world(R, t)[:: self._turn]
-        x = rotated(transposed(solid[0]), ball[1] - solid[1])
+        x = rotated(solid[0].mT, ball[1] - solid[1])
         if len(self._planes):
             normal = self._planes
             phi = dot(x, normal) - self._offsets

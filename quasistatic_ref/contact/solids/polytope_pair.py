@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.contact.shape_in_world import Witnesses
 from quasistatic_ref.contact.solids.polytope import Polytope
 from quasistatic_ref.numbers.arrays import Array, Indices
-from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated, transposed
+from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.shapes.placed_shape import Capsule
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
@@ -108,8 +108,8 @@ def gaps_between(a: Polytope, b: Polytope) -> tuple[Array, Array]:
     normals : ndarray, shape (P, N, 3)
         From a to b [-].
     """
-    along_a = product(a.normals, transposed(b.vertices)).min(axis=2) - a.offsets
-    along_b = product(b.normals, transposed(a.vertices)).min(axis=2) - b.offsets
+    along_a = product(a.normals, b.vertices.mT).min(axis=2) - a.offsets
+    along_b = product(b.normals, a.vertices.mT).min(axis=2) - b.offsets
     pair, crossing, gaps = _crossing_edges(a, b)
     along_edges = padded(gaps, pair, len(along_a), -np.inf)
     crossing = padded(crossing, pair, len(along_a), 0.0)
@@ -151,12 +151,12 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Indices, Array, Array]:
     Before them stands of which pair each is. The arc of an edge joins the normals of its two faces;
     those of b count negated. (D. Gregorius, "The separating axis test between convex polyhedra".)
     """
-    b_on_a = product(-a.ways, transposed(b.normals))
-    a_on_b = product(b.ways, transposed(a.normals))
+    b_on_a = product(-a.ways, b.normals.mT)
+    a_on_b = product(b.ways, a.normals.mT)
     c = b_on_a[..., b.sides[:, 0]]
     d = b_on_a[..., b.sides[:, 1]]
-    e = transposed(a_on_b[..., a.sides[:, 0]])
-    f = transposed(a_on_b[..., a.sides[:, 1]])
+    e = a_on_b[..., a.sides[:, 0]].mT
+    f = a_on_b[..., a.sides[:, 1]].mT
     # Each arc has its ends on different sides of the plane of the other ...
     pair, i, j = np.nonzero((c * d < 0) & (e * f < 0))
     if not len(pair):

@@ -12,7 +12,7 @@ from quasistatic_ref.contact.shape_in_world import Pose, ShapeInWorld, Witness, 
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pairs
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.ordered import dot, product, rotated, transposed
+from quasistatic_ref.numbers.ordered import dot, product, rotated
 from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 
@@ -70,7 +70,7 @@ def polytopes_and_gaps(
     gaps, normals : ndarray, shapes (P, N) and (P, N, 3)
         Along all normals [m], [-].
     """
-    back = transposed(pose_a[0])
+    back = pose_a[0].mT
     R = product(back, pose_b[0])
     t = rotated(back, pose_b[1] - pose_a[1])
     gaps, normals = gaps_between(a, b.moved(R, t))

@@ -44,8 +44,9 @@ from quasistatic_ref.simulate.failures import NoFixedPoint
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import slip_norms
+from quasistatic_ref.step.friction import frame_jacobian, slip_norm
 from quasistatic_ref.tolerances import ACCURACY
 
 COULOMB_RESIDUAL: Final = 1e-12
@@ -156,6 +157,12 @@ def coulomb_step(
         s_iterations=count,
         posed=step,
     )
+
+
+def slip_norms(contacts: Contacts, delta_q: Array, name: str) -> Array:
+    """The norm s of each contact's slip, shape (n_c,) [m]: the least gap that its cone asks for."""
+    _, *slips = (J @ delta_q for J in frame_jacobian(contacts, contacts.J))
+    return slip_norm(contacts.mu * np.column_stack(slips), name)
 
 
 def iterate(

@@ -73,7 +73,9 @@ def group_compliance(step: StepData) -> float:
         # LAPACK rounds differently on other processors. That counts where c is as near to one power
         # of two as to the next, and then forces change by what they lose.
         norm = energy_norm(step.H[np.ix_(side, side)])
-        moves = norm.moved(J.reshape(-1, len(side))).reshape(J.shape)
+        # H^-1 p of each row p of J, in axes in which ||.||_H is the length
+        rows = (J * norm.unit).reshape(-1, len(side))
+        moves = np.linalg.solve(norm.L, rows.T).T.reshape(J.shape)
         unit = np.abs(moves).max()
         moves = moves / unit
         b, axes = np.linalg.eigh(moves @ moves.transpose(0, 2, 1))  # in units of unit^2 / h

@@ -10,7 +10,8 @@ import numpy as np
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.contact.distance import ClosestPoints, closest_points
+from quasistatic_ref.contact.all_pairs import closest_points
+from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.forces import COMPLIANCE

@@ -17,7 +17,7 @@ from quasistatic_ref import (
     System,
     convex_hull,
 )
-from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.optional.derivatives.contact.contact_rates import (
