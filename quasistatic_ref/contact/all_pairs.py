@@ -81,7 +81,7 @@ class AllPairs:
         return contacts
 
     def write(self, kinematics: Kinematics, contacts: ClosestPoints) -> None:
-        """Write the same, with the same errors, into fields of shape (n_c, ...)."""
+        """Write the same into fields of shape (n_c, ...); ContactError as of that."""
         R = kinematics.R
         t = kinematics.t
         if not (finite(R.ravel()) and finite(t.ravel())):

@@ -73,7 +73,7 @@ def squared_lengths(A: Array, coordinate: Array) -> Array:
     A : ndarray, shape (m, n_v)
         [m] per unit of delta_q.
     coordinate : ndarray, shape (n_v,)
-        Diagonal of S.
+        Diagonal of S [m or rad, per (N m s)^0.5].
     """
     # Squares and sums are rounded, which is enough to choose a power of two.
     squares: Array = np.square(A).dot(np.square(coordinate))
