@@ -110,16 +110,17 @@ def kind_of(pair: ContactPair) -> Kind | None:
     sides = (pair.alpha.shape, pair.beta.shape)
     ball_last = isinstance(sides[1], Sphere)
     ball, other = sides[::-1] if ball_last else sides
-    if isinstance(ball, Sphere) and isinstance(other, HalfSpace | Rounded) and pair.n_c == 1:
-        return Spheres, (ball_last, isinstance(other, HalfSpace))
+    if isinstance(ball, Sphere) and isinstance(other, Rounded) and pair.n_c == 1:
+        return Spheres, ball_last
     are_boxes = [isinstance(side, Box) for side in sides]
     known = any(are_boxes) and all(isinstance(side, Box | Capsule) for side in sides)
     if known and (pair.n_c == 1 or (all(are_boxes) and pair.n_c <= pair.corners)):
         return Boxes, (*are_boxes, pair.n_c)
     plane_first = isinstance(sides[0], HalfSpace)
     plane, solid = sides if plane_first else sides[::-1]
-    known = isinstance(plane, HalfSpace) and isinstance(solid, Box | Capsule | ConvexMesh)
-    if known and 1 < pair.n_c <= solid.corner_count <= MOST and _corners_are_apart(solid):
+    known = isinstance(solid, Box | Capsule | ConvexMesh)
+    known = known and 1 < pair.n_c <= solid.corner_count <= MOST and _corners_are_apart(solid)
+    if isinstance(plane, HalfSpace) and (known or isinstance(solid, Sphere)):
         return OnHalfSpaces, (plane_first, solid.corner_count, pair.n_c)
     return None
 

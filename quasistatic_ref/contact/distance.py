@@ -6,7 +6,9 @@ comes first. They are listed in that order. What lies still on a face keeps its 
 order, though its distances change in the last bit from step to step. The distances themselves are
 not rounded.
 
-A cloud on a solid: the k points of the cloud that rank first are the contacts.
+A cloud on a solid: the k points of the cloud that rank first are the contacts. Of a cloud on a
+convex mesh most points are dropped before their gaps are formed: near_points.py says why none of
+them could be among the k.
 
 Two solids:
 

@@ -108,10 +108,7 @@ def checked_array(
     InputError
         If the numbers are not finite, or not of that shape.
     """
-    if type(value) is np.ndarray and value.dtype == np.float64:
-        array = value
-    else:
-        array = checked_numbers(value, name, error)
+    array = checked_numbers(value, name, error)
     if array.shape != shape and (array.size or 0 not in shape):
         raise error(f"must have shape {shape}", field=name, value=array.shape)
     if not np.isfinite(array).all():

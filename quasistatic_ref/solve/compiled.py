@@ -160,5 +160,4 @@ class ClarabelCall:
             iterations=int(raw.iterations),
             seconds=float(raw.solve_time),
             call_seconds=seconds,
-            solve_time=float(raw.solve_time),
         )

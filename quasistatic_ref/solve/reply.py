@@ -21,12 +21,10 @@ class Reply:
     status : str
         Its own word, or what it raised; of other letters than can be written, their numbers.
     iterations : int or None
-    seconds : float or None
-        Inside the solver [s], where it says so.
+    seconds, setup : float or None
+        Of solving and of setting up [s], by the solver's own account, where it gives one.
     call_seconds : float
         Of the whole call [s], in a study.
-    solve_time, setup : float or None
-        Of solving and of setting up [s], by the solver's own account, in a study.
     accuracy : float
         That the solver was asked for in this call, in natural units [-].
     """
@@ -38,7 +36,6 @@ class Reply:
     iterations: int | None = None
     seconds: float | None = None
     call_seconds: float = 0.0
-    solve_time: float | None = None
     setup: float | None = None
     accuracy: float = 0.0
 

@@ -32,13 +32,6 @@ ALIKE: Final = 1e3
 that may not return. On rows of very different lengths HiGHS 1.16 may end the process; the steps of
 the scenarios in models/ stay below 3."""
 
-RELAXED = (1.0, 1e2, 1e4)
-"""Accuracies tried where a backend is given second-order cones, relative to the one of the call.
-
-Second-order cones cost Clarabel digits: of 40 planted steps it solves none at 1e-12, 39 at 1e-10
-and all at 1e-9; of 40 grasp steps 37 at 1e-12 and all at 1e-11."""
-
-
 FREE = "not called: the step has no rows"
 """Status of a step that is H delta_q = g."""
 
@@ -149,11 +142,8 @@ class BackendSolver(Solver):
         """Accuracies in natural units [-] with options, in the order in which they are tried."""
         if accuracy not in self._option_sets:
             entry = BACKENDS.get(self.name.removeprefix(QPSOLVERS)) or backend(self.name)
-            least = max(accuracy, entry.floor)
-            factors = (1.0,) if cone(self.template.cone).polyhedral else RELAXED
-            self._option_sets[accuracy] = [
-                (k * least, options) for k in factors for options in entry.option_sets(k * least)
-            ]
+            curved = not cone(self.template.cone).polyhedral
+            self._option_sets[accuracy] = entry.attempts(accuracy, curved)
         return self._option_sets[accuracy]
 
     def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:

@@ -14,7 +14,6 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.backends import NONE, QPSOLVERS, backend, check_takes_cones, is_function
 from quasistatic_ref.solve.greeting import greeting_silenced
 from quasistatic_ref.solve.problem_data import problem_data
-from quasistatic_ref.solve.solver import RELAXED
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import KIND, StepData, differences
 from quasistatic_ref.step.friction import frame_jacobian
@@ -192,22 +191,20 @@ class StepProblem:
             greeting_silenced()
         if not self.problem.is_qp():
             check_takes_cones(name, "this problem")
-        least = max(accuracy, entry.floor)
-        factors = (1.0,) if self.problem.is_qp() else RELAXED
-        for tried in (k * least for k in factors):
-            for options in entry.option_sets(tried):
-                try:
-                    data = problem_data(self.problem, name, options)
-                    solve_scaled(self.problem, data, options)
-                except (InputError, cp.error.DCPError):
-                    raise
-                except Exception as error:  # whatever another package raises
-                    status = f"the solver failed: {error}"
-                    continue
-                status = str(self.problem.status)
-                if status == cp.OPTIMAL:
-                    return self.primal()
-        raise StepNotSolved(name, status, self.step, tried)
+        attempts = entry.attempts(accuracy, not self.problem.is_qp())
+        for _, options in attempts:
+            try:
+                data = problem_data(self.problem, name, options)
+                solve_scaled(self.problem, data, options)
+            except (InputError, cp.error.DCPError):
+                raise
+            except Exception as error:  # whatever another package raises
+                status = f"the solver failed: {error}"
+                continue
+            status = str(self.problem.status)
+            if status == cp.OPTIMAL:
+                return self.primal()
+        raise StepNotSolved(name, status, self.step, attempts[-1][0])
 
     def primal(self) -> Array:
         """delta_q of the last solve, shape (n_v,)."""

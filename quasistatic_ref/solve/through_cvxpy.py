@@ -167,6 +167,5 @@ def cvxpy_reply(
         iterations=None if iterations is None else int(iterations),
         seconds=solve_time,
         call_seconds=seconds,
-        solve_time=solve_time,
         setup=None if setup is None else float(setup),
     )

@@ -1,6 +1,7 @@
-"""Boxes, convex meshes and capsules on half-spaces, all at once.
+"""Boxes, convex meshes, capsules and spheres on half-spaces, all at once.
 
-Every corner of the solid is a candidate, and the closest pair follows from the corners.
+Every corner of the solid is a candidate, and the closest pair follows from the corners. A sphere
+has one with its radius about it, the centre.
 """
 
 from collections.abc import Sequence
@@ -14,13 +15,20 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import UNIQUE_NORMAL
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.ordered import dot, product, rotated
-from quasistatic_ref.shapes.placed_shape import HalfSpace
+from quasistatic_ref.shapes.placed_shape import HalfSpace, Shape, Sphere
 from quasistatic_ref.shapes.shape import AXES
 
 FAR: Final = 1e3
 """Places relative to the solid's size [-] up to which rounding, 1e-16 of them, is far below the
 length to which distances are rounded, 1e-9 of the size: the corners that are lowest then rank as
 the closest pair does, and hold it in their hull."""
+
+
+def ends(solid: Shape) -> tuple[Array, float]:
+    """Its corners, shape (N, 3) [m], or its centre; and the radius of the ball about each [m]."""
+    if isinstance(solid, Sphere):
+        return np.zeros((1, 3)), solid.radius
+    return solid.corners(AXES[0])
 
 
 class OnHalfSpaces(Batch):
@@ -31,7 +39,7 @@ class OnHalfSpaces(Batch):
         self._turn = 1 if isinstance(pairs[0].alpha.shape, HalfSpace) else -1
         sides = [(pair.alpha.shape, pair.beta.shape)[:: self._turn] for pair in pairs]
         planes = [plane for plane, _ in sides if isinstance(plane, HalfSpace)]
-        corners = [solid.corners(AXES[0]) for _, solid in sides]
+        corners = [ends(solid) for _, solid in sides]
         self._normal = np.array([plane.normal for plane in planes])[:, None]
         self._offset = np.array([plane.offset for plane in planes])[:, None]
         self._corners = np.array([points for points, _ in corners])

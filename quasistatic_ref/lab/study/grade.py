@@ -134,7 +134,7 @@ def grades(
             **{f"{name}_limit": most for name, most in allowed.items()},
             "claim": claimed,
             "false_claim": wrong,
-            "seconds_solver": _finite(reply.solve_time),
+            "seconds_solver": _finite(reply.seconds),
             "seconds_setup": _finite(reply.setup),
             "iterations": reply.iterations,
         }

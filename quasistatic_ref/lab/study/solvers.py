@@ -119,8 +119,7 @@ class Solver:
         """Whether its door, or its function, uses a start."""
         if self.door == FUNCTION:
             return self.starts
-        known = BACKENDS.get(self.target)
-        return self.door in (known.warm if known else self.facts.get("warm", ()))
+        return self.door in self.facts.get("warm", ())
 
     def takes(self, setting: Setting) -> bool:
         """Whether a setting means anything to it."""
@@ -137,13 +136,13 @@ class Solver:
         """
         if setting.name in self.options:
             return dict(self.options[setting.name])
-        known = BACKENDS.get(self.target) if self.facts else None
-        limit: Options = {known.time_limit: seconds} if known and known.time_limit else {}
-        limit |= self.facts.get("always", {})
-        if setting.accuracy is None or "accuracy" not in self.facts:
+        facts = self.facts
+        limit: Options = {facts["time_limit"]: seconds} if "time_limit" in facts else {}
+        limit |= facts.get("always", {})
+        if setting.accuracy is None or "accuracy" not in facts:
             return limit
-        if setting.tuned and known:
-            return known.first(setting.accuracy) | limit
+        if setting.tuned and self.target in BACKENDS:
+            return BACKENDS[self.target].first(setting.accuracy) | limit
         return limit | self._options_at(setting)
 
     def _options_at(self, setting: Setting) -> Options:

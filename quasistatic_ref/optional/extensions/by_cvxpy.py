@@ -20,7 +20,6 @@ from quasistatic_ref.optional.extensions.quadratic import quadratic_program
 from quasistatic_ref.optional.extensions.terms import checked_terms
 from quasistatic_ref.solve.backends import backend, check_takes_cones
 from quasistatic_ref.solve.problem_data import problem_data
-from quasistatic_ref.solve.solver import RELAXED
 from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.units import StepInBothUnits, Units, in_si, natural_step
 from quasistatic_ref.step.cones import cone, frictionless
@@ -121,16 +120,15 @@ def extended_solution(
         for parameter in (problem.parameters["K_q"], problem.parameters["tau_k"]):
             parameter.value = np.zeros(parameter.shape)
     failure: StepNotSolved | None = None
-    for relaxed in (k * accuracy for k in RELAXED):
-        for options in backend(name).option_sets(relaxed):
-            try:
-                certificate, statistics = _solved(step, problem, name, relaxed, dict(options))
-            except StepNotSolved as failed:
-                failure = failed
-                continue
-            delta_q, lam = in_si(problem.primal(), problem.dual(), units)
-            claimed = Certificate("none") if certify == "off" else certificate
-            return StepSolution(delta_q, lam, step, claimed, statistics, alone=False)
+    for tried, options in backend(name).attempts(accuracy, curved=True):
+        try:
+            certificate, statistics = _solved(step, problem, name, tried, dict(options))
+        except StepNotSolved as failed:
+            failure = failed
+            continue
+        delta_q, lam = in_si(problem.primal(), problem.dual(), units)
+        claimed = Certificate("none") if certify == "off" else certificate
+        return StepSolution(delta_q, lam, step, claimed, statistics, alone=False)
     assert failure is not None  # a backend has at least one set of options
     raise failure
 

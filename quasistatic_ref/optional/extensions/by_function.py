@@ -9,7 +9,6 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
 from pathlib import Path
-from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -69,13 +68,12 @@ class FunctionSolver(BackendSolver):
     def reply(self, options: Options, both: StepInBothUnits) -> Reply:
         """What the function returns."""
         H, g, A, b = self.form
-        begin = perf_counter()
         with apart():
             returned = self.function(H.copy(), -g, -A, -b)
-        return reply_of(returned, len(g), len(b), perf_counter() - begin)
+        return reply_of(returned, len(g), len(b))
 
 
-def reply_of(returned: object, n: int, m: int, seconds: float) -> Reply:
+def reply_of(returned: object, n: int, m: int) -> Reply:
     """What a function has returned, if it is (x, z, status) of the right shapes.
 
     Parameters
@@ -83,23 +81,21 @@ def reply_of(returned: object, n: int, m: int, seconds: float) -> Reply:
     returned : object
     n, m : int
         Of coordinates and of rows.
-    seconds : float
-        It took [s].
     """
     if not isinstance(returned, tuple) or len(returned) != 3:
         words = f"returned a {type(returned).__name__} in place of (x, z, status)"
-        return Reply(None, None, False, words, call_seconds=seconds)
+        return Reply(None, None, False, words)
     x, z, status = returned
     if not isinstance(status, str):
         words = f"returned a {type(status).__name__} in place of a status"
-        return Reply(None, None, False, words, call_seconds=seconds)
+        return Reply(None, None, False, words)
     if x is None or z is None:
-        return Reply(None, None, False, status[:WORDS], call_seconds=seconds)
+        return Reply(None, None, False, status[:WORDS])
     x, z = (real_numbers(v).reshape(-1) for v in (x, z))
     if (len(x), len(z)) != (n, m):
         words = f"returned {len(x)} and {len(z)} real numbers in place of {n} and {m}"
-        return Reply(None, None, False, words, call_seconds=seconds)
-    return Reply(x, z, status == OPTIMAL, status[:WORDS], call_seconds=seconds)
+        return Reply(None, None, False, words)
+    return Reply(x, z, status == OPTIMAL, status[:WORDS])
 
 
 def real_numbers(values: object) -> Array:

@@ -71,15 +71,16 @@ def qpsolvers_reply(
         solution = qpsolvers.solve_problem(program, name, initvals=initial, **options)
     seconds = perf_counter() - begin
     status, iterations = _status(solution)
+    solve_time, setup = _account(solution)
     return Reply(
         None if solution.x is None else np.array(solution.x, dtype=np.float64),
         None if solution.z is None else np.array(solution.z, dtype=np.float64).reshape(-1),
         bool(solution.found),
         status,
         iterations,
-        None if solution.solve_time is None else float(solution.solve_time),
+        solve_time,
         seconds,
-        *_account(solution),
+        setup,
     )
 
 
