@@ -28,9 +28,9 @@ from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import ExactForm, StepForm
 from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.minimiser import Minimiser
-from quasistatic_ref.certify.norm import energy_norm, single_loads
+from quasistatic_ref.certify.norm import Parts, energy_norm, single_lengths, single_loads
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
@@ -41,11 +41,8 @@ the lengths of the unconstrained steps that the targets, tau_a and tau_u would e
 fourth is that of the longest push-out b_i / ||a_i|| of a single row, in the norm of H^-1.
 
 Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
-
-Parts = Sequence[tuple[Group, StepData]]
-"""The groups of a step, each as a step."""
 MIDDLE = 1e-100, 1e100
-"""Numbers whose products of three are in the range of float64."""
+"""Lengths that no overflow and no underflow on the way to them has changed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,7 +162,7 @@ def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     parts = group_steps(step)
     starts = [group.within(warm) for group, _ in parts]
     optimum = optimum_by_groups(step, parts, starts)
-    check_length(step, optimum.delta_q, parts)
+    check_length(step, optimum.delta_q, parts, without_warnings(single_lengths, parts))
     return optimum
 
 
@@ -229,7 +226,9 @@ def optimum_by_groups(
     )
 
 
-def check_length(step: StepData, delta_q: Array, parts: Parts) -> None:
+def check_length(
+    step: StepData, delta_q: Array, parts: Parts, lengths: Sequence[Sequence[float]]
+) -> None:
     """Refuse a delta_q, shape (n_v,) [m, rad], that is absurdly long in one of the step's groups.
 
     Parameters
@@ -238,40 +237,23 @@ def check_length(step: StepData, delta_q: Array, parts: Parts) -> None:
     delta_q : ndarray, shape (n_v,)
     parts : sequence of (Group, StepData)
         The groups of the step.
+    lengths : sequence of sequence of float
+        Their :func:`~quasistatic_ref.certify.norm.single_lengths` [(N m s)^0.5].
 
     Raises
     ------
     StepIllPosed
     """
-    of_parts = [(part, delta_q[group.coordinates]) for group, part in parts]
-    lengths = [relative_length(*one) for one in of_parts if not surely_short(*one)]
-    if not lengths:
-        return
-    longest = max(lengths, key=lambda length: math.inf if math.isnan(length) else length)
+    relative = []
+    for (group, part), of_loads in zip(parts, lengths, strict=True):
+        moved = delta_q[group.coordinates]
+        most = 0.1 * ILL_POSED * max(of_loads[:-1])  # a tenth is for rounding
+        length = energy_norm(part.H).of_displacement(moved)
+        if not (MIDDLE[0] < most < MIDDLE[1] and length <= most):
+            relative.append(relative_length(part, moved))
+    longest = max(relative, key=lambda r: math.inf if math.isnan(r) else r, default=0.0)
     if not longest <= ILL_POSED:
         raise StepIllPosed(step, delta_q, longest)
-
-
-def surely_short(step: StepData, delta_q: Array) -> bool:
-    """Whether :func:`relative_length` is seen to be far below ``ILL_POSED``.
-
-    With s_i = H_ii^1/2 the triangle inequality says ||v||_H <= sum_i |v_i| s_i, and Cauchy's, of
-    e_i and H^-1 p, ||p||_H^-1 >= |p_i| / s_i. A tenth is for rounding. Numbers whose products might
-    leave the range of float64 show nothing.
-
-    Parameters
-    ----------
-    step : StepData
-    delta_q : ndarray, shape (n_v,)
-    """
-    s = np.sqrt(np.diag(step.H))
-    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        least = (np.abs(single_loads(step)) / s).max(axis=0)
-        length = np.abs(delta_q) * s
-        if not MIDDLE[0] < s.min(initial=1.0) <= s.max(initial=1.0) < MIDDLE[1]:
-            return False
-        most = 0.1 * ILL_POSED * least.max(initial=0.0)
-    return bool(0.1 * ILL_POSED * MIDDLE[0] < most < MIDDLE[1] and length.sum() <= most)
 
 
 def relative_length(step: StepData, delta_q: Array) -> float:

@@ -251,13 +251,13 @@ class StepForm(ExactForm):
         parts = np.zeros((3, self.n, self.n))
         parts[0, :n_a, :n_a] = step.K_q
         parts[1, n_a:, n_a:] = step.M_u
-        loads = np.zeros((3, self.n, 1))
-        loads[0, :n_a, 0] = step.delta_q_bar_a
-        loads[1, :, 0] = np.concatenate([step.tau_a, step.tau_u])
+        pull = arb_mat(self.n, 1)
         if step.extra.cost is not None:
-            parts[2], loads[2, :, 0] = step.extra.cost
+            parts[2], of_cost = step.extra.cost
+            pull = exact_matrix(of_cost[:, None])
         springs, self.H, self.H_inverse = _hessian(parts.tobytes(), self.n, step.h)
-        shift, force, pull = map(exact_matrix, loads)
+        shift = arb_mat(self.n, 1, [*step.delta_q_bar_a.tolist(), *[0] * step.n_u])
+        force = arb_mat(self.n, 1, [*step.tau_a.tolist(), *step.tau_u.tolist()])
         with working_precision(EXACT):
             self.g = springs * shift + (force * self.h + pull) * self.h  # Eq. (1), times h^2
 

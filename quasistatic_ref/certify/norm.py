@@ -29,6 +29,8 @@ from quasistatic_ref.tolerances import UNMOVED
 
 MOST = 16.0
 """Digits of a float64: more cannot be known."""
+Parts = Sequence[tuple[Group, StepData]]
+"""The groups of a step, each as a step."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,24 +152,34 @@ def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()
     return length if length < math.inf else math.nan
 
 
-def single_lengths(parts: Iterable[StepData]) -> list[float]:
+def single_lengths(parts: Parts) -> list[list[float]]:
     """Lengths of the unconstrained steps of :func:`single_loads` and of all of them together, last.
 
     Parameters
     ----------
-    parts : iterable of StepData
+    parts : sequence of (Group, StepData)
         The groups of a step.
 
     Returns
     -------
-    list of float
-        [(N m s)^0.5].
+    list of list of float
+        Of each group [(N m s)^0.5].
     """
-    every = [
+    return [
         [*map(energy_norm(part.H).of_impulse, (*single_loads(part), linear_term(part)))]
-        for part in parts
+        for _, part in parts
     ]
-    return [math.hypot(*lengths) for lengths in zip(*every, strict=True)]
+
+
+def joined(lengths: Sequence[Sequence[float]]) -> list[float]:
+    """Lengths of all of a step [(N m s)^0.5] from those of its groups.
+
+    Parameters
+    ----------
+    lengths : sequence of sequence of float
+        As of :func:`single_lengths` [(N m s)^0.5].
+    """
+    return [math.hypot(*every) for every in zip(*lengths, strict=True)]
 
 
 def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> float:
@@ -180,11 +192,12 @@ def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> floa
     delta_q, exact_delta_q : ndarray, shape (n_v,)
         The answer, and the optimum [m, rad].
     """
-    return digits_by_groups(group_steps(step), delta_q, exact_delta_q)
+    parts = group_steps(step)
+    return digits_by_groups(parts, single_lengths(parts), delta_q, exact_delta_q)
 
 
 def digits_by_groups(
-    parts: Sequence[tuple[Group, StepData]], delta_q: Array, exact_delta_q: Array
+    parts: Parts, lengths: Sequence[Sequence[float]], delta_q: Array, exact_delta_q: Array
 ) -> float:
     """The same [-], of a step whose groups are known.
 
@@ -192,6 +205,8 @@ def digits_by_groups(
     ----------
     parts : sequence of (Group, StepData)
         The groups of a step in SI units.
+    lengths : sequence of sequence of float
+        Their :func:`single_lengths` [(N m s)^0.5].
     delta_q, exact_delta_q : ndarray, shape (n_v,)
         The answer, and the optimum [m, rad].
     """
@@ -201,6 +216,5 @@ def digits_by_groups(
         for v in (delta_q - exact_delta_q, exact_delta_q)
     )
     softest = min(part.H.diagonal().min() for _, part in parts)
-    loads = single_lengths(part for _, part in parts)
-    length = max(moved, *loads, UNMOVED * math.sqrt(softest))
+    length = max(moved, *joined(lengths), UNMOVED * math.sqrt(softest))
     return digits_of_error(off / length) if length < math.inf else 0.0

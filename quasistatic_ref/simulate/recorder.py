@@ -186,6 +186,8 @@ class Recorder:
             try:
                 every = arrays_of(results, self.system.n_v)
                 arrays = self._arrays(results, every)
+                if self.observers and "motion" not in arrays:
+                    every["motion"] = motions(results, self.system.n_v)
             except BaseException:  # what is not known of these steps cannot be recorded
                 self.steps -= len(results)
                 self.q = self.parts[-1]["q"][-1] if self.parts else self.start
@@ -193,7 +195,7 @@ class Recorder:
             finally:
                 self._latest = []
                 self._targets = []
-            for array in (*arrays.values(), every["motion"]):
+            for array in (*arrays.values(), *every.values()):
                 read_only(array)
             before = self.parts[-1] if self.parts else arrays
             self.parts.append(arrays)  # before an observer may raise
@@ -204,7 +206,7 @@ class Recorder:
         return self.parts
 
     def _arrays(self, results: Sequence[StepResult], every: StepArrays) -> StepArrays:
-        """What is kept of the last steps, of which `every` array is read, and no more."""
+        """What is kept of the last steps, of which `every` array is read."""
         first = results[0]
         lam = every["lam"]
         arrays: StepArrays = {
@@ -213,7 +215,7 @@ class Recorder:
             "wrench": without_warnings(
                 contact_wrenches, first.step.contacts, lam, self.h, self.cone
             ),
-            **{name: each for name, each in every.items() if name != "motion"},
+            **every,
         }
         if self.record == "full":
             arrays |= programs([result.step for result in results])
@@ -221,7 +223,7 @@ class Recorder:
             found = [_forces_of(result) for result in results]
             arrays["forces"] = np.array([forces for forces, _ in found])
             arrays["imbalance"] = np.array([imbalance for _, imbalance in found])
-            arrays["motion"] = every["motion"]
+            arrays["motion"] = motions(results, self.system.n_v)
         more = ITERATED if self.simulator.law == COULOMB else ()
         if first.step.extra.names:
             more = (*more, "lam_extra")
@@ -308,7 +310,7 @@ class Recorder:
 
 
 def arrays_of(results: Sequence[StepResult], n_v: int) -> StepArrays:
-    """What a recorder reads of steps that follow one another; with `motion`, J delta_q.
+    """What a recorder reads of steps that follow one another, but for ``motion``.
 
     Returns
     -------
@@ -333,7 +335,6 @@ def arrays_of(results: Sequence[StepResult], n_v: int) -> StepArrays:
         "digits": np.array([one.statistics.digits for one in solutions], np.float64),
         "q": _of_all(results, "q"),
         "tau": tau[:, :n_v],  # without private rises
-        "motion": motions(results, n_v),
     }
     for part in results[0].seconds:
         arrays[SECONDS + part] = np.array([result.seconds[part] for result in results])

@@ -247,7 +247,6 @@ def proved(
         if optimum is None:
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, statistics.accuracy)
-        check_length(step, optimum.delta_q, both.parts)
     else:
         if reply is not None and claimed:
             x, y = reply.answer
@@ -258,10 +257,12 @@ def proved(
         else:
             starts = [group.within(start) for group, _ in both.parts]
         optimum = optimum_by_groups(step, both.parts, starts)
-        check_length(step, optimum.delta_q, both.parts)
     delta_q = optimum.delta_q
     lam = optimum.lam
-    digits = None if answer is None else digits_by_groups(both.parts, answer[0], delta_q)
+    check_length(step, delta_q, both.parts, both.lengths)
+    digits = None
+    if answer is not None:
+        digits = digits_by_groups(both.parts, both.lengths, answer[0], delta_q)
     residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, both.units)))
     statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
     if isinstance(optimum, ExactOptimum):

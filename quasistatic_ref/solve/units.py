@@ -20,7 +20,7 @@ import numpy as np
 
 from quasistatic_ref.certify.curved_cone import judge_of
 from quasistatic_ref.certify.groups import Group, group_steps
-from quasistatic_ref.certify.norm import energy_norm, single_lengths
+from quasistatic_ref.certify.norm import energy_norm, joined, single_lengths
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import field_values
@@ -273,6 +273,11 @@ class StepInBothUnits:
         return group_steps(self.si_step)
 
     @cached_property
+    def lengths(self) -> list[list[float]]:
+        """Of each group, those of :func:`~quasistatic_ref.certify.norm.single_lengths`."""
+        return single_lengths(self.parts)
+
+    @cached_property
     def natural_forms(self) -> list[StandardForm]:
         """The standard form of each group in the natural units of the step."""
         form = self.natural_form
@@ -304,7 +309,7 @@ class StepInBothUnits:
         residuals = Residuals(*worst.max(axis=0).tolist())
         if not self.si_step.n_v:
             return residuals
-        length = max(single_lengths(part for _, part in self.parts)[:-1])
+        length = max(joined(self.lengths)[:-1])
         size = self.units.size
         return residuals.in_size(length / size if size < length < math.inf else 1.0)
 

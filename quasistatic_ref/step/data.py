@@ -106,6 +106,8 @@ class Extra(Plain, Shown):
 
     def of(self, rows: Indices, coordinates: Indices) -> Extra:
         """Some rows, shape (k,), and the cost, of some coordinates alone, shape (n,)."""
+        if self.empty:
+            return no_rows(len(coordinates))
         cost = self.cost
         return Extra(
             tuple(self.names[i] for i in rows),
