@@ -32,9 +32,6 @@ DIFFERENCE = 1e-8
 """Jacobians against central differences with that step: truncation is at most step^2 / 6 times a
 third derivative, below 100 for chains of a metre, so 2e-9; a wrong column is off by 0.1 or more."""
 
-FILE_FLOAT32 = 1e-7
-"""A coordinate of size one that travelled through float32: half its unit of 1.2e-7."""
-
 THRESHOLD = 1e-6
 """How near to its threshold of slip a grasp is tried: the answers are exact or enclosed to
 1e-13, so what limits it is the rounding of the threshold itself, 1e-16."""

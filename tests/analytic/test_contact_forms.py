@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref import Box, convex_hull
+from quasistatic_ref import convex_hull
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.lab.scenes.at_random import random_frames
@@ -10,7 +10,6 @@ from quasistatic_ref.lab.scenes.contacts import contacts_of, point_jacobian
 from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.step.friction import friction_rows
 from tests.analytic.instances import INFEASIBLE, INSTANCES, instances, near
-from tests.contact.still import found_for, placed_shape, standing_links
 from tests.oracles.random_steps import mixed_step
 
 
@@ -44,16 +43,6 @@ def test_r37_convex_bodies_share_a_normal(rng):
         v = np.cross(apart.n, rng.normal(size=3))
         moved = solid_pair("p", here, ShapeInWorld(other, np.eye(3), t + v))
         assert moved.phi >= (1 - k % 2) * apart.phi - 1e-12
-
-
-def test_bodies_that_are_apart_may_come_to_touch_along_another_normal():
-    """A box that moves from diagonally above an edge of another onto its top, without a turn."""
-    large, small = (
-        placed_shape(Box(np.full(3, half)), link) for half, link in ((0.1, 1), (0.01, 2))
-    )
-    for xyz, n in (([0.12, 0, 0.12], [np.sqrt(0.5), 0, np.sqrt(0.5)]), ([0, 0, 0.11], [0, 0, 1])):
-        where = standing_links((np.eye(3), np.zeros(3)), (np.eye(3), np.array(xyz)))
-        near(found_for(large, small, where).n, [n], 1.0)
 
 
 def test_r19_the_gap_of_a_loaded_contact(rng, both):

@@ -75,17 +75,6 @@ def test_where_the_normal_is_not_unique_the_first_one_wins(shape, point, phi, n)
     assert_within(found_n, [n], SIGNED_DISTANCE)
 
 
-@pytest.mark.parametrize("name", SHAPES)
-def test_a_point_s_distance_does_not_depend_on_its_batch(name, rng):
-    shape = SHAPES[name]
-    points = rng.uniform(-0.8, 0.8, size=(37, 3))
-    phi, normal = shape.signed_distance(points)
-    for i, point in enumerate(points):
-        alone_phi, alone_normal = shape.signed_distance(point[None])
-        np.testing.assert_array_equal(alone_phi[0], phi[i])
-        np.testing.assert_array_equal(alone_normal[0], normal[i])
-
-
 @given(
     phi=st.lists(st.sampled_from([-1.0, -0.5, 0.0, 0.5, 1.0]), min_size=1, max_size=30),
     k=st.integers(1, 40),

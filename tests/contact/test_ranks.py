@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-import quasistatic_ref as qr
 from quasistatic_ref import Box, Capsule, Cylinder, HalfSpace, PointCloud, Sphere, convex_hull
 from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.distance import (
@@ -93,57 +92,6 @@ def test_contacts_rank_by_a_share_of_the_smaller_shape_and_keep_their_distances(
     ball = pair(placed_shape(Sphere(0.1)), placed_shape(PointCloud([[1.0, 0, 0]]), 1))
     assert ball.size == 0.2  # a single point has none
     assert pair(placed_shape(FLOOR), placed_shape(PointCloud([[1.0, 0, 0]]), 1)).resolution == 0
-
-
-def scene(body, xyz, rpy, k, steps):
-    return qr.load_scenario(
-        {
-            "h": 0.01,
-            "steps": steps,
-            "gravity": [0, 0, -9.81],
-            "bodies": {"box": {**body, "base": "floating", "pose": {"xyz": xyz, "rpy": rpy}}},
-            "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
-            "contacts": {
-                "floor": {"alpha": "floor", "beta": "box", "mu_v": 0.5, "rows": 4, "k": k}
-            },
-        },
-        fast=True,
-    )
-
-
-def urdf(centre, geometry):
-    x, y = centre
-    return (
-        f'<robot name="box"><link name="box"><inertial><origin xyz="{x} {y} 0"/><mass value="1"/>'
-        '<inertia ixx="2e-3" iyy="2e-3" izz="2e-3" ixy="0" ixz="0" iyz="0"/></inertial>'
-        f"<collision><geometry>{geometry}</geometry></collision></link></robot>"
-    )
-
-
-BOX_100 = '<box size="0.1 0.1 0.1"/>'
-
-
-@pytest.mark.parametrize("tilt", [1e-6, 1e-3])
-def test_a_box_whose_centre_is_over_the_corner_that_would_be_lost_does_not_sink(tilt):
-    made = scene(
-        {"urdf": urdf((0.02, 0.02), BOX_100)}, [0, 0, 0.05 + 0.05 * tilt], [tilt, 0, 0], 4, 20
-    )
-    run = made.run(progress=False)
-    corners = np.array([[x, y, -0.05] for x in (-0.05, 0.05) for y in (-0.05, 0.05)])
-    for q in run.q:
-        R, t = made.system.pose(q, "box")
-        assert (corners @ R.T + t)[:, 2].min() > -1e-7
-    assert run.wrench[:, :, 2].sum(axis=1).max() < 9.81 * 1.001
-
-
-@pytest.mark.parametrize("yaw", [0.0, 0.7])
-def test_a_can_that_lies_still_keeps_its_forces_and_has_no_finding(yaw):
-    can = {"urdf": urdf((0, 0), '<cylinder radius="0.02" length="0.1"/>')}
-    run = scene(can, [0, 0, 0.02], [0, np.pi / 2, yaw], 4, 20).run(progress=False)
-    np.testing.assert_allclose(run.forces[:, :2, 2], 9.81 / 2, rtol=1e-5)
-    assert np.abs(run.forces[:, 2:]).max() < 1e-9
-    assert len({tuple(row) for row in np.sign(run.beta[:, :2, 0]).tolist()}) == 1
-    assert [finding.name for finding in run.findings] == []
 
 
 def test_a_face_of_many_corners_is_borne_by_them_and_not_by_a_point_between():

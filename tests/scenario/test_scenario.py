@@ -7,14 +7,10 @@ from quasistatic_ref import (
     Box,
     Capsule,
     ContactPair,
-    Cylinder,
     HalfSpace,
     PointCloud,
-    ScenarioError,
-    Sphere,
     load_scenario,
 )
-from quasistatic_ref.formats.resources import models_folder, scenario_names, scenario_path
 from tests.closeness import assert_close, assert_relative, assert_within
 from tests.model.urdf.urdf_texts import joint, link, robot, urdf_of_text
 from tests.scenes import PUSH
@@ -149,8 +145,6 @@ def test_gravity_is_in_tau_a_only_where_it_is_not_compensated(load, compensated,
 
 WORLD = {
     "box": ("box = { size = [0.2, 0.4, 0.6] }", Box((0.1, 0.2, 0.3))),
-    "sphere": ("sphere = { radius = 0.2 }", Sphere(0.2)),
-    "cylinder": ("cylinder = { radius = 0.2, length = 0.6 }", Cylinder(0.2, 0.3)),
     "capsule": ("capsule = { radius = 0.2, length = 0.6 }", Capsule(0.2, 0.3)),
     "halfspace": (
         "halfspace = { normal = [0, 3, 4], offset = 10 }",
@@ -182,12 +176,3 @@ def test_a_body_with_a_cloud_is_its_cloud_by_name(load, tmp_path):
     assert isinstance(floor.beta.shape, PointCloud)
     assert isinstance(push.beta.shape, PointCloud)
     assert (floor.beta.link, floor.n_c) == (scenario.system.link("ball"), 2)
-
-
-def test_scenarios_that_come_along_are_found_by_name():
-    assert set(scenario_names()) >= {"bunny_grasp", "sphere_spin"}
-    assert scenario_path("sphere_spin") == models_folder() / "sphere_spin" / "sphere_spin.toml"
-    with pytest.raises(
-        ScenarioError, match=r"sphere_spn: is neither .*; did you mean 'sphere_spin'"
-    ):
-        load_scenario("sphere_spn")

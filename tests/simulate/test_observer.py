@@ -89,25 +89,6 @@ def test_a_run_whose_steps_are_packed_one_by_one_is_the_same(name, monkeypatch):
             assert run[key].tobytes() == array.tobytes()
 
 
-def test_what_was_taken_is_kept_where_a_run_ends_between_two_packings(scenario):
-    whole = scenario.run(progress=False)
-
-    def target(t, q, last):
-        if last is not None and t > 2.5 * scenario.h:
-            raise KeyboardInterrupt
-        return scenario.targets(t)
-
-    with pytest.raises(RunFailed, match="step 2: interrupted") as caught:
-        rollout(
-            scenario.simulator(), scenario.system.q_start, target, STEPS,
-            force=scenario.force, progress=False,
-        )  # fmt: skip
-    kept = caught.value.trajectory
-    assert len(kept) == 2
-    for key in ("q", "lam", "wrench", "t"):
-        assert kept[key].tobytes() == whole[key][: len(kept[key])].tobytes()
-
-
 def test_an_observer_ends_a_run_as_any_failure_does(scenario):
     witness = Witness(ends_at=2)
     with pytest.raises(RunFailed, match="step 2: high enough") as caught:

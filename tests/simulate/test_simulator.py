@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import (
-    InputError,
     RunFailed,
     StepDataError,
     load_scenario,
@@ -85,27 +84,6 @@ def test_targets_and_forces_are_asked_for_at_the_end_of_the_step(scenario):
     weight = np.array([0, 0, 0.3 * GRAVITY, 0, 0, 0])
     tau = np.concatenate([run["tau_a"][0], run["tau_u"][0] + weight])
     assert_close(tau, np.arange(8.0), ROUNDING)
-
-
-TARGETS = {
-    "too short": np.zeros(2),
-    "too few steps": np.zeros((3, 3)),
-    "NaN": np.array([np.nan, 1.0, 0.0]),
-}
-
-
-@pytest.mark.parametrize("target", TARGETS.values(), ids=TARGETS)
-def test_a_target_of_another_shape_or_not_finite_is_refused(scenario, target):
-    with pytest.raises(
-        InputError, match=r"target: must contain finite numbers of shape \(3,\) or \(4"
-    ):
-        rollout(scenario.simulator(), scenario.system.q_start, target, 4, progress=False)
-
-
-def test_a_target_that_is_no_configuration_is_refused(scenario):
-    goal = np.array([0.0, 2 * np.cos(0.3), 2 * np.sin(0.3)])  # taken for 0, not 0.3
-    with pytest.raises(InputError):
-        rollout(scenario.simulator(), scenario.system.q_start, goal, 1, progress=False)
 
 
 def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario):

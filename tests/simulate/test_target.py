@@ -52,13 +52,6 @@ def test_waypoints_of_a_base_may_be_whole_numbers():
         assert JointTrack(joint, np.array([0.0, 1.0]), ends).over(t)[:, 0].tolist() == t.tolist()
 
 
-@pytest.mark.parametrize("times", [[0.0, 0.0], [1.0, 0.5]])
-def test_times_that_do_not_increase_are_refused(scene, times):
-    joint = scene.joint("desk/slide")
-    with pytest.raises(ScenarioError, match="targets of desk/slide: waypoint times must increase"):
-        JointTrack(joint, np.array(times), np.zeros((2, 1)))
-
-
 def test_targets_of_many_steps_have_the_bits_of_each(scene, rng):
     """Of a base, a wheel and a slide, where each of them is between, at and beyond waypoints."""
     tracks = [

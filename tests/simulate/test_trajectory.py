@@ -111,13 +111,6 @@ def test_it_is_a_mapping_of_its_arrays(run):
     assert list(run) == list(run.keys()) == list(run.arrays)
 
 
-def test_wall_times_are_kept_in_memory_only(tmp_path, run):
-    of_steps = {"distances", "rows", "solve", "proof", "integrate"}
-    assert set(run.seconds) == {*of_steps, "record", "findings"}
-    assert all(s.shape == (5,) and (s >= 0).all() for s in run.seconds.values())
-    assert load_trajectory(save_trajectory(tmp_path / "run.npz", run)).seconds == {}
-
-
 def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
     light = load_scenario(folder / "scene.toml", ["record=light"], fast=True).run(progress=False)
     assert set(light.arrays) == SHAPES.keys() - PROGRAMS

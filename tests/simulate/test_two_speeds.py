@@ -3,22 +3,11 @@
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 
 from quasistatic_ref import (
-    Body,
-    Box,
-    ContactPair,
-    PlacedShape,
-    Simulator,
-    Sphere,
-    System,
     load_scenario,
 )
-from quasistatic_ref.optional.fast.simulator import FastSimulator
-from quasistatic_ref.simulate.limits import Limits
-from tests.closeness import assert_within
 from tests.extras import SCENARIOS
 
 STEPS = {"bunny_grasp": 60}  # its gripper has closed after 50; of the others 6 are taken
@@ -65,17 +54,3 @@ print(*(name for name in large if name in sys.modules))
 def test_a_fast_run_imports_no_large_package_that_it_does_not_use():
     done = subprocess.run([sys.executable, "-c", FAST], capture_output=True, text=True, check=True)
     assert done.stdout.split() == []
-
-
-@pytest.mark.parametrize("fast", [False, True])
-def test_a_fall_of_3000_km_ends_on_the_floor(fast):
-    """In a step of 1000 s, h^2 g = 9.8e6 m: no contact that fills a number stops it before."""
-    system = System([Body.of_shape("ball", Sphere(0.1), 1.0, xyz=(0.0, 0.0, 3e6))])
-    floor = PlacedShape.in_world("floor", Box((1e7, 1e7, 0.2)))
-    pair = ContactPair("floor(floor, ball)", floor, system.shapes[0], 0.5, 0.0, 4, 4)
-    limits = Limits(reach=1e8)
-    made = Simulator(system, [pair], h=1000.0, K_q=np.zeros((0, 0)), limits=limits)
-    made = FastSimulator(made) if fast else made
-    step = made.step(system.q_start, np.zeros(0))
-    assert step.solution.certificate.kind == "exact"
-    assert_within(step.q[:3], [0.0, 0.0, 0.2 + 0.1], 1e-9)

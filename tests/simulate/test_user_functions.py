@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, Recorder, RunFailed, load_scenario, rollout
+from quasistatic_ref import InputError, Recorder, load_scenario, rollout
 from tests.scenes import written_scenario
 
 STEPS = 4
@@ -72,21 +72,6 @@ def test_other_arguments_are_refused_before_the_first_step(run, name, function):
     given = {"target": goal} | {name: function}
     with pytest.raises(InputError, match=rf"^{name}: must be a function of t, of \(t, q\), or of"):
         run(**given)
-
-
-RETURNED = {
-    "too short": np.zeros(2),
-    "nothing": None,
-    "ragged": [[1.0], [1.0, 2.0]],
-}
-
-
-@pytest.mark.parametrize("value", RETURNED.values(), ids=RETURNED)
-def test_another_shape_ends_the_run_in_a_sentence(run, value):
-    with pytest.raises(RunFailed, match=r"^step 2: target: must return numbers of shape \(3,\)"):
-        run(lambda t: value if t > 0.025 else goal(t))
-    with pytest.raises(RunFailed, match=r"^step 0: force: must return numbers of shape \(8,\)"):
-        run(goal, force=lambda t: value)
 
 
 def test_an_error_of_the_callers_own_is_left_alone(run):

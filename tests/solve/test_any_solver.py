@@ -1,7 +1,6 @@
 """Solvers that the table does not have: CVXPY's, qpsolvers', and functions of the user's."""
 
 import json
-import os
 import pickle
 import re
 import sys
@@ -104,24 +103,17 @@ def exits(P, q, G, h):
     sys.exit(0)
 
 
-def names_a_file(P, q, G, h):
-    raise ValueError("cannot open " + os.fsdecode(b"caf\xe9.dat"))
-
-
 WRONG = {
     "complex": (lambda P, q, G, h: (q + 1e-9j, h, "optimal"), "0 and 12 real numbers in place of"),
     "words": (lambda P, q, G, h: (["1"] * len(q), h, "optimal"), "real numbers in place of"),
-    "ragged": (lambda P, q, G, h: ([[1], [1, 2]], h, "optimal"), "real numbers in place of"),
     "two statuses": (lambda P, q, G, h: (q, h, np.array(["optimal", "x"])), "a ndarray in place"),
     "no word": (lambda P, q, G, h: (q, h, 1), "returned a int in place of a status"),
     "an end": (exits, "SystemExit: 0"),
-    "no UTF-8": (names_a_file, r"cannot open caf\udce9.dat"),
     "no UTF-8 in a status": (lambda P, q, G, h: (None, None, "caf\udce9"), r"caf\udce9"),
     "of another shape": (lambda P, q, G, h: (q[:1], h, "optimal"), "in place of"),
     "no three": (lambda P, q, G, h: q, "in place of"),
     "of another status": (lambda P, q, G, h: (q, h, "almost"), "almost"),
     "not finite": (lambda P, q, G, h: (q * np.nan, h, "optimal"), "not finite"),
-    "nothing": (lambda P, q, G, h: (None, None, "tired"), "tired"),
     "raised": (lambda P, q, G, h: 1 / 0, "division by zero"),
 }
 

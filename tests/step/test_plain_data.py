@@ -51,21 +51,6 @@ def test_a_pickled_system_does_not_need_its_files(tmp_path):
 
 
 @every_trip
-@pytest.mark.parametrize("name", ["Scenario", "Scenario of the grasp"])
-def test_a_copy_of_a_scenario_runs_to_the_same_bits(things, name, trip):
-    assert trip(things[name]).run(progress=False) == things[name].run(progress=False)
-
-
-@every_trip
-def test_a_copy_of_a_simulator_takes_the_same_step_afresh(things, trip):
-    scenario = replace(things["Scenario of the grasp"], certify="off", backend="daqp")
-    one = scenario.simulator()
-    q = scenario.system.q_start
-    first = one.step(q, scenario.targets(0.01))
-    assert trip(one).step(q, scenario.targets(0.01)) == first
-
-
-@every_trip
 def test_a_copy_of_a_simulator_has_every_setting(things, trip):
     scenario = things["Scenario"]
     given = {

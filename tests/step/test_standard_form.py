@@ -30,15 +30,6 @@ def with_extra(step, rng):
     )
 
 
-@pytest.mark.parametrize(("n_a", "n_u"), [(7, 6), (0, 6), (7, 0)])
-def test_cvxpy_compiles_the_same_quadratic_form(n_a, n_u, rng):
-    step = random_step(rng, n_a, n_u)
-    form = standard_form(step)
-    H, g, _ = by_cvxpy(step)
-    assert_close(H, form.H, ROUNDING)
-    assert_close(g, form.g, ROUNDING)
-
-
 CONES = ("pyramid", "product", "facets-8", "frictionless")
 
 

@@ -11,14 +11,12 @@ from quasistatic_ref import (
     ModelError,
     ScenarioError,
     System,
-    derivatives,
     load_scenario,
     verify_answer,
 )
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
-from tests.oracles.differences import after, rate
-from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
+from tests.tolerances import ROUNDING
 
 CENTRE = np.array([0.0, 0.05, -0.3])
 MOMENTS = np.array([0.02, 0.03, 0.04])
@@ -101,21 +99,6 @@ def test_runs_are_exact_and_have_the_same_bits_at_both_speeds(base):
     ends = Rotation.from_quat(run["q"][[0, -1]])
     turned = (ends[0].inv() * ends[1]).magnitude()
     assert_within(motion.turned[-1], turned, 8 * ROUNDING)
-
-
-@pytest.mark.parametrize("base", [True, False])
-def test_its_derivatives_are_those_of_differences(base):
-    simulator = scene(base).simulator()
-    q = simulator.system.q_start
-    found = derivatives(simulator, q, np.zeros(0))
-    assert found.differentiable
-    for k, e in enumerate(np.eye(3)):
-        expected = rate(
-            lambda t, e=e: after(
-                simulator, found.result.q, simulator.system.integrate(q, t * e), np.zeros(0)
-            )
-        )
-        assert_within(found.dq_dq[:, k], expected, DIFFERENCE_OF_STEPS)
 
 
 @pytest.mark.parametrize(("base", "name"), [(True, "base"), (False, "ball")])

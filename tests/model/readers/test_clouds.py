@@ -11,7 +11,6 @@ import pytest
 from quasistatic_ref import ModelError
 from quasistatic_ref.model.readers import text
 from quasistatic_ref.model.readers.clouds import point_cloud, seen_points
-from tests.tolerances import FILE_FLOAT32
 
 POINTS = np.array([[0.1, -0.2, 0.3], [1.0, 2e-3, -0.5]])
 PLY_ASCII = """ply
@@ -109,15 +108,6 @@ def test_every_format_gives_the_points_bit_for_bit(tmp_path, suffix, content):
     assert np.array_equal(point_cloud(path).points, POINTS)
 
 
-def test_a_binary_ply_in_float32_gives_the_rounded_points(tmp_path):
-    path = tmp_path / "cloud.ply"
-    path.write_bytes(binary_ply("float", "f"))
-    points = point_cloud(path).points
-    assert np.array_equal(points, POINTS.astype(np.float32).astype(np.float64))
-    assert points == pytest.approx(POINTS, abs=FILE_FLOAT32)
-
-
-NAN = np.array([[0.0, 0.0, 0.0], [1.0, np.nan, 2.0]])
 BAD = {
     "pcd of other words": (
         ".pcd",

@@ -92,23 +92,3 @@ def test_a_welded_link_makes_up_for_an_inertia_as_far_as_parallel_axes_go(excess
             loaded_urdf(two, base="floating")
     else:
         assert len(loaded_urdf(two, base="floating").notes) == 2
-
-
-def test_a_link_that_carries_only_links_without_mass_needs_one():
-    empty = robot(
-        link("a"), link("b", inertial=""), link("c", inertial=""),
-        joint("turn", "a", "b"), joint("weld", "b", "c"),
-    )  # fmt: skip
-    with pytest.raises(ModelError, match=r"link\[b\].inertial: is missing"):
-        loaded_urdf(empty, base="fixed")
-
-
-def test_a_joint_needs_its_effort_and_its_velocity_but_no_range():
-    range_given = 'lower="-1" upper="1" '
-    turn = joint("turn", "a", "b")
-    assert range_given in turn
-    urdf_file(robot(link("a"), link("b"), turn.replace(range_given, "")))
-    for needed in ("effort", "velocity"):
-        without = turn.replace(f'{needed}="1"', "")
-        with pytest.raises(ModelError, match=rf"joint\[turn\].limit.{needed}: is missing"):
-            urdf_file(robot(link("a"), link("b"), without))

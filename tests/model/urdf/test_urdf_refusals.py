@@ -5,7 +5,6 @@ import pytest
 from quasistatic_ref import ModelError
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from tests.model.urdf.urdf_texts import (
-    BOX,
     CHAIN,
     INERTIAL,
     collision,
@@ -107,7 +106,7 @@ def test_a_defect_is_one_sentence_that_names_the_file(tmp_path, text, old, new, 
 OLDER = CHAIN.replace(' version="1.1"', "")
 
 
-@pytest.mark.parametrize("text", [TWO, THREE, CHAIN, OLDER, BOX])
+@pytest.mark.parametrize("text", [TWO, THREE, CHAIN, OLDER])
 def test_the_texts_are_good_before_they_are_spoilt(tmp_path, text):
     assert loaded_urdf(urdf_of_text(tmp_path, text)).links
 
