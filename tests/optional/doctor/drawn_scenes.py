@@ -79,10 +79,10 @@ def plate(K, v=(0, 0), z=0.0, at=-0.01):
     return driven(slides("xz", SLAB), (0, 0, at), {"x": STIFF, "z": K}, targets)
 
 
-def gripped(d, N, edge, *way, axis="x"):
+def gripped(d, N, edge, *way, axis="x", K=None):
     """Fingers on both sides of a body at the origin, whose springs press with N; of a way (t, z, p)
     with p N. If p < 0 they open."""
-    deep = d.between(5e-4, 5e-3)
+    deep = N / K if K else d.between(5e-4, 5e-3)
     bodies = {}
     for name, side in (("left", -1), ("right", 1)):
         at = side * (edge / 2 + TIP_RADIUS)

@@ -164,24 +164,11 @@ def over_a_joint(*right, steps=200):
     )
 
 
-# %% unsupported body: a floor that only one of two boxes knows
-found = findings([box(), box(name="other", xyz=(0.3, 0, 0.05))])
-
 # %% unsupported body: two boxes touch each other and nothing else
 found = findings([box(), box(name="top", xyz=(0, 0, 0.15))], [("box", "top", 0.5, 4)])
 
 # %% initial penetration: the origin of a box is its middle, and it was set on the floor
 found = findings([box(xyz=(0, 0, 0.04))])
-
-# %% initial penetration: a stack whose upper box is 5 mm too low
-found = findings([box(), box(name="top", xyz=(0, 0, 0.145))], [*STANDS, ("box", "top", 0.5, 4)])
-
-# %% initial penetration: a ball in a wall
-found = findings(
-    [ball(xyz=(0.45, 0, 0.05))],
-    [("floor", "ball", 0.5, 1), ("wall", "ball", 0.5, 1)],
-    [("wall", Box(size=(0.1, 2, 2)), (0.54, 0, 0))],
-)
 
 # %% initial penetration: a box in a gap narrower than itself, where no step has a solution
 found = findings([box()], [("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)], walls(0.09))
@@ -196,13 +183,6 @@ found = findings([table], lies("table", mu_v=0.3, k=1), mu_omega=0.02)
 
 # %% guided friction: a slot as wide as its block
 found = findings([box()], IN_SLOT, walls(0.1), push={"box": (50, 0, 0)})
-
-# %% guided friction: a box between floor and ceiling
-found = findings(
-    [box()],
-    [*STANDS, ("ceiling", "box", 0.5, 4)],
-    [("ceiling", Box(size=(2, 2, 0.1)), (0, 0, 0.1501))],
-)
 
 # %% guided friction: a rod in a shaft with three walls, no two of which are opposite
 rod = Body.of_shape("rod", Sphere(0.05), 0.3, xyz=(0, 0, 0))
@@ -232,9 +212,6 @@ found = findings(
     target=[0.05],
 )
 
-# %% too few points: three contacts under a box, whose centre is over an edge of them
-found = findings([box()], lies(k=3))
-
 # %% too few points: five of the hundred points below a cloud
 found = findings([box()], lies(k=5), cloud={"box": FACE})
 
@@ -258,21 +235,8 @@ found = over_a_joint(convex_hull(corners))
 turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
 found = over_a_joint(TABLE, (0.2, 0, -0.025), turn)
 
-# %% density: half a gram in a litre
-found = findings([box(mass=5e-4)])
-
-# %% density: half extents of 100 where 0.1 was meant
-found = findings([box(size=(20.0, 20.0, 20.0))])
-
-# %% stray points: one of a hundred is 0.3 m off
-found = findings([box()], cloud={"box": [*FACE, (0.3, 0, 0.1)]})
-
 # %% stray points: two of them, side by side
 found = findings([box()], cloud={"box": [*FACE, (0.3, 0, 0.1), (0.3, 0, 0.1001)]})
-
-# %% inertia: 1 kg m^2 copied from a template
-crate = Body("crate", joint("prismatic", "1 0 0", inertia=1.0))
-found = findings([crate], [])
 
 # %% inertia: 1e-9, so that the solver has something
 crate = Body("crate", joint("revolute", "0 0 1", inertia=1e-9))
@@ -297,10 +261,6 @@ found = findings(
 
 # %% unit of mu_omega: 3 was meant as 3 mm
 found = findings([box()], mu_omega=3.0)
-
-# %% force beyond a limit: a spring presses with 5 N, and its motor has 2 N
-press = Body("press", weak, actuated="all", xyz=(0, 0, 0.15))
-found = findings([box(), press], [*STANDS, ("box", "press", 0.5, 4)], target=[-0.01])
 
 # %% force beyond a limit: a palm of 2 N bears 9.81 N, whatever its K_q is
 palm = Body("palm", weak, actuated="all", xyz=(0, 0, -0.05))
@@ -343,14 +303,8 @@ found = findings([box()], lies(k=1), cloud={"box": FACE}, push={"box": (0, 0, -2
 # %% sunk contact: a rod on one point of its side
 rod = Body.of_shape("rod", Cylinder(0.01, 0.1), 0.2, xyz=(0, 0, 0.01), rpy=(0, np.pi / 2, 0))
 found = findings([rod], lies("rod", k=1), push={"rod": (0, 0.05, 0)}, steps=20)
-
-# %% not in equilibrium: a push of 500 N on 0.1 kg
-found = findings([box(mass=0.1)], push={"box": (500, 0, 0)}, steps=2)
-
-# %% free fall: a disk between fingers that do not hold it
-disk = Body.of_shape("disk", Cylinder(0.05, 0.01), 0.2, xyz=(0, 0, 0.3))
-finger = motor("finger", size=TIP, xyz=(-0.1, 0, 0.3))
-found = findings([disk, finger], [("finger", "disk", 0.5, 1)])
+remedy = "take a smaller h or move slower, or raise k of contacts.floor_rod"
+assert remedy in [x.remedy for x in found]
 
 # %% free fall: a floor whose normal points down
 found = findings(
@@ -370,31 +324,6 @@ found = findings(
 # %% free fall: a ball past the end of its table
 table = ("table", Box(size=(0.4, 0.4, 0.04)), (0, 0, -0.02))
 found = findings([ball(0.02, xyz=(0.23, 0, 0.02))], [("table", "ball", 0.5, 1)], [table])
-
-# %% corners of the cone: a box pulled at 45 degrees by less than its friction along d1
-found = findings([box()], push={"box": (3, 3, 0)}, steps=2)
-
-# %% boundary layer: a finger that presses on a belt
-belt, press = motor("belt"), motor("press", "0 0 -1", xyz=(0, 0, 0.1))
-found = findings(
-    [belt, press],
-    [("belt", "press", 0.5, 4)],
-    target=[[5e-3 * k, 0.01] for k in range(1, 6)],
-    steps=5,
-)
-
-# %% drag: a pusher that moves at 0.1 m/s
-finger = motor("finger", xyz=(-0.1, 0, 0.06))
-found = findings(
-    [box(), finger],
-    [*STANDS, ("finger", "box", 0.0, 4)],
-    target=[[1e-3 * k] for k in range(1, 11)],
-    steps=10,
-    K_q=1e5,
-)
-
-# %% not in equilibrium: a box on ice
-found = findings([box()], lies(mu_v=0.0), push={"box": (3, 0, 0)}, steps=10)
 
 # %% failing backend: twelve digits of OSQP, which gives nine
 found = findings([box()], push={"box": (3, 0, 0)}, backend="osqp", accuracy=1e-24)

@@ -1,22 +1,7 @@
 """Short runs with no grave finding: cells, built with the words of finding_scenes.py."""
 
-# %% nothing: a box on a floor
-found = findings([box()])
-
-# %% nothing: a flat box
-found = findings([box(size=(0.2, 0.1, 0.01))])
-
 # %% nothing: a box that starts 0.2 mm above the floor
 found = findings([box(xyz=(0, 0, 0.0502))])
-
-# %% nothing: a box that slides slowly
-found = findings([box()], push={"box": (5.1, 0, 0)}, steps=10)
-
-# %% nothing: two boxes on each other
-found = findings([box(), box(name="top", xyz=(0, 0, 0.15))], [*STANDS, ("box", "top", 0.5, 4)])
-
-# %% nothing: a ball that rolls
-found = findings([ball()], BALL_STANDS, push={"ball": (0.02, 0, 0)}, steps=20)
 
 # %% nothing: a capsule
 pill = Body.of_shape("pill", Capsule(0.02, 0.05), 0.2, xyz=(0, 0, 0.02), rpy=(0, np.pi / 2, 0))
@@ -24,20 +9,6 @@ found = findings([pill], lies("pill", k=2))
 
 # %% nothing: a tin on its end
 found = findings([TIN], lies("tin"))
-
-# %% nothing: a box of foam and one of lead
-found = findings(
-    [box(mass=0.03), box(mass=11.3, name="lead", xyz=(0.5, 0, 0.05))],
-    [*STANDS, ("floor", "lead", 0.5, 4)],
-)
-
-# %% nothing: a box on a slope within its friction
-a = 0.3
-found = findings(
-    [box(xyz=(0.05 * np.sin(a), 0, 0.05 * np.cos(a)), rpy=(0, a, 0))],
-    [("slope", "box", 0.5, 4)],
-    [("slope", HalfSpace((np.sin(a), 0, np.cos(a)), 0.0), (0, 0, 0))],
-)
 
 # %% nothing: a box in a corner
 found = findings(
@@ -61,14 +32,6 @@ found = findings([box(base="planar")], lies(mu_v=0.0), push={"box": (1, 0, 0)})
 # %% nothing: a drawer that a finger pushes
 finger = motor("finger", size=TIP, xyz=(-0.06, 0, 0))
 found = findings([DRAWER, finger], [("finger", "drawer", 0.3, 1)], target=[0.001])
-
-# %% nothing: a box held by two soft fingertips
-found = findings(
-    [box(xyz=(0, 0, 1)), *fingers(0.06, 1, TIP)],
-    [("left", "box", 0.5, 1), ("right", "box", 0.5, 1)],
-    target=[0.05, 0.05],
-    mu_omega=0.01,
-)
 
 # %% nothing: a box of a hundred points, all of which are kept
 found = findings([box()], lies(k=100), cloud={"box": FACE})

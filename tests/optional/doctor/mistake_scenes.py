@@ -3,7 +3,7 @@
 Three scenes that do what they should (a gripper lifts a can that is known as a cloud, a pusher
 moves a box over a table, a hand turns a knob) are in ``mistakes/``, with sixty mistakes, one at a
 time. ``finding`` and ``words`` say what the first finding has to be, and which words its sentence
-has to hold. ``healthy.toml`` has thirty scenes without a mistake, made from the same three.
+has to hold. ``healthy.toml`` has thirty scenes without a mistake, made from the same three, and five near misses.
 """
 
 import re
@@ -33,9 +33,9 @@ def mistakes():
     return tomllib.loads((HERE / "mistakes.toml").read_text("utf-8"))["mistake"]
 
 
-def healthy_scenes():
-    """The thirty scenes without a mistake."""
-    return tomllib.loads((HERE / "healthy.toml").read_text("utf-8"))["healthy"]
+def healthy_scenes(kind):
+    """The thirty scenes without a mistake, or those that nearly have one."""
+    return tomllib.loads((HERE / "healthy.toml").read_text("utf-8"))[kind]
 
 
 def scenes_written(folder):

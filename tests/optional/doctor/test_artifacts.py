@@ -1,47 +1,25 @@
 """Pi and the boundary layer of a run: the formulas, and the header."""
 
-import numpy as np
 import pytest
 
-from quasistatic_ref import load_trajectory
-from quasistatic_ref.optional.doctor.artifacts import quasi_dynamic_number
+from quasistatic_ref import Sphere, load_trajectory
 from quasistatic_ref.optional.doctor.time_step import SLOW
 from tests.closeness import assert_relative
-from tests.helpers import changed, point_on_floor
-from tests.scenes import chain_scene
-from tests.tolerances import ROUNDING
+from tests.optional.doctor.drawn_scenes import STIFF, G, plate
+from tests.optional.doctor.words import block, free, scene, solid
 
-G = 9.81
 H = 0.01
 
 
-@pytest.fixture(scope="module")
-def system(tmp_path_factory):
-    """Un-actuated floating base: the box only; the arm's base is actuated."""
-    return chain_scene(tmp_path_factory.mktemp("scene"))
-
-
-def test_pi_is_the_speed_of_the_free_base_over_mu_g_h(system):
-    (box,) = (j for j in system.joints if j.free and not j.actuated)
-    step = point_on_floor(mu_v=0.5, h=H)
-    delta_q = np.zeros(system.n_v)
-    delta_q[box.v] = [3e-4, 0, 4e-4, 7.0, 8.0, 9.0]  # 0.05 m/s; turning does not count
-    Pi = quasi_dynamic_number(system, step, delta_q[None], G)
-    assert_relative(Pi, 0.05 / (0.5 * G * H), ROUNDING)
-    moved_arm = np.ones(system.n_v)
-    moved_arm[box.v] = 0.0
-    assert quasi_dynamic_number(system, step, np.array([delta_q, moved_arm]), G).tolist() == [
-        *Pi,
-        0.0,
-    ]
-
-
-def test_pi_takes_the_least_friction_that_is_not_zero_and_needs_some(system):
-    step = point_on_floor(mu_v=0.5, h=H)
-    delta_q = np.full((1, system.n_v), 1e-3)
-    assert np.isnan(quasi_dynamic_number(system, step, delta_q, 0.0)).all()
-    smooth = step.replace(contacts=changed(step.contacts, mu_v=[0.0]))
-    assert np.isnan(quasi_dynamic_number(system, smooth, delta_q, G)).all()
+@pytest.mark.parametrize(("mu_v", "g"), [(0.5, G), (0.0, G), (0.5, 0.0)])
+def test_pi_is_the_speed_of_the_free_body_over_mu_g_h_and_needs_friction_and_weight(mu_v, g):
+    """A tray takes it along at 10 mm/s; a ball with more friction stands on it."""
+    bodies = {"tray": plate(STIFF, (0.01, 0)), "b": free(block(1.0, (0.1,) * 3), (0, 0, 0.05))}
+    bodies["ball"] = free(solid(0.1, Sphere(0.05)), (0, 0.3, 0.05))
+    contacts = {"b": ("tray/tip", "b", mu_v, 4), "ball": ("tray/tip", "ball", 2 * mu_v, 1)}
+    run = scene(bodies, contacts, 20, H, gravity=[0, 0, -g]).run(progress=False)
+    Pi = run.header.quasi_dynamic_number
+    assert Pi == (pytest.approx(0.01 / (mu_v * g * H), rel=1e-3) if mu_v * g else None)
 
 
 def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, cli):

@@ -2,8 +2,6 @@
 
 import pytest
 
-from quasistatic_ref.optional.doctor.equilibrium import at_rest, unsqueezed
-from quasistatic_ref.optional.doctor.start import Start
 from tests.optional.doctor.words import TIP, block, free, of_shapes, scene
 
 MU_V = 0.25
@@ -14,41 +12,24 @@ CLAMP = [(-0.03, 1.0), (0.03, 0.0)]
 SLEEVE = [*CLAMP, (0.03, 1.0), (-0.03, 0.0)]
 
 
-def scenario(reach, offset, balls=CLAMP, steps=3, mu_v=MU_V):
+def scenario(reach, offset, balls=CLAMP, steps=3, mu_v=MU_V, cone="pyramid"):
     """Balls on both sides of a post, up to `offset` apart in height [m], a load `reach` out."""
     shapes = [(TIP, x, 0, z * offset, 0) for x, z in balls]
     shapes.append(('<box size="0.1 0.05 0.02"/>', reach, 0, 0, 0))
     clamp = free(of_shapes(shapes, 1, 0.01, (reach, 0, 0)), (0, 0, 0.4))
     post = {"post": {"box": {"size": [0.04 - 2 * CLEARANCE, 1, 2]}}}
     contacts = {f"on{i}": ("post", f"c/s{i}", mu_v, 1) for i in range(len(balls))}
-    return scene({"c": clamp}, contacts, steps, shapes=post)
+    return scene({"c": clamp}, contacts, steps, shapes=post, cone=cone)
 
 
+@pytest.mark.parametrize("cone", ["pyramid", "ellipsoid"])
 @pytest.mark.parametrize("balls", [CLAMP, SLEEVE])
 @pytest.mark.parametrize(("reach", "offset"), [(0.25, 0.1), (0.4, 0.15)])
-def test_what_its_lever_arms_hold_has_no_finding(reach, offset, balls):
+def test_what_its_lever_arms_hold_has_no_finding(reach, offset, balls, cone):
     """It holds where 2 mu_v reach >= offset, a sleeve with clearance 0 as a clamp does."""
-    run = scenario(reach, offset, balls).run(progress=False)
+    run = scenario(reach, offset, balls, cone=cone).run(progress=False)
     assert [str(one) for one in run.findings] == []
     assert abs(run["q"][-1] - run["q"][0]).max() < 1e-6
-
-
-@pytest.mark.parametrize("balls", [CLAMP, SLEEVE])
-@pytest.mark.parametrize(("reach", "offset"), [(0.25, 0.1), (0.1, 0.1), (0.3, 0.2)])
-def test_friction_bears_what_lever_arms_press(reach, offset, balls):
-    """N offset = W reach on both sides, so that friction could bear 2 mu_v N: 12.3 N for 9.81 N.
-
-    It need not be equal on both sides, 20 mm from the middle: N is as uncertain.
-    """
-    clamp = scenario(reach, offset, balls)
-    start = Start(clamp.simulator(), clamp.system.q_start)
-    contacts = start.contacts_at_start
-    step = at_rest(start, start.q_start, contacts)
-    normal = unsqueezed(step, start.touching(contacts))
-    by_hand = 2 * MU_V * WEIGHT * reach / offset
-    if balls == CLAMP and by_hand < WEIGHT:
-        by_hand = 0.0  # it falls, and turns away from the post
-    assert abs(MU_V * normal.sum() - by_hand) <= 2 * MU_V * (by_hand > 0) * WEIGHT * 0.02 / offset
 
 
 @pytest.mark.parametrize(("reach", "offset"), [(0.1, 0.1), (0.3, 0.2)])

@@ -108,21 +108,6 @@ def test_what_is_out_of_balance_in_one_step_is_compared_in_the_others():
     }
 
 
-def loaded(urdf, z, force=(0, 0, 0), mu_v=0.5, steps=1, **more):
-    box = {"box": free(urdf, (0, 0, z), force)}
-    return run_of(box, {"floor": ("floor", "box", mu_v, 4)}, steps, **more)
-
-
-BOX = block(1.0, (0.1, 0.1, 0.1))
-
-
-def test_a_slide_in_the_ellipsoid_is_judged_in_it():
-    """6 N towards 45 degrees, of which friction takes 0.5 m g in every direction of the circle."""
-    run = loaded(BOX, 0.05, (6 / np.sqrt(2), 6 / np.sqrt(2), 0), cone="ellipsoid", steps=20)
-    (finding,) = run.findings
-    np.testing.assert_allclose(finding.numbers["missing_N"], 6 - 0.5 * 9.81, rtol=0.01)
-
-
 def pile(mu_v, cone):
     """A ball on three balls that touch each other; by hand it stands from mu_v = 0.318 on."""
     r = 0.05

@@ -8,8 +8,10 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref import load_scenario, load_trajectory
+from quasistatic_ref.formats.npz import json_array
 from quasistatic_ref.optional.doctor import looks, start
 from quasistatic_ref.simulate.finding import finding_table
+from quasistatic_ref.simulate.header import header_table
 from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, urdf_of_text
 
@@ -180,6 +182,14 @@ def test_findings_are_silenced_by_their_own_argument_alone(capsys, progress):
     run = qr.rollout(simulator, system.q_start, [], 1, progress=progress, findings=False)
     assert run.findings
     assert "ball" not in capsys.readouterr().err
+
+
+def test_a_file_from_before_there_were_findings_has_none(tmp_path):
+    run = load_scenario("block_push", steps=1).run(progress=False)
+    header = header_table(run.header) | {"warnings": ["a sentence"]}
+    del header["findings"]
+    np.savez(tmp_path / "old.npz", header=json_array(header), **run.arrays)
+    assert load_trajectory(tmp_path / "old.npz").findings == ()
 
 
 def test_an_error_in_the_findings_costs_the_findings_and_not_the_run(monkeypatch):

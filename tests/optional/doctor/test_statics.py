@@ -3,165 +3,60 @@
 import numpy as np
 import pytest
 
-import quasistatic_ref as qr
+from quasistatic_ref import Sphere
+from tests.optional.doctor.drawn_scenes import BOTH, Draw, G, finger, gripped, plate
+from tests.optional.doctor.words import block, driven, free, placed, scene, solid
 
-G = 9.81
-FLOOR = {"floor": qr.HalfSpace((0, 0, 1), 0.0)}
-
-
-def box(name, half, m, xyz, **more):
-    return qr.Body.of_shape(name, qr.Box(half), mass=m, xyz=xyz, **more)
-
-
-def cube(name="b", m=1.0, xyz=(0, 0, 0.05), **more):
-    return box(name, (0.05, 0.05, 0.05), m, xyz, **more)
+CUBE = block(1.0, (0.1, 0.1, 0.1))
+STANDING = free(CUBE, (0, 0, 0.05))
+APART = free(CUBE, (0, 1, 0.05))
 
 
-def driven(body, K, targets, K_r=1e4):
-    """A base on springs K [N/m] and K_r [N m/rad], whose targets are (t, place)."""
-    waypoints = [{"t": t, "base": {"xyz": list(p)}} for t, p in targets]
-    return {"urdf": body, "K_q": {"base": [*K, K_r, K_r, K_r]}, "targets": waypoints}
+def about(value, rel=1e-2, **more):
+    """A number by hand."""
+    return pytest.approx(value, rel=rel, **more)
 
 
-def finger(name, xyz, K, targets, K_r=100.0):
-    tip = qr.Body.of_shape(name, qr.Sphere(0.01), mass=0.1, xyz=xyz, actuated=["base"])
-    return driven(tip, K, targets, K_r)
+def grip(N, steps, *way, K=1e3, loads=(), tables=(BOTH,)):
+    """1 kg between fingers that press with N each and go up by a way (t, z)."""
+    bodies = gripped(Draw(0), N, 0.1, *((t, z, 1.0) for t, z in way), K=K)
+    bodies["b"] = free(CUBE, (0, 0, 0))
+    bodies["b"]["wrenches"] += [{"t": t, "force": [0, 0, f]} for t, f in loads]
+    return bodies, {f"c{i}": (of, "b", 0.5, 1, 0.01) for i, of in enumerate(tables)}, steps, {}
 
 
-def plate(K, targets):
-    return driven(
-        box("p", (0.2, 0.2, 0.01), 0.1, (0, 0, -0.01), actuated=["base"]), [K] * 3, targets
-    )
-
-
-def pair(alpha, beta, mu_v, k=1, mu_omega=None):
-    more = {"rows": 4} if mu_omega is None else {"rows": 6, "mu_omega": mu_omega}
-    return {"alpha": alpha, "beta": beta, "mu_v": mu_v, "k": k, **more}
-
-
-def found(bodies, contacts, steps, h=0.01, **more):
-    scene = {"h": h, "steps": steps, "fast": True, "bodies": bodies, "contacts": contacts, **more}
-    run = qr.load_scenario(scene).run(progress=False)
-    return {
-        finding.name: finding.numbers
-        for finding in run.findings
-        if finding.name != "uncertain forces"
-    }
-
-
-def grip(N, steps, way, tables=(("l", "r"),), wrenches=(), h=0.01, K=1e3):
-    b = {
-        "urdf": cube(xyz=(0, 0, 1)),
-        "wrenches": [{"t": t, "force": [0, 0, f]} for t, f in wrenches],
-    }
-    bodies = {"b": b if wrenches else b["urdf"]}
-    for n, s in (("l", -1), ("r", 1)):
-        targets = [(t, (s * (0.06 - N / K), 0, z)) for t, z in way]
-        bodies[n] = finger(n, (s * 0.06, 0, 1), [K, 1e5, 1e5], targets)
-    contacts = {f"c{i}": pair(list(of), "b", 0.5, mu_omega=0.01) for i, of in enumerate(tables)}
-    return found(bodies, contacts, steps, h)
-
-
-@pytest.mark.parametrize("v", [0.1, 0.0])
-def test_what_a_grip_lacks_is_seen_behind_a_fast_lift(v):
+def lifted_fast(v):
     """2 x 25 N hold 25 N; 20 N are added to the weight in the last three steps."""
-    way = [(0, 1), (0.1, 1), (0.5, 1 + 0.4 * v)]
-    numbers = grip(25.0, 63, way, wrenches=((0, 0), (0.6, 0), (0.61, -20)))
-    lacks = numbers["not in equilibrium"]["missing_N"]
-    assert lacks == pytest.approx(G + 20 - 25, rel=1e-2)
+    return grip(25.0, 63, (0.1, 0), (0.5, 0.4 * v), loads=((0.6, 0), (0.61, -20)))
 
 
-@pytest.mark.parametrize("tables", [(("l", "r"),), (("l",), ("r",))])
-def test_a_grip_is_lost_whatever_its_tables(tables):
-    assert "lost grip" in grip(5.0, 60, [(0, 1), (0.1, 1), (0.6, 1.05)], tables)
+def lost(*tables):
+    """2 x 5 N hold 5 N of 9.81 N."""
+    return grip(5.0, 60, (0.1, 0), (0.6, 0.05), tables=tables)
 
 
-def test_friction_of_a_lift_is_that_of_the_weight_without_drag():
-    """2 x 20 N lift 1 kg at 50 mm/s: (m g + m v / h) / 2 = 7.4 N a finger for 4.9 N."""
-    numbers = grip(20.0, 60, [(0, 1), (0.1, 1), (0.6, 1.025)])["drag"]
-    assert numbers["friction_N"] == pytest.approx((G + 5) / 2, rel=1e-2)
-    assert numbers["without_drag_N"] == pytest.approx(G / 2, rel=1e-3)
-
-
-def test_drag_of_a_tray_is_that_of_all_that_it_carries():
+def carried():
     """1 kg and on it 0.5 kg at 60 mm/s, h = 20 ms: 1.5 kg 60 mm/s / 20 ms = 4.5 N."""
-    bodies = {
-        "p": plate(1e5, [(0, (0, 0, -0.01)), (1, (0.06, 0, -0.01))]),
-        "a": cube("a"),
-        "b": cube("b", 0.5, (0, 0, 0.15)),
-    }
-    contacts = {"t": pair("p", "a", 0.5, 4), "u": pair("a", "b", 0.5, 4)}
-    numbers = found(bodies, contacts, 10, 0.02)["drag"]
-    assert numbers["friction_N"] == pytest.approx(4.5, rel=1e-2)
-    assert numbers["without_drag_N"] < 0.01
+    upper = free(block(0.5, (0.1, 0.1, 0.1)), (0, 0, 0.15))
+    contacts = {"t": ("p/tip", "a", 0.5, 4), "u": ("a", "b", 0.5, 4)}
+    return {"p": plate(1e5, (0.06, 0)), "a": STANDING, "b": upper}, contacts, 10, {"h": 0.02}
 
 
-def bar(N, m, d, mu_v, mu_omega, steps, h, way, force=(0, 0, 0), K=1e3, cone="pyramid"):
-    """A bar that two fingers hold d [m] beside its centre, with N each."""
-    urdf = box("b", (0.15, 0.01, 0.01), m, (d, 0, 1))
-    bodies = {"b": {"urdf": urdf, "wrenches": [{"t": 0, "force": list(force)}]}}
-    for n, s in (("l", -1), ("r", 1)):
-        targets = [(t, (0, s * (0.02 - N / K), z)) for t, z in way]
-        bodies[n] = finger(n, (0, s * 0.02, 1), [1e5, K, 1e5], targets, 1e4)
-    contacts = {"c": pair(["l", "r"], "b", mu_v, mu_omega=mu_omega)}
-    return found(bodies, contacts, steps, h, cone=cone)
+def wiper(up):
+    """N = K (e + mu_v h v) = 10 N for 5 N in 30 steps; then it goes up."""
+    e = -0.25e-3
+    way = ((0, 0, e), (0.3, 0.015, e), (0.31, 0.0155, up), (0.32, 0.016, 0.0005))
+    targets = [{"t": t, "x": x, "z": z} for t, x, z in way]
+    bodies = {"f": finger((0, 0, 0.01), {"z": 2e4}, targets), "b": APART}
+    return bodies, {"w": ("floor", "f/tip", 0.5, 1), "g": ("floor", "b", 0.5, 4)}, 32, {}
 
 
-@pytest.mark.parametrize("h", [0.02, 0.005])
-def test_what_drag_turns_is_named(h):
-    """It needs m (g + v/h) (1/mu_v + d/mu_omega) / 2 <= N: h >= 29 ms; at rest 3.92 < 4.2 N."""
-    names = bar(4.2, 0.2, 0.04, 0.5, 0.02, round(1.2 / h), h, [(0, 1), (1, 1.02)])
-    assert {"drag", "not in equilibrium"} & names.keys() == {"drag"}
-
-
-@pytest.mark.parametrize("fx", [0.0, 0.05, 0.2])
-def test_a_bar_that_turns_in_its_grip_lacks_what_its_first_acceleration_says(fx):
-    """Slip and spin go along a face of the pyramid, and nothing bears fx."""
-    m, d, mu, w, N = 0.44, 0.04, 0.4, 0.01, 8.0
-    inertia, c, W = m / 3 * (0.15**2 + 0.01**2), d + w / mu, m * G + 0.7
-    turns = (W * c - 2 * w * N) / (inertia + m * c * c)
-    numbers = bar(N, m, d, mu, w, 1, 0.01, [(0, 1)], (fx, 0, -0.7))["not in equilibrium"]
-    assert numbers["missing_Nm"] == pytest.approx(inertia * turns, rel=1e-2)
-    assert numbers["missing_N"] == pytest.approx(np.hypot(m * c * turns, fx), rel=1e-2)
-
-
-def wiper(way, steps, K=2e4):
-    bodies = {"f": finger("f", (0, 0, 0.01), [1e5, 1e5, K], way), "b": cube(xyz=(0, 1, 0.05))}
-    contacts = {"w": pair("floor", "f", 0.5), "g": pair("floor", "b", 0.5, 4)}
-    return found(bodies, contacts, steps, shapes=FLOOR)
-
-
-@pytest.mark.parametrize("up", [0.0105, 0.01023])
-def test_a_layer_is_seen_though_it_lifts_off_obliquely(up):
-    """N = K (e + mu_v h v) = 10 N for 5 N in 30 steps."""
-    z = 0.01 - 0.25e-3
-    way = [
-        (0, (0, 0, z)),
-        (0.3, (0.015, 0, z)),
-        (0.31, (0.0155, 0, up)),
-        (0.32, (0.016, 0, 0.0105)),
-    ]
-    numbers = wiper(way, 32)["boundary layer"]
-    assert numbers["normal_N"] == pytest.approx(10.0, rel=1e-2)
-    assert numbers["coulomb_N"] == pytest.approx(5.0, rel=1e-2)
-
-
-def test_what_spins_without_sliding_rises_by_its_torsion():
+def spun():
     """N = K (e + mu_omega h omega) = 8 N for 5 N."""
-    tip = qr.Body.of_shape("w", qr.Sphere(0.01), mass=0.1, xyz=(0, 0, 0.01), actuated=["base"])
     way = [{"t": t, "base": {"xyz": [0, 0, 0.005], "rpy": [0, 0, 3 * t]}} for t in (0.0, 1.0)]
-    w = {"urdf": tip, "K_q": {"base": [1e5, 1e5, 1e3, 1e3, 1e3, 1e3]}, "targets": way}
-    scene = {"h": 0.05, "steps": 15, "fast": True, "bodies": {"w": w}, "shapes": FLOOR}
-    contacts = {"s": pair("floor", "w", 0.0, mu_omega=0.02)}
-    (finding,) = qr.load_scenario(scene | {"contacts": contacts}).run(progress=False).findings
-    assert finding.numbers["normal_N"] == pytest.approx(8.0, rel=1e-2)
-    assert "what spins rises by mu_omega h omega, against" in finding.cause
-
-
-def test_a_layer_that_follows_from_drag_is_named_after_drag():
-    """2 x 12 N, mu_v 0.5, 50 mm/s: drag makes it slip, and what slips rises; slowly it sticks."""
-    names = grip(12.0, 30, [(0, 1), (0.05, 1), (1.05, 1.05)], K=1e6)
-    assert {"drag", "boundary layer"} & names.keys() == {"drag"}
+    K_q = {"base": [1e5, 1e5, 1e3, 1e3, 1e3, 1e3]}
+    tip = driven(solid(0.1, Sphere(0.01)), (0, 0, 0.01), K_q, way) | {"base": "floating"}
+    return {"w": tip}, {"s": ("floor", "w", 0.0, 1, 0.02)}, 15, {"h": 0.05}
 
 
 HINGED = """<robot name="d"><link name="w"/><link name="base"><inertial><mass value="10"/>
@@ -176,48 +71,91 @@ ixy="0" ixz="0" iyz="0"/></inertial>
 velocity="1"/></joint></robot>"""
 
 
-def test_a_lid_on_a_hinge_lacks_a_torque():
-    body = qr.Body("d", HINGED, actuated=["s"], xyz=(0, 0, 0.5))
-    bodies = {"d": {"urdf": body, "K_q": {"s": 1e4}, "targets": [{"t": 0, "s": 0.0}]}}
-    numbers = found(bodies, {"g": pair("floor", "d/lid", 0.5, 4)}, 1, shapes=FLOOR)
-    lacks = numbers["not in equilibrium"]
-    assert lacks["missing_Nm"] == pytest.approx(0.1 * G * 0.1, rel=1e-6)
-    assert lacks["missing_N"] == 0.0
+def hinged():
+    """A lid of 0.1 kg, whose middle is 0.1 m from its hinge."""
+    body = driven(HINGED, (0, 0, 0.5), {"s": 1e4}, [{"t": 0, "s": 0.0}])
+    return {"d": body}, {"g": ("floor", "d/lid", 0.5, 4)}, 1, {}
 
 
-def test_a_planar_body_lacks_a_force():
+def planar():
     """6 N on a support that bears mu_v m g = 3.924 N."""
-    b = {
-        "urdf": cube(base="planar"),
-        "support": {"mu_v": 0.4},
-        "wrenches": [{"t": 0, "force": [6, 0, 0]}],
-    }
-    bodies = {"b": b, "x": cube("x", xyz=(1, 0, 0.05))}
-    numbers = found(bodies, {"f": pair("floor", "x", 0.5, 4)}, 3, shapes=FLOOR)
-    assert numbers["not in equilibrium"]["missing_N"] == pytest.approx(6 - 0.4 * G, rel=1e-3)
+    load = [{"t": 0, "force": [6, 0, 0]}]
+    body = placed(CUBE, (0, 0, 0.05), base="planar", support={"mu_v": 0.4}, wrenches=load)
+    return {"b": body, "x": APART}, {"f": ("floor", "x", 0.5, 4)}, 3, {}
 
 
-def test_what_falls_through_fingers_is_not_borne_where_it_is():
+def falls_through():
     """No friction: the most that springs of 100 N/m bear on their way is 0.4 N."""
-    c, s = np.cos(np.pi / 6), 0.5
-    bodies = {"b": qr.Body.of_shape("b", qr.Sphere(0.05), mass=1.0, xyz=(0, 0, 1))}
-    for n, side in (("l", -1), ("r", 1)):
-        p = (side * 0.06 * c, 0, 1 - 0.06 * s)
-        bodies[n] = finger(n, p, [100.0, 1e5, 1e5], [(0, p)])
-    names = found(bodies, {"c": pair(["l", "r"], "b", 0.0)}, 12)
-    assert 9.4 < names["not in equilibrium"]["missing_N"] < G
+    bodies = {"b": free(solid(1.0, Sphere(0.05)), (0, 0, 0))}
+    for name, side in (("left_x", -1), ("right_x", 1)):
+        at = (side * 0.06 * np.cos(np.pi / 6), 0, -0.03)
+        bodies[name] = finger(at, {"x": 100.0}, [{"t": 0.0, "x": 0.0}])
+    return bodies, {"c": (BOTH, "b", 0.0, 1)}, 12, {}
 
 
-def test_a_box_that_fingers_stroke_is_not_lost():
-    bodies = {"b": box("b", (0.2, 0.05, 0.05), 1.0, (0, 0, 0.05))}
-    for n, s in (("l", -1), ("r", 1)):
-        way = [(0, (-0.1, s * 0.058, 0.05)), (1, (-0.08, s * 0.058, 0.05))]
-        bodies[n] = finger(n, (-0.1, s * 0.06, 0.05), [1e5, 1e3, 1e5], way)
-    contacts = {"c": pair(["l", "r"], "b", 0.5, mu_omega=0.005), "g": pair("floor", "b", 0.5, 4)}
-    assert found(bodies, contacts, 100, shapes=FLOOR) == {}
+def stroked():
+    """Fingers press with 2 N on a box of 1 kg on a floor, and go along it."""
+    bodies = {"b": free(block(1.0, (0.4, 0.1, 0.1)), (0, 0, 0.05))}
+    for name, side in (("left_x", -1), ("right_x", 1)):
+        way = [{"t": t, "x": 0.02 * t, "y": -0.002 * side} for t in (0.0, 1.0)]
+        bodies[name] = finger((-0.1, 0.06 * side, 0.05), {"x": 1e5, "y": 1e3}, way)
+    return bodies, {"c": (BOTH, "b", 0.5, 1, 0.005), "g": ("floor", "b", 0.5, 4)}, 100, {}
 
 
-def test_a_soft_palm_bears_a_box_that_still_sinks():
-    """Its spring of 5 N/m gives way by 1.96 m: in step 2 it has no thousandth of the weight."""
-    bodies = {"p": plate(5.0, [(0, (0, 0, -0.01))]), "b": cube()}
-    assert found(bodies, {"c": pair("p", "b", 0.5, 4)}, 3) == {}
+def sinks():
+    """The spring of 5 N/m gives way by 1.96 m: in step 2 it has no thousandth of the weight."""
+    return {"p": plate(5.0), "b": STANDING}, {"c": ("p/tip", "b", 0.5, 4)}, 3, {}
+
+
+def slides():
+    """6 N towards 45 degrees, of which friction takes 0.5 m g in all directions of the circle."""
+    push = (6 / np.sqrt(2), 6 / np.sqrt(2), 0)
+    box = free(CUBE, (0, 0, 0.05), push)
+    return {"b": box}, {"c": ("floor", "b", 0.5, 4)}, 20, {"cone": "ellipsoid"}
+
+
+def lacks(force, rel=1e-2, **more):
+    """The force that is missing [N]."""
+    return {"not in equilibrium": {"missing_N": about(force, rel, **more)}}
+
+
+LAYER = {"boundary layer": {"normal_N": about(10.0), "coulomb_N": about(5.0)}}
+TORQUE = {"missing_Nm": about(0.1 * G * 0.1, 1e-6), "missing_N": 0.0}
+DRAG = {"friction_N": about((G + 5) / 2), "without_drag_N": about(G / 2, 1e-3)}
+OF_A_TRAY = {"friction_N": about(4.5), "without_drag_N": about(0, abs=0.01)}
+NO_LAYER = {"drag": {}, "boundary layer": None}
+CASES = {
+    "what a grip lacks behind a fast lift": (lifted_fast(0.1), lacks(G + 20 - 25)),
+    "what a grip lacks behind no lift": (lifted_fast(0.0), lacks(G + 20 - 25)),
+    "a grip that is one table": (lost(BOTH), {"lost grip": {}}),
+    "a grip of two tables": (lost(*BOTH), {"lost grip": {}}),
+    "a lift at 50 mm/s": (grip(20.0, 60, (0.1, 0), (0.6, 0.025)), {"drag": DRAG}),
+    "a tray, and all that it carries": (carried(), {"drag": OF_A_TRAY}),
+    "a layer that ends upwards": (wiper(0.0005), LAYER),
+    "a layer that ends obliquely": (wiper(0.00023), LAYER),
+    "a layer of what spins": (
+        spun(),
+        {"boundary layer": {"normal_N": about(8.0), "coulomb_N": about(5.0)}},
+    ),
+    # 2 x 12 N at 50 mm/s: drag makes it slip, and what slips rises; slowly it sticks
+    "a layer that follows from drag": (grip(12.0, 30, (0.05, 0), (1.05, 0.05), K=1e6), NO_LAYER),
+    "a lid on a hinge": (hinged(), {"not in equilibrium": TORQUE}),
+    "a planar body": (planar(), lacks(6 - 0.4 * G, 1e-3)),
+    "what falls through fingers": (falls_through(), lacks(G - 0.2, 0.0, abs=0.2)),
+    "a box that fingers stroke": (stroked(), {}),
+    "a box that sinks with its palm": (sinks(), {}),
+    "a slide in the ellipsoid": (slides(), lacks(6 - 0.5 * G) | {"corners of the cone": None}),
+}
+
+
+@pytest.mark.parametrize(("case", "hand"), CASES.values(), ids=CASES)
+def test_what_is_said_has_the_numbers_by_hand(case, hand):
+    """Of a finding None: it is not said. Without numbers nothing is."""
+    *parts, more = case
+    run = scene(*parts, fast=True, **more).run(progress=False)
+    said = {found.name: found.numbers for found in run.findings}
+    said.pop("uncertain forces", None)
+    assert hand or said == {}
+    for name, numbers in hand.items():
+        assert (name in said) is (numbers is not None)
+        assert {key: said[name][key] for key in numbers or ()} == (numbers or {})

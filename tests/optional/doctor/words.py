@@ -14,7 +14,7 @@ def scene(bodies, contacts, steps, h=0.01, shapes=None, fast=False, **more):
     tables = {}
     for name, (alpha, beta, mu_v, k, *mu_omega) in contacts.items():
         tables[name] = {"alpha": alpha, "beta": beta, "mu_v": mu_v, "k": k, "rows": 4}
-        if mu_omega:
+        if any(mu_omega):
             tables[name] |= {"mu_omega": mu_omega[0], "rows": 6}
     shapes = {"floor": FLOOR} | (shapes or {})
     scene = {"h": h, "steps": steps, "bodies": bodies, "shapes": shapes, "contacts": tables}
