@@ -64,6 +64,18 @@ class Solution:
         """Numerators of x."""
         return self.z.entries()[:-1]
 
+    @cached_property
+    def floats(self) -> tuple[Array, Array]:
+        """Midpoints and radii of the numerators of x, each shape (n,)."""
+        x = self.x
+        return np.array([float(v) for v in x]), np.array([float(v.rad()) for v in x])
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether a radius of x is larger than what float64 tells apart of its largest number."""
+        x, radius = self.floats
+        return not radius.max(initial=0.0) <= UNIT * np.abs(x).max(initial=0.0)
+
     def in_fractions(self, numerators: Iterable[arb]) -> list[fmpq]:
         """Some numbers of a solution in fractions."""
         denominator = fraction(self.denominator)
@@ -222,14 +234,32 @@ class Minimiser:
     @cached_property
     def near_sets(self) -> NearSets:
         """What finds multipliers on working sets near this one."""
-        return self._near or NearSets(self.form, self.working)
+        if self._near is not None and self._near_balls is not None:
+            return self._near
+        try:
+            return NearSets(self.form, self.working)
+        except ZeroDivisionError:
+            return NearSets(self.form, ())
+
+    @cached_property
+    def _near_balls(self) -> Solution | None:
+        """The solution from the system of a set near this one; None where radii hide it.
+
+        They grow with each row by which the sets differ, and more where rows nearly depend on each
+        other.
+        """
+        try:
+            balls = ball_solution(self.form, self.working, self._near) if self._near else None
+        except ZeroDivisionError:
+            return None
+        return None if balls is None or balls.is_wide else balls
 
     @cached_property
     def balls(self) -> Solution:
         """The solution in balls, by the system of multipliers, or from the fractions.
 
-        H^-1 has a radius, so that a finer system would not help where that is too wide to show that
-        the rows are independent.
+        H^-1 has a radius, so that a finer system would not help where that is too wide to show x,
+        or that the rows are independent.
 
         Raises
         ------
@@ -237,9 +267,12 @@ class Minimiser:
             If the rows are not independent.
         """
         try:
-            return ball_solution(self.form, self.working, self._near)
+            balls = self._near_balls or ball_solution(self.form, self.working)
+            if not balls.is_wide:
+                return balls
         except ZeroDivisionError:
-            exact = self.fractions
+            pass
+        exact = self.fractions
         with working_precision(PRECISION):
             share = 1 / exact.denominator
             y = [v * share for v in exact.y]
@@ -268,9 +301,7 @@ class Minimiser:
     @cached_property
     def float_slacks(self) -> tuple[Array, Array]:
         """All slacks in float64, and bounds of their errors, each shape (m,)."""
-        balls = self.balls.x
-        x = np.array([float(v) for v in balls])
-        off = np.array([float(v.rad()) for v in balls])
+        x, off = self.balls.floats
         # float(v) is off by UNIT |x|, or next to nothing; radii are rounded, which 4 makes good.
         with np.errstate(over="ignore", invalid="ignore"):
             return self.form.float_slacks(x, np.abs(x) + 4.0 * off / UNIT + TINY)
@@ -316,14 +347,15 @@ class Minimiser:
             except np.linalg.LinAlgError:
                 return some
             near = np.abs(halves @ A - rows[k:]).max(axis=1) <= NEAR * np.abs(A).max()
-        guess = np.hstack([halves, -np.eye(len(some))])[near]
-        if not len(guess):
+        guessed = list(compress(some, near.tolist()))
+        if not guessed:
             return some
-        every = columns(self.form.exact_rows([*self.working, *some]), slice(0, self.form.n + 1))
+        n = slice(0, self.form.n + 1)
+        of_W = columns(self.form.exact_rows(self.working), n)
         with working_precision(EXACT):
-            differences = (exact_matrix(guess) * every).tolist()
-        of_guess = compress(some, near.tolist())
-        proved = {*compress(of_guess, _vanish(differences))}
+            sums = exact_matrix(halves[near]) * of_W
+            differences = (sums - columns(self.form.exact_rows(guessed), n)).tolist()
+        proved = {*compress(guessed, _vanish(differences))}
         return [i for i in some if i not in proved]
 
     def implied(self, some: Sequence[int]) -> list[int]:
@@ -355,8 +387,9 @@ class Minimiser:
     def implied_rows(self) -> list[int]:
         """The open rows that W implies, in increasing order: their slacks are zero."""
         balls = self.slack_balls
-        maybe = [i for i, ball in balls.items() if ball.contains(0)]
-        return self._implied([i for i in self.open_rows if i in maybe or i not in balls], maybe)
+        other = {i for i, ball in balls.items() if not ball.contains(0)}
+        some = [i for i in self.open_rows if i not in other]
+        return self._implied(some, [i for i in some if i in balls])
 
     @cached_property
     def slack_signs(self) -> dict[int, int]:

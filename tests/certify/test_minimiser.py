@@ -1,6 +1,7 @@
 """The proof of a right guess: what float64 claims is true, and every sign and rounding is exact."""
 
 import itertools
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.numbers.precision import working_precision
 from tests.oracles.random_steps import any_step, mixed_step
 from tests.oracles.rational_kkt import proved_optimum
@@ -138,3 +140,27 @@ def test_row_that_differs_in_the_last_bit_is_not_implied():
         step.contacts.d2, J, step.contacts.mu_v, step.contacts.mu_omega, step.contacts.rows,
     )))  # fmt: skip
     assert Minimiser(form, (0,)).implied([6, 12]) == [12]
+
+
+def test_balls_that_hide_x_are_formed_again():
+    """Rows (1, 0) and (1, 2^-150): what the first one says of both loses 300 of 320 bits."""
+    A = np.array([[1.0, 0.0], [1.0, 2.0**-150]])
+    form = exact_form_of(np.eye(2), np.array([-1.0, 1.0]), A, np.array([1.0, 2.0]))
+    minimiser = Minimiser(form, (0,)).on((0, 1))
+    assert minimiser.near_sets.has_near((0, 1))
+    assert not minimiser.balls.is_wide
+    assert minimiser.fractions.point == [1, 2**150]
+
+
+def test_a_guess_of_sums_takes_memory_by_the_rows_that_come_near():
+    """Ten thousand violated rows once took a square of them, 22 gigabytes for a scanned fly."""
+    angle = np.linspace(0.1, 3.0, 10_000)
+    A = np.column_stack([np.cos(angle), np.sin(angle)])
+    form = exact_form_of(np.eye(2), np.zeros(2), A, np.ones(len(A)))
+    minimiser = Minimiser(form, (0,))
+    tracemalloc.start()
+    doubtful = minimiser.doubtful(range(1, len(A)))
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert len(doubtful) == len(A) - 1
+    assert peak < 1e8
