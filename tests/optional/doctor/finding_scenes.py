@@ -86,7 +86,6 @@ def lies(body="box", mu_v=0.5, k=4):
 
 
 STANDS = lies()
-BALL_STANDS = lies("ball", k=1)
 IN_SLOT = [*STANDS, ("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)]
 TIP = (0.02, 0.02, 0.02)
 """Of a finger [m]."""
