@@ -3,10 +3,12 @@
 The sign of a slack is taken from the first of these sources that shows it:
 
 1. float64 with a bound of its error shows most to be positive (``open_rows`` are the others);
-2. a slack is zero if W implies its row (``implied_rows``): by the geometry of its contact's cone,
-   whatever the numbers are, or by elimination in whole numbers;
-3. balls show the others that are clearly not zero, and fractions decide the rest
-   (``slack_signs``). A row that they show to be violated needs no other sign.
+2. a slack is zero if the geometry of its contact's cone says that W implies its row, whatever the
+   numbers are;
+3. balls show the others that are clearly not zero (``slack_balls``); a row that they show to be
+   violated needs no other sign;
+4. of the rest W implies some rows (``implied_rows``), by a guess that is proved or by elimination
+   in whole numbers, and fractions decide the others (``slack_signs``).
 """
 
 from __future__ import annotations
@@ -321,7 +323,9 @@ class Minimiser:
         violated = slack < -error
         violated[list(self.working)] = False
         rows = np.flatnonzero(violated)
-        least = (slack[rows] + error[rows]).min(initial=np.inf)
+        if not rows.size:
+            return []
+        least = (slack[rows] + error[rows]).min()
         return [int(i) for i in rows[slack[rows] - error[rows] <= least]]
 
     @cached_property
@@ -329,13 +333,16 @@ class Minimiser:
         """All [x; t] with A_W x + c_W t = 0: a basis, shape (n + 1, d)."""
         return null_space(self.form.integers(self.working), self.form.n + 1)
 
-    def doubtful(self, some: Sequence[int]) -> list[int]:
-        """Those of some rows that neither their contact's cone nor a guess shows to be implied.
+    def beyond_cones(self, some: Sequence[int]) -> list[int]:
+        """Those of some rows that their contact's cone does not show to be implied."""
+        by_cone = {*self.form.implied_by_cone(self.working, some)}
+        return [i for i in some if i not in by_cone]
+
+    def doubtful(self, some: list[int]) -> list[int]:
+        """Those of some rows that a guess does not show to be implied.
 
         The guess is that a row is the sum of rows of W, each some halves of times.
         """
-        by_cone = {*self.form.implied_by_cone(self.working, some)}
-        some = [i for i in some if i not in by_cone]
         k = len(self.working)
         if not (k and some):
             return some
@@ -360,10 +367,7 @@ class Minimiser:
 
     def implied(self, some: Sequence[int]) -> list[int]:
         """Those of some rows, in increasing order, that are combinations [a, c] of rows of W."""
-        return self._implied(some, self.doubtful(some))
-
-    def _implied(self, some: Sequence[int], doubtful: Sequence[int]) -> list[int]:
-        """The same, from those that are in doubt, which the null space decides."""
+        doubtful = self.doubtful(self.beyond_cones(some))
         values = []
         if doubtful:
             with working_precision(EXACT):
@@ -372,14 +376,9 @@ class Minimiser:
         return sorted({*some} - ({*doubtful} - combined))
 
     @cached_property
-    def doubtful_rows(self) -> list[int]:
-        """The open rows that are in doubt."""
-        return self.doubtful(self.open_rows)
-
-    @cached_property
     def slack_balls(self) -> dict[int, arb]:
-        """The slacks of these in balls."""
-        rows = self.doubtful_rows
+        """The slacks in balls of the open rows that no contact's cone shows to be implied."""
+        rows = self.beyond_cones(self.open_rows)
         with working_precision(PRECISION):
             return dict(zip(rows, self.form.slacks(rows, self.balls.z), strict=True))
 
@@ -387,9 +386,7 @@ class Minimiser:
     def implied_rows(self) -> list[int]:
         """The open rows that W implies, in increasing order: their slacks are zero."""
         balls = self.slack_balls
-        other = {i for i, ball in balls.items() if not ball.contains(0)}
-        some = [i for i in self.open_rows if i not in other]
-        return self._implied(some, [i for i in some if i in balls])
+        return self.implied([i for i in self.open_rows if i not in balls or balls[i].contains(0)])
 
     @cached_property
     def slack_signs(self) -> dict[int, int]:
