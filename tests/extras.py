@@ -72,3 +72,12 @@ def marked_as_long(scripts, short):
 
 SCENARIOS = marked_parameters(scenario_names(), {"allegro_turn": "robots", "panda_push": "robots"})
 """The scenarios that come along."""
+SLOW = "allegro_turn"
+"""A hand, each of whose steps takes a second."""
+SCENARIOS_TO_RUN = [
+    pytest.param(*each.values, marks=[*each.marks, pytest.mark.long])
+    if SLOW in each.values
+    else each
+    for each in (one if hasattr(one, "marks") else pytest.param(one) for one in SCENARIOS)
+]
+"""Scenarios that a test runs: the slow one is long."""

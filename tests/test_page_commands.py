@@ -30,7 +30,7 @@ PAGES = [
     "guides/write_a_scenario.md",
     "quickstart.md",
 ]
-LONG = "artifacts.md", "coulomb.md", "derivations.md", "guides/runs.md"
+LONG = "artifacts.md", "coulomb.md", "derivations.md", "guides/runs.md", "quickstart.md"
 """Pages whose commands take seconds."""
 READERS_OWN = "my_sim"
 STEP = re.compile(r"--step (\d+)")

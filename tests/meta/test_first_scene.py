@@ -13,6 +13,8 @@ from quasistatic_ref.cli.main import main
 from tests.pages import ROOT, SHELL, named_files
 from tests.tolerances import CLOSED_FORM
 
+pytestmark = pytest.mark.long  # 24 s; its commands are those of other pages
+
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):

@@ -125,7 +125,9 @@ study({"gaps": 1}, ["qpsolvers:daqp", sleeps], folder="store", limits=limits)
 """
 
 
-@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL])
+@pytest.mark.parametrize(
+    "end", [pytest.param(signal.SIGINT, marks=pytest.mark.long), signal.SIGKILL]
+)
 def test_a_solver_and_what_it_starts_end_with_the_process_of_the_study(end, tmp_path):
     child = tmp_path / "child"
     surroundings = os.environ | {"PYTHONPATH": ROOT, "CHILD": str(child)}

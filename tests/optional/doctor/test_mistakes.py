@@ -50,7 +50,9 @@ def test_a_scene_without_a_mistake_has_no_grave_finding_however_it_is_made(one, 
     assert [str(x) for x in findings if x.grave] == []
 
 
-@pytest.mark.parametrize("record", ["full", "light", "forces"])
+@pytest.mark.parametrize(
+    "record", ["full", "light", pytest.param("forces", marks=pytest.mark.long)]
+)
 def test_findings_do_not_depend_on_the_record(record, tmp_path):
     settings = [f"record={record}"]
     findings = findings_after(tmp_path, "grasp", WEAK_GRIP["edits"], settings)

@@ -12,7 +12,7 @@ from quasistatic_ref.formats.npz import json_array
 from quasistatic_ref.optional.doctor import looks, start
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.header import header_table
-from tests.extras import SCENARIOS
+from tests.extras import SCENARIOS_TO_RUN
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, urdf_of_text
 
 GUIDE = Path(__file__).parents[3] / "docs" / "findings.md"
@@ -128,7 +128,7 @@ ARTIFACTS = {
 its floor bears; one of two bars is held in the ellipsoid alone; a door is set in motion."""
 
 
-@pytest.mark.parametrize("name", SCENARIOS)
+@pytest.mark.parametrize("name", SCENARIOS_TO_RUN)
 def test_of_a_scenario_that_comes_along_nothing_grave_is_found(name):
     settings = ["solver.certify=off", "record=light", "steps=60"]
     run = load_scenario(name, settings, fast=True).run(progress=False)
