@@ -129,11 +129,13 @@ class StepProblem:
     def set_parameters(self, step: StepData) -> None:
         """Set every parameter from a step that is known to be of the problem's kind."""
         self.step = step
-        J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
+        with np.errstate(over="ignore", invalid="ignore"):  # what overflows has no answer
+            J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
+            tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
         values = {
             "K_q": step.K_q,
             "M_u": step.M_u,
-            "tau_k": step.K_q @ step.delta_q_bar_a,  # Eq. (1)
+            "tau_k": tau_k,
             "tau_a": step.tau_a,
             "tau_u": step.tau_u,
             "phi": step.contacts.phi,

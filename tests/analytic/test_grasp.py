@@ -151,6 +151,14 @@ def test_every_step_has_13_variables_and_80_rows_and_is_proved(runs, case):
     assert run.failed is None
 
 
+def test_13_is_a_bunny_and_a_gripper_with_a_floating_base_and_one_width(scenario):
+    twist = ("x", "y", "z", "rx", "ry", "rz")
+    expected = [f"gripper/base.{axis}" for axis in twist]
+    expected += ["gripper/width", *(f"bunny/base.{axis}" for axis in twist)]
+    assert [c.name for c in scenario.system.coordinates] == expected
+    assert (scenario.system.n_a, scenario.system.n_u) == (7, 6)
+
+
 def test_each_finger_lifts_the_bunny_by_one_point(runs):
     loaded = runs["with_torsion"]["wrench"][100:TOP, 5:, 2] > 0  # five contacts of each finger
     for finger in (loaded[:, :5], loaded[:, 5:]):
@@ -161,3 +169,12 @@ def test_the_committed_files_are_what_the_script_writes(build, tmp_path):
     build.main(out=tmp_path)
     for name in ("bunny_992.csv", "bunny.urdf"):
         assert (tmp_path / name).read_bytes() == (FOLDER / name).read_bytes()
+
+
+def test_each_point_of_the_sample_is_the_farthest_from_those_before(build, rng):
+    points = rng.normal(size=(60, 3))
+    chosen = build.farthest_point_sample(points, 20, 7).tolist()
+    assert chosen[0] == 7
+    for k in range(1, 20):
+        gaps = [min(sum((p - points[i]) ** 2) ** 0.5 for i in chosen[:k]) for p in points]
+        assert chosen[k] == gaps.index(max(gaps))

@@ -49,7 +49,8 @@ def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field):
         assert sentence.startswith(tuple(f"{tmp_path / 'step.json'}: {field}: " for field in known))
 
 
-def test_a_step_whose_products_leave_the_range_says_so(tmp_path, refused):
-    path = step_file(tmp_path, changed(STEP, ("tau_u/0", 7.4e157)))
+@pytest.mark.parametrize("change", [("contacts/0/J/2/0", 1e200), ("delta_q_bar_a/0", 1e308)])
+def test_a_step_whose_products_leave_the_range_says_so(change, tmp_path, refused):
+    path = step_file(tmp_path, changed(STEP, change))
     sentence = refused("solve", path)
     assert "products of them exceed the range of float64; look for a wrong unit" in sentence

@@ -10,6 +10,7 @@ from tests.closeness import assert_close, assert_within
 from tests.tolerances import ROUNDING
 
 ANGLES = (0.0, 1e-9, 0.3, 3.0)
+LINEAR = (0.3, -0.7, 1.1)
 AXIS = np.array([2.0, -3.0, 6.0]) / 7
 FLOATING = Floating("base", False, slice(1, 8), slice(1, 7))
 
@@ -34,6 +35,22 @@ def screw(v, w):
 def quaternion_about(axis, angle):
     """[axis sin(angle / 2), cos(angle / 2)]."""
     return [*(axis * np.sin(angle / 2)), np.cos(angle / 2)]
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_a_floating_base_moves_by_its_twist_in_its_own_frame(angle):
+    # position' = position + R t, where t is the translation of the screw
+    about = np.array([1.0, 2.0, -2.0]) / 3
+    at = np.array([0.5, -0.25, 2.0])
+    w = angle * AXIS
+    R = screw(np.zeros(3), 0.8 * about)[0]
+    q = [9.0, *at, *quaternion_about(about, 0.8)]
+    delta_q = [7.0, *LINEAR, *w]
+    expected = at + R @ screw(LINEAR, w)[1]
+    q_next = [9.0, *next_entries(FLOATING, q, delta_q)]
+    assert_within(q_next[1:4], expected, ROUNDING * 4)
+    found = change(FLOATING, q, q_next)
+    assert_within(found, delta_q[1:], 8 * ROUNDING)
 
 
 @pytest.mark.parametrize("axis", [AXIS, *np.eye(3)], ids=["oblique", "x", "y", "z"])
