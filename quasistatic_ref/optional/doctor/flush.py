@@ -1,9 +1,9 @@
-"""Shapes whose faces are flush: their joint stops what slides from one to the other.
+"""Shapes whose faces are flush: their seam stops what slides from one to the other.
 
 Where a flat face slides on one shape towards another that is flush with it, the closest points of
 the two lie in the plane of the faces, and so does their normal. The gap along it must not close.
 Where it is none, an edge lies on an edge, and the normal, which any between the plane's and this
-one might be, is midway. So no force that the body's weight bears moves it over the joint.
+one might be, is midway. So no force that the body's weight bears moves it over the seam.
 """
 
 from collections.abc import Iterator
@@ -51,7 +51,7 @@ class Side(NamedTuple):
 
 
 def flush(start: Start) -> Iterator[Finding]:
-    """Before a run: what lies on one shape, and has the joint to another nearer than its size."""
+    """Before a run: what lies on one shape, from which a flush one is at most its size apart."""
     points = start.points
     if points is None or isinstance(start, Run):
         return
@@ -63,7 +63,7 @@ def flush(start: Start) -> Iterator[Finding]:
                 reach = _reach(ahead.other, along, start.kinematics)
                 apart = -_reach(on.other, -along, start.kinematics) - reach
                 if apart <= least(ahead.pair):
-                    yield _finding(start, ahead, on, "and will stop at the joint", {})
+                    yield _finding(start, ahead, on, "and will stop at the seam", {})
                     return
 
 
@@ -82,7 +82,7 @@ def pushed_back(run: Run) -> Iterator[Finding]:
                 if _joined(ahead, on, run.system.kinematics(run["q"][k])):
                     forces = f_n[k, at][presses[at]]
                     along = float(np.linalg.norm(forces @ _along(ahead, on)))
-                    how = f"and their joint pushes it back with {along:.3g} N in step {k}"
+                    how = f"and their seam pushes it back with {along:.3g} N in step {k}"
                     yield _finding(run, ahead, on, how, {"along_N": along, "step": k})
                     return
 
