@@ -28,6 +28,7 @@ from quasistatic_ref.model.mass import (
     whole,
 )
 from quasistatic_ref.model.mechanism import Mechanism
+from quasistatic_ref.model.urdf.urdf import body_frame
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
 from quasistatic_ref.numbers.arrays import (
@@ -128,7 +129,7 @@ class System(Mechanism):
         self._workspace = Workspace(world)
         self._latest: tuple[bytes, Kinematics] | None = None
         self._order = paper_order(world.joints)
-        self._frames = world.frames
+        self._frames = [body_frame(world.model, link) for link in world.links[1:]]
         self._M_u: Array | None = None  # if M_u is constant: kept once it has been read
         self.mimics = world.mimics
         self.texts = world.texts
@@ -145,7 +146,7 @@ class System(Mechanism):
             ignored=world.ignored,
             notes=world.notes,
         )
-        self.column_map: JointColumns = JointColumns(self._model, world.frames, self._order)
+        self.column_map: JointColumns = JointColumns(self._model, self._frames, self._order)
         unactuated = [joint for joint in self.joints if not joint.actuated]
         self.constant_mass_matrix = constant_mass(self._model, unactuated)
         self.varying_mass: MassMatrix | None = None

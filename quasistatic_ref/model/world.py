@@ -18,14 +18,9 @@ from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import QUATERNION, Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.model.urdf.urdf import (
-    BASE,
-    Urdf,
-    body_frame,
-    loaded_urdf,
-    urdf_model,
-)
+from quasistatic_ref.model.urdf.urdf import BASE, Urdf, loaded_urdf, urdf_model
 from quasistatic_ref.model.urdf.urdf_file import UrdfFile
+from quasistatic_ref.model.urdf.urdf_tree import visiting_order
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
@@ -49,8 +44,6 @@ class World(Plain):
     mimics : tuple of MimicJoint
     links : tuple of str
         Number 0 is ``"world"``.
-    frames : tuple of int
-        The pinocchio frame of each link but the world.
     masses : ndarray, shape (L,)
         Mass of each link as its file says; the world has none [kg].
     centres : ndarray, shape (L, 3)
@@ -74,7 +67,6 @@ class World(Plain):
     joints: tuple[Joint, ...]
     mimics: tuple[MimicJoint, ...]
     links: tuple[str, ...]
-    frames: tuple[int, ...]
     masses: Array
     centres: Array
     inertias: Array
@@ -120,13 +112,10 @@ def world_of(bodies: tuple[Body, ...]) -> World:
         links += [f"{name}/{link}" for link in urdf.links]
         for shape in urdf.shapes:
             shapes.append(replace(shape, name=f"{name}/{shape.name}", link=first + shape.link))
-    model = joined(bodies, [urdf.model for urdf in urdfs.values()])
-    joints = []
-    start = pin.neutral(model)
+    joints: list[Joint] = []
+    start: list[float] = []
     for body in bodies:
-        for joint, position in _joints(body, urdfs[body.name], model):
-            joints.append(joint)
-            start[joint.q] = position
+        _add_joints(body, urdfs[body.name].file, joints, start)
     return World(
         bodies=bodies,
         texts=tuple(urdf.file.text for urdf in urdfs.values()),
@@ -134,13 +123,12 @@ def world_of(bodies: tuple[Body, ...]) -> World:
         joints=tuple(joints),
         mimics=tuple(m for name, urdf in urdfs.items() for m in _mimics(name, urdf)),
         links=tuple(links),
-        frames=tuple(body_frame(model, link) for link in links[1:]),
         masses=np.array([0.0, *(link.mass for link in written)]),
         centres=np.array([np.zeros(3), *(link.com for link in written)]),
         inertias=np.array([np.zeros((3, 3)), *(link.inertia for link in written)]),
         shapes=tuple(shapes),
         roots=roots,
-        start=start,
+        start=np.array(start),
         ignored=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.file.ignored),
         notes=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.notes),
     )
@@ -207,35 +195,34 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
             raise ModelError("names a joint twice", field=f"{body.name}.{key}", value=names)
 
 
-def _joints(body: Body, urdf: Urdf, model: pin.Model) -> list[tuple[Joint, Array]]:
-    """Joints with coordinates of one body, each with its start."""
-    joints: list[tuple[Joint, Array]] = []
+def _add_joints(body: Body, file: UrdfFile, joints: list[Joint], start: list[float]) -> None:
+    """Append a body's joints with coordinates, numbered as pinocchio does, and their start."""
+
+    def add(kind: type[Joint], name: str, entries: Sequence[float]) -> None:
+        is_actuated = body.actuated == "all" or name in body.actuated
+        q = slice(len(start), len(start) + len(entries))
+        first = joints[-1].v.stop if joints else 0
+        joint = kind(f"{body.name}/{name}", is_actuated, q, slice(first, first))
+        joints.append(replace(joint, v=slice(first, first + len(joint.coordinates))))
+        start.extend(entries)
+
     if body.base != FIXED:
-        base = BASES[body.base](*_entries(body, BASE, model))
+        base = BASES[body.base]
         rpy = np.asarray(body.rpy)
-        start = np.array(base.at(np.asarray(body.xyz), rpy))
+        entries = base.at(np.asarray(body.xyz), rpy)
         if base.unit == QUATERNION:  # with the last bits of runs that are recorded
-            start[base.lengths :] = pin.Quaternion(rotation(rpy)).normalized().coeffs()
-        joints.append((base, start))
-    for written in urdf.file.joints:
+            entries[base.lengths :] = pin.Quaternion(rotation(rpy)).normalized().coeffs()
+        add(base, BASE, entries)
+    for written in visiting_order(file.root, file.joints):
         if written.kind == FIXED or written.mimic is not None:
             continue  # it has no coordinate: its column is added to its leader's (column_map.py)
-        joint = JOINTS[written.kind](*_entries(body, written.name, model))
-        if isinstance(joint, TwistJoint):
-            joints.append((joint, np.array(joint.at(np.zeros(3), np.zeros(3)))))
+        kind = JOINTS[written.kind]
+        if issubclass(kind, TwistJoint):
+            add(kind, written.name, kind.at(np.zeros(3), np.zeros(3)))
             continue
-        limits = written.limits if joint.unit is None else None
-        joint = replace(joint, effort=written.effort, limits=limits)
-        joints.append((joint, np.array(joint.at(body.positions.get(written.name, 0.0)))))
-    return joints
-
-
-def _entries(body: Body, name: str, model: pin.Model) -> tuple[str, bool, slice, slice]:
-    """Name of a joint, whether it is actuated, and its entries of pinocchio's q and delta_q."""
-    joint = model.joints[model.getJointId(joint_key(f"{body.name}/{name}"))]
-    q = slice(joint.idx_q, joint.idx_q + joint.nq)
-    v = slice(joint.idx_v, joint.idx_v + joint.nv)
-    return f"{body.name}/{name}", body.actuated == "all" or name in body.actuated, q, v
+        add(kind, written.name, kind.at(body.positions.get(written.name, 0.0)))
+        limits = written.limits if kind.unit is None else None
+        joints[-1] = replace(joints[-1], effort=written.effort, limits=limits)
 
 
 def _mimics(body: str, urdf: Urdf) -> list[MimicJoint]:
