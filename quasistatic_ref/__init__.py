@@ -50,7 +50,7 @@ _HOMES = {
     "optional.guests.mujoco": "mujoco_step",
     "optional.guests.mujoco_opinion": "mujoco_opinion",
     "optional.guests.scene": "mujoco_scenario",
-    "optional.coulomb.fixed_point": "coulomb_step CoulombSolution",
+    "optional.coulomb.fixed_point": "coulomb_step CoulombSolution NoFixedPoint",
     "certify.certificate": "Certificate",
     "certify.residuals": "Residuals optimality_residuals",
     "certify.verification": "verify verify_answer",
@@ -64,9 +64,10 @@ _HOMES = {
     "optional.doctor.motions": "relative_turn",
     # What can go wrong.
     "errors": "QuasistaticError InputError MissingKey StepDataError ModelError ContactError "
-    "ScenarioError BackendError NotDifferentiable",
+    "ScenarioError BackendError",
+    "optional.derivatives.step.reason": "NotDifferentiable",
     "certify.failures": "StepNotSolved StepInfeasible StepIllPosed",
-    "simulate.failures": "LimitExceeded NoFixedPoint RunFailed",
+    "simulate.failures": "LimitExceeded RunFailed",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 
@@ -107,7 +108,6 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         InputError as InputError,
         MissingKey as MissingKey,
         ModelError as ModelError,
-        NotDifferentiable as NotDifferentiable,
         QuasistaticError as QuasistaticError,
         ScenarioError as ScenarioError,
         StepDataError as StepDataError,
@@ -116,10 +116,14 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.model.system import System as System
     from quasistatic_ref.optional.coulomb.fixed_point import (
         CoulombSolution as CoulombSolution,
+        NoFixedPoint as NoFixedPoint,
         coulomb_step as coulomb_step,
     )
     from quasistatic_ref.optional.derivatives.derivatives import derivatives as derivatives
     from quasistatic_ref.optional.derivatives.smoothed import smoothed as smoothed
+    from quasistatic_ref.optional.derivatives.step.reason import (
+        NotDifferentiable as NotDifferentiable,
+    )
     from quasistatic_ref.optional.derivatives.step_jax import (
         smoothed_jax as smoothed_jax,
         step_jax as step_jax,
@@ -158,7 +162,6 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     )
     from quasistatic_ref.simulate.failures import (
         LimitExceeded as LimitExceeded,
-        NoFixedPoint as NoFixedPoint,
         RunFailed as RunFailed,
     )
     from quasistatic_ref.simulate.finding import Finding as Finding

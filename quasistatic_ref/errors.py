@@ -167,26 +167,6 @@ class BackendError(InputError):
     """
 
 
-class NotDifferentiable(QuasistaticError):
-    """A derivative is needed where a step has none.
-
-    Parameters
-    ----------
-    reasons : tuple
-        Why, each in words as its text: at least one. The part that raises it says of what type.
-
-    Examples
-    --------
-    >>> print(qr.NotDifferentiable(("row +d1 of floor bears no load",)))
-    the step has no derivative here: row +d1 of floor bears no load
-    """
-
-    def __init__(self, reasons: tuple[object, ...]) -> None:
-        self.reasons = reasons
-        more = f" (and {len(reasons) - 1} more)" if len(reasons) > 1 else ""
-        super().__init__(f"the step has no derivative here: {reasons[0]}{more}")
-
-
 @contextmanager
 def about_file(file: str | Path) -> Iterator[None]:
     """Make an InputError of this block say which file it is about, unless it says so already."""

@@ -16,12 +16,6 @@ ACCURACY: Final = 1e-12
 With it Clarabel, DAQP and PIQP solve every step of ``bunny_grasp``, and so does OSQP, which is then
 called with 1e-10, the least accuracy that the table of backends gives it."""
 
-BORNE: Final = 1e-4
-"""Share of the load [-] that forces of single contacts may leave without a finding."""
-
-SURE: Final = 1e-3
-"""Share of the load of a group [-] that noise in its gaps may change without a finding."""
-
 RESIDUAL_LIMIT: Final = 1e-6
 """Largest residual, in natural units [-], at which a solver's "optimal" is believed.
 
@@ -60,7 +54,7 @@ Computed twice, one contact differs by 1e-16, or 3e-9 at worst between nearly pa
 
 FACING: Final = 0.25
 """Angle [rad] between a face and the face that it can lie on after a step: a step that turns by
-more is worth a warning (LEAP)."""
+more is worth a warning."""
 
 OVER_FACE: Final = 1e-9
 """How far outside of a face the foot of a corner may be, relative to the shape's extent [-], for
@@ -84,77 +78,9 @@ CLOSED_FORM: Final = 1e-12
 
 The optimum is exact and rounded once; formula and data are a few dozen operations in float64."""
 
-BEARS: Final = 1e-9
-"""Least normal force of a contact that bears load, over the largest normal force of its step [-]:
-solvers leave 1e-12 of the largest on contacts that do not touch."""
-
-SUNK: Final = 0.01
-"""Depth at a step, relative to the smaller shape of a pair [-], that the step before did not
-predict and that is worth a warning: pushed out at once, it throws bodies about. The scenarios in
-models/ stay below 1e-5; points that a pair's k leaves out sink by the size of its features."""
-
-LEAP: Final = 0.25
-"""Motion per step, relative to the size of what is moved [-], or turn [rad], that is worth a
-warning: to first order the motion is wrong by 1 - cos 0.25 = 3 % of the size. The spun sphere of
-sphere_spin reaches 0.15."""
-
-CRAWL: Final = 0.1
-"""Speed [m/s, rad/s] up to which contacts that cannot rise may hold a body without a finding: what
-is moved slowly enough for the model is slower."""
-
-LOCKED: Final = 0.1
-"""Share of the motion without a guide's own friction [-] below which a body is locked by it. A
-block that begins to slide has 1 / (1 + mu_v^2) of it, one in a guide the guide's clearance."""
-
-BEYOND: Final = 1e-9
-"""How far a target may exceed a limit of its URDF [m, rad] without a warning: rounding of its
-interpolation between waypoints is 1e-16."""
-
-IN_METRES: Final = 20.0
-"""Size of a mesh or cloud, and largest coordinate of a target that is a length [m], up to which
-numbers are taken for metres.
-
-What hands hold is longer than 20 mm, mostly, and shorter than 20 m."""
-
 ON_RIM: Final = 1e-9
 """How near to the rim of a face or edge a closest point, relative to its shape, or a normal [-] is
 on it. Closest points are right to 1e-15 but where the surfaces are nearly parallel."""
-
-LEVEL: Final = 1e-5
-"""Tilt of a cylinder or a cone [rad] below which its rim counts as level where a derivative is
-computed. Its lowest point moves by 1 / tilt of a turn, right to 2e-16 / tilt of that; where it
-cancels, errors were 1e-7 at a tilt of 3e-7, and fall with its square."""
-
-LIGHT: Final = 1e-6
-"""Mass of a private rise over that of what it lies on [-]: sliding is slower by as much, (R40)."""
-
-NEAR: Final = 1e-3
-"""Distance that counts as near [m]: what cameras and calibration leave open."""
-
-TOUCHES: Final = 1e-9
-"""Slack of a row of a contact that touches, at most [m]: certified steps leave rounding, 1e-16, and
-a spring of 1e5 N/m presses 1e-9 m with 0.1 mN."""
-
-SLIDES: Final = 1e-4
-"""Slip of a contact that an account says slides, at least [m/s]: 1 mm in ten seconds."""
-
-SPINS: Final = 1e-3
-"""Turn about its normal of a contact that an account says spins, at least [rad/s]: 0.6 deg in ten
-seconds."""
-
-ROUGH: Final = 5.0
-"""Friction coefficient above which a number is none [-]: racing tyres have 1.7."""
-
-SLIPPED: Final = 0.1
-"""Slip of a grip that lost what it held, over the smaller shape of a pair [-]: a body that settles
-between fingers slips by a hundredth of them."""
-
-LAGS: Final = 0.1
-"""Distance of a joint from its last target, over the way that its target went [-], that is none of
-a spring's usual lag."""
-
-STALLED: Final = 0.25
-"""Distance of a joint from its last target over the shape that presses [-], of what is to push."""
 
 CREEP: Final = 1e-4
 """Speed up to which a contact of MuJoCo's holds [m/s]: 6 mm in a minute. Friction that is

@@ -28,12 +28,6 @@ def nearest_fraction(x: fmpq) -> float:
     return nearest(int(x.p), int(x.q))
 
 
-def nearest_in(ball: arb) -> float | None:
-    """As :func:`all_nearest`, of one ball [its unit]."""
-    nearest = all_nearest([ball])
-    return None if nearest is None else nearest[0]
-
-
 def all_nearest(balls: Sequence[arb]) -> list[float] | None:
     """The float64 nearest to every number in a ball, of each; None if one has no such float64.
 

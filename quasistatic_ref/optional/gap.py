@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from flint import arb, arb_mat, fmpq, fmpq_mat
 
 from quasistatic_ref.certify.form import ExactForm, fraction
+from quasistatic_ref.certify.rounding import all_nearest
 from quasistatic_ref.numbers.arrays import Array
 
 
@@ -32,6 +33,12 @@ def fractions(values: Array) -> list[fmpq]:
 def rational(M: arb_mat) -> fmpq_mat:
     """A matrix of exact numbers in fractions [any unit]."""
     return fmpq_mat(M.nrows(), M.ncols(), [fraction(v) for v in M.entries()])
+
+
+def nearest_in(ball: arb) -> float | None:
+    """The float64 nearest to every number in a ball [its unit]; None if it has none."""
+    nearest = all_nearest([ball])
+    return None if nearest is None else nearest[0]
 
 
 def lagrangian_minimiser(form: ExactForm, lam: Sequence[fmpq]) -> fmpq_mat:

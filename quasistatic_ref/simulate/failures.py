@@ -1,4 +1,4 @@
-"""A run that ends early: at a limit, without a solution under Coulomb's law, or at any error."""
+"""A run that ends early: at a limit, or at any error."""
 
 from __future__ import annotations
 
@@ -37,36 +37,6 @@ class LimitExceeded(StepNotSolved):
     def __init__(self, problem: str, step: StepData) -> None:
         super().__init__("none", "limit exceeded", step, 0.0)
         self.args = (problem,)
-
-
-class NoFixedPoint(StepNotSolved):
-    """No solution of the step under Coulomb's law was found, which does not say that none exists.
-
-    Parameters
-    ----------
-    step : StepData
-        The step in SI units, as given.
-    iterations : int
-        Convex steps that were solved.
-    residual : float
-        By how much s is not that of the last one's slip [m].
-
-    Examples
-    --------
-    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> qr.NoFixedPoint(step, 200, 1e-6).status
-    'no fixed point'
-    """
-
-    def __init__(self, step: StepData, iterations: int, residual: float) -> None:
-        super().__init__("coulomb", "no fixed point", step, 0.0)
-        self.iterations = iterations
-        self.residual = residual
-        self.args = (
-            f"no solution under Coulomb's law was found in {iterations} iterations, which does not "
-            f"say that there is none: s is still off by {residual:.3g} m; take a smaller h, or "
-            'law = "convex"',
-        )
 
 
 class RunFailed(QuasistaticError):

@@ -6,12 +6,10 @@ from fractions import Fraction as F
 import pytest
 from flint import arb
 
-from quasistatic_ref.certify.rounding import (
-    nearest,
-    nearest_in,
-)
+from quasistatic_ref.certify.rounding import nearest
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.numbers.precision import working_precision
+from quasistatic_ref.optional.gap import nearest_in
 
 LEAST = F(5e-324)
 ULP = F(2) ** -52

@@ -34,13 +34,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, finite, read_only
-from quasistatic_ref.numbers.fixed_point import Iterate, fixed_point
-from quasistatic_ref.simulate.failures import NoFixedPoint
+from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
@@ -55,6 +55,36 @@ contact [-], at which s is its own: each iterate is exact, and s a sum of rounde
 
 MOST = 200
 """Iterates after which no fixed point is expected."""
+
+
+class NoFixedPoint(StepNotSolved):
+    """No solution of the step under Coulomb's law was found, which does not say that none exists.
+
+    Parameters
+    ----------
+    step : StepData
+        The step in SI units, as given.
+    iterations : int
+        Convex steps that were solved.
+    residual : float
+        By how much s is not that of the last one's slip [m].
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.NoFixedPoint(step, 200, 1e-6).status
+    'no fixed point'
+    """
+
+    def __init__(self, step: StepData, iterations: int, residual: float) -> None:
+        super().__init__("coulomb", "no fixed point", step, 0.0)
+        self.iterations = iterations
+        self.residual = residual
+        self.args = (
+            f"no solution under Coulomb's law was found in {iterations} iterations, which does not "
+            f"say that there is none: s is still off by {residual:.3g} m; take a smaller h, or "
+            'law = "convex"',
+        )
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.errors import InputError, NotDifferentiable
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.configuration import normalised
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
@@ -30,7 +30,7 @@ from quasistatic_ref.optional.derivatives.derivatives import (
 from quasistatic_ref.optional.derivatives.gradient import Derivatives
 from quasistatic_ref.optional.derivatives.model.tangent import entry_rates
 from quasistatic_ref.optional.derivatives.smoothed import check_kappa, smoothed
-from quasistatic_ref.optional.derivatives.step.reason import KINDS, Reason
+from quasistatic_ref.optional.derivatives.step.reason import KINDS, NotDifferentiable, Reason
 from quasistatic_ref.optional.derivatives.tolerances import NEARLY
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.simulate.simulator import Simulator

@@ -6,7 +6,7 @@ What it needs of a scene stands in the header of the file, as :func:`scene_notes
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -34,13 +34,24 @@ from quasistatic_ref.optional.doctor.telling import (
     pair_numbers,
     stop_numbers,
 )
+from quasistatic_ref.optional.doctor.tolerances import NEAR
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.friction import slip_norm
-from quasistatic_ref.tolerances import NEAR, SLIDES, SPINS, TOUCHES
+
+TOUCHES: Final = 1e-9
+"""Slack of a row of a contact that touches, at most [m]: certified steps leave rounding, 1e-16, and
+a spring of 1e5 N/m presses 1e-9 m with 0.1 mN."""
+
+SLIDES: Final = 1e-4
+"""Slip of a contact that an account says slides, at least [m/s]: 1 mm in ten seconds."""
+
+SPINS: Final = 1e-3
+"""Turn about its normal of a contact that an account says spins, at least [rad/s]: 0.6 deg in ten
+seconds."""
 
 SMALL = 1e-6
 """Angle of a rotation whose axis is rounding [rad]."""

@@ -10,8 +10,8 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.ordered import dot
 from quasistatic_ref.optional.doctor.start import free_bases
+from quasistatic_ref.optional.doctor.tolerances import BEARS
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.tolerances import BEARS
 
 LIGHT = 1e-3
 """Force that is none, over the weight of a scene's bodies or its largest load [-]."""

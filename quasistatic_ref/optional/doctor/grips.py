@@ -10,9 +10,9 @@ from quasistatic_ref.optional.doctor.looks import COULOMB, SLOW
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least_mean, table
 from quasistatic_ref.optional.doctor.telling import amount, length
+from quasistatic_ref.optional.doctor.tolerances import SLIPPED
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.tolerances import SLIPPED
 
 CLOSED = 0.45
 """Length of the least mean of normals, with weights, of a grip that is closed [-]."""

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,15 @@ from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.tolerances import CRAWL, LOCKED, REPEATED, SAME_NORMAL
+from quasistatic_ref.tolerances import REPEATED, SAME_NORMAL
+
+CRAWL: Final = 0.1
+"""Speed [m/s, rad/s] up to which contacts that cannot rise may hold a body without a finding: what
+is moved slowly enough for the model is slower."""
+
+LOCKED: Final = 0.1
+"""Share of the motion without a guide's own friction [-] below which a body is locked by it. A
+block that begins to slide has 1 / (1 + mu_v^2) of it, one in a guide the guide's clearance."""
 
 TINY = 1e-9
 """Entries of J, relative to the contact's largest or to 1 [-, m], that are rounding."""

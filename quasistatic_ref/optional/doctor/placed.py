@@ -19,10 +19,11 @@ from quasistatic_ref.optional.doctor.start import (
     slices,
     table,
 )
+from quasistatic_ref.optional.doctor.tolerances import NEAR, SUNK
 from quasistatic_ref.optional.doctor.unsupported import fall, held, sinks
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.tolerances import NEAR, SAME_NORMAL, SUNK
+from quasistatic_ref.tolerances import SAME_NORMAL
 
 BEARING = 0.1
 """Cosine of the steepest surface that may bear a body [-]: 84 degrees."""

@@ -19,10 +19,11 @@ from quasistatic_ref.optional.doctor.start import (
     more_points,
     slices,
 )
+from quasistatic_ref.optional.doctor.tolerances import SUNK
 from quasistatic_ref.parts import is_there
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.tolerances import REPEATED, SUNK
+from quasistatic_ref.tolerances import REPEATED
 
 UPWARDS = 0.5
 """Cosine of the steepest normal that counts as bearing weight [-]."""

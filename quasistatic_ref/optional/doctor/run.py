@@ -22,6 +22,7 @@ from quasistatic_ref.optional.doctor.accounts import PairAccount
 from quasistatic_ref.optional.doctor.bodies import Body, bodies
 from quasistatic_ref.optional.doctor.looks import Looking
 from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.optional.doctor.tolerances import BEARS
 from quasistatic_ref.parts import contact_forces, is_there, posed
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Recording
@@ -32,7 +33,6 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.tolerances import BEARS
 
 if TYPE_CHECKING:
     from quasistatic_ref.certify.contact_forces import ContactForces

@@ -28,8 +28,8 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
-from quasistatic_ref.numbers.fixed_point import Iterate, fixed_point
 from quasistatic_ref.optional.doctor.artifacts import gives
+from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import suppress
 from math import log10
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -20,10 +20,15 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import NONE, QPSOLVERS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.tolerances import BORNE, SURE
 
 if TYPE_CHECKING:
     from quasistatic_ref.certify.contact_forces import ContactForces
+
+BORNE: Final = 1e-4
+"""Share of the load [-] that forces of single contacts may leave without a finding."""
+
+SURE: Final = 1e-3
+"""Share of the load of a group [-] that noise in its gaps may change without a finding."""
 
 WORTH = 10.0
 """Least time of a run whose proofs are named [s]."""

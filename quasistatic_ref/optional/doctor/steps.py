@@ -1,6 +1,7 @@
 """Steps that are too long for their first order, and contacts that they did not predict."""
 
 from collections.abc import Iterator
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +13,14 @@ from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
 from quasistatic_ref.optional.doctor.statics import statics
 from quasistatic_ref.optional.doctor.telling import amount
+from quasistatic_ref.optional.doctor.tolerances import BEYOND, SUNK
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.tolerances import BEYOND, FILLED, LEAP, SUNK
+from quasistatic_ref.tolerances import FILLED
+
+LEAP: Final = 0.25
+"""Motion per step, relative to the size of what is moved [-], or turn [rad], that is worth a
+warning: to first order the motion is wrong by 1 - cos 0.25 = 3 % of the size. The spun sphere of
+sphere_spin reaches 0.15."""
 
 JUMP = 0.1
 """Motion in the first step towards a waypoint that is elsewhere than the start, of the size of what

@@ -10,8 +10,8 @@ from quasistatic_ref.optional.doctor.account import drive, stiffness
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.slowly import SLOWLY
 from quasistatic_ref.optional.doctor.telling import amount, rounded_down, rounded_up
+from quasistatic_ref.optional.doctor.tolerances import BEYOND, IN_METRES
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.tolerances import BEYOND, IN_METRES
 
 SHARE = 1e-3
 """Of the way between a joint's limits, by which it may be beyond one [-]."""

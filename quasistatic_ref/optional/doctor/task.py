@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from functools import cached_property
 from itertools import combinations
+from typing import Final
 
 import numpy as np
 
@@ -18,10 +19,18 @@ from quasistatic_ref.optional.doctor.placed import inside
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import joining, least
 from quasistatic_ref.optional.doctor.telling import amount, length, rounded_up
+from quasistatic_ref.optional.doctor.tolerances import SLIPPED, SUNK
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Shape
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.tolerances import FILLED, LAGS, SLIPPED, STALLED, SUNK
+from quasistatic_ref.tolerances import FILLED
+
+LAGS: Final = 0.1
+"""Distance of a joint from its last target, over the way that its target went [-], that is none of
+a spring's usual lag."""
+
+STALLED: Final = 0.25
+"""Distance of a joint from its last target over the shape that presses [-], of what is to push."""
 
 OPPOSITE = -0.5
 """Cosine of two normals that grip [-]."""

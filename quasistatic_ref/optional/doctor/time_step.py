@@ -9,8 +9,8 @@ import numpy as np
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.optional.doctor.tolerances import BEYOND
 from quasistatic_ref.scenario.scenario import Scenario
-from quasistatic_ref.tolerances import BEYOND
 
 SLOW: Final = 0.1
 """Largest share of the friction that contacts can bear [-] which the spurious drag may take without

@@ -1,15 +1,19 @@
 """Numbers that look like another unit, or like nothing that is meant, and a run of no steps."""
 
 from collections.abc import Iterator
+from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Start, least, table
+from quasistatic_ref.optional.doctor.tolerances import IN_METRES
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.tolerances import IN_METRES, ROUGH
+
+ROUGH: Final = 5.0
+"""Friction coefficient above which a number is none [-]: racing tyres have 1.7."""
 
 MANY = 10
 """Times as many contacts as a pair has candidates [-] that no one means by k."""

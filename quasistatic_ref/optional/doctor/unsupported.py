@@ -15,10 +15,10 @@ from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.looks import SLOW
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import SHORT, Start, body, joining, least
+from quasistatic_ref.optional.doctor.tolerances import NEAR
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Extra
-from quasistatic_ref.tolerances import NEAR
 
 ROUNDS = 100
 """Advances until a falling body touches; corners take one, round surfaces some ten."""

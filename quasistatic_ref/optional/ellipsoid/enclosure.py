@@ -19,7 +19,6 @@ from flint import arb, arb_mat, fmpq
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm, exact_matrix, fraction
 from quasistatic_ref.certify.minimiser import rounded_quotients
-from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
@@ -30,7 +29,14 @@ from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, diagonal, 
 from quasistatic_ref.optional.ellipsoid.newton import OPEN, SLIDES, contact_states, newton_pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import ScaledBlocks, scaled_blocks
 from quasistatic_ref.optional.ellipsoid.tolerances import ENCLOSED
-from quasistatic_ref.optional.gap import duality_gap, fractions, inner, nearest_above, square_root
+from quasistatic_ref.optional.gap import (
+    duality_gap,
+    fractions,
+    inner,
+    nearest_above,
+    nearest_in,
+    square_root,
+)
 from quasistatic_ref.step.data import StepData
 
 BITS: Final = 640

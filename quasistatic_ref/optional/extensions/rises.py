@@ -1,6 +1,7 @@
 """Friction of coordinates, and of a planar base on its floor, by private rises of a step, (R40)."""
 
 from collections.abc import Mapping, Sequence
+from typing import Final
 
 import numpy as np
 
@@ -15,7 +16,9 @@ from quasistatic_ref.optional.extensions.urdf_joints import urdf_joints
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.tolerances import LIGHT
+
+LIGHT: Final = 1e-6
+"""Mass of a private rise over that of what it lies on [-]: sliding is slower by as much, (R40)."""
 
 WAYS = (1.0, -1.0)
 """r + delta_q_i >= 0 and r - delta_q_i >= 0."""

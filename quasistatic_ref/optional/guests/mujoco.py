@@ -15,6 +15,7 @@ from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.optional.extensions.extension import Rises
+from quasistatic_ref.optional.extensions.rises import LIGHT
 from quasistatic_ref.optional.guests import constraints, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
 from quasistatic_ref.optional.guests.loads import Spring, diagonal_of_H, loads
@@ -24,7 +25,6 @@ from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.tolerances import LIGHT
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel

@@ -14,8 +14,8 @@ from quasistatic_ref import (
     relative_turn,
     save_trajectory,
 )
+from quasistatic_ref.optional.doctor.account import SLIDES, SPINS, TOUCHES
 from quasistatic_ref.optional.doctor.telling import lines, measures
-from quasistatic_ref.tolerances import SLIDES, SPINS, TOUCHES
 from tests.closeness import assert_relative
 from tests.optional.doctor.words import TIP, block, driven, free, scene, slides
 from tests.tolerances import ROUNDING

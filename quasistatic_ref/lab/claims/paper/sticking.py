@@ -5,7 +5,8 @@ import numpy as np
 from quasistatic_ref.lab.cached_runs import grasp
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.grasp import CASES
-from quasistatic_ref.tolerances import BEARS, CLOSED_FORM
+from quasistatic_ref.optional.doctor.tolerances import BEARS
+from quasistatic_ref.tolerances import CLOSED_FORM
 
 STICKS = 1e-18
 """Slip below which a contact sticks [m]: displacements of a step are 1e-4, rounded to 1e-20. What

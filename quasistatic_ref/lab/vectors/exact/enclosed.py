@@ -7,7 +7,6 @@ import numpy as np
 from flint import arb, arb_mat
 
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.exact.conditioning import ROUNDINGS, floors
@@ -17,7 +16,7 @@ from quasistatic_ref.lab.vectors.expected import Expected
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.enclosure import BITS as PROVED
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, enclosed_error
-from quasistatic_ref.optional.gap import square_root
+from quasistatic_ref.optional.gap import nearest_in, square_root
 from quasistatic_ref.step.data import StepData
 
 GAP = arb(2) ** -280

@@ -17,11 +17,12 @@ from typing import Any, TypeAlias
 import numpy as np
 from flint import arb, fmpq
 
-from quasistatic_ref.certify.rounding import nearest_fraction, nearest_in
+from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.lab.program import number as kinds
 from quasistatic_ref.lab.vectors.trees import mapped
 from quasistatic_ref.numbers.precision import working_precision
+from quasistatic_ref.optional.gap import nearest_in
 
 Real: TypeAlias = Any
 """An fmpq or an arb. They mix freely, which their type hints cannot say."""

@@ -17,9 +17,8 @@ from quasistatic_ref.optional.derivatives.contact.couples import (
 )
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
-from quasistatic_ref.optional.derivatives.tolerances import SPLIT, UNIQUE
+from quasistatic_ref.optional.derivatives.tolerances import LEVEL, SPLIT, UNIQUE
 from quasistatic_ref.step.data import Contacts
-from quasistatic_ref.tolerances import LEVEL
 
 
 def contact_rates(couples: Sequence[Couple], J: Array) -> Rates:

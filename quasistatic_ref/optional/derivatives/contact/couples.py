@@ -12,9 +12,10 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.contact.features import Feature, ball, feature
+from quasistatic_ref.optional.derivatives.tolerances import LEVEL
 from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
 from quasistatic_ref.shapes.revolved import rim_corners
-from quasistatic_ref.tolerances import LEVEL, ON_RIM
+from quasistatic_ref.tolerances import ON_RIM
 
 Z = np.array([0.0, 0.0, 1.0])
 

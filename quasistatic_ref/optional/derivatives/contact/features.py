@@ -18,6 +18,7 @@ import numpy as np
 
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.derivatives.tolerances import LEVEL
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import (
     Box,
@@ -29,7 +30,7 @@ from quasistatic_ref.shapes.placed_shape import (
     Shape,
     Sphere,
 )
-from quasistatic_ref.tolerances import LEVEL, ON_RIM
+from quasistatic_ref.tolerances import ON_RIM
 
 NONE = np.zeros((0, 3))
 STRAIGHT = np.zeros((3, 3))

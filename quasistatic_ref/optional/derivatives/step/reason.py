@@ -2,6 +2,7 @@
 
 from typing import Final, NamedTuple
 
+from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Mask
 
 WEAK = "weakly active row"
@@ -79,3 +80,23 @@ class Obstacle(NamedTuple):
 
     reason: Reason
     columns: Mask
+
+
+class NotDifferentiable(QuasistaticError):
+    """A derivative is needed where a step has none.
+
+    Parameters
+    ----------
+    reasons : tuple of Reason
+        At least one.
+
+    Examples
+    --------
+    >>> print(qr.NotDifferentiable(("row +d1 of floor bears no load",)))
+    the step has no derivative here: row +d1 of floor bears no load
+    """
+
+    def __init__(self, reasons: tuple[object, ...]) -> None:
+        self.reasons = reasons
+        more = f" (and {len(reasons) - 1} more)" if len(reasons) > 1 else ""
+        super().__init__(f"the step has no derivative here: {reasons[0]}{more}")

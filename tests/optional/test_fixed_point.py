@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.numbers.fixed_point import Iterate, fixed_point
+from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
 
 
 def test_iterates_that_creep_leap_ahead():
