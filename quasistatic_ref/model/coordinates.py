@@ -65,10 +65,6 @@ class Order:
         """Configuration in the paper's order, from pinocchio's; both of shape (n_q,)."""
         return q.take(self.q)
 
-    def model_q(self, q: ArrayLike) -> Array:
-        """Configuration in pinocchio's order, from the paper's; ModelError unless (n_q,)."""
-        return with_shape(q, "q", self.q.shape).take(self.q_back)
-
     def paper_v(self, v: Array) -> Array:
         """Delta_q, or J, shape (..., n_v), its last axis in the paper's order, from pinocchio's."""
         return v.take(self.v, axis=-1)

@@ -126,9 +126,9 @@ class System(Mechanism):
     def _make(self, world: World) -> None:
         self._world = world
         self._model = world.model
-        self._workspace = Workspace(world)
         self._latest: tuple[bytes, Kinematics] | None = None
         self._order = paper_order(world.joints)
+        self._workspace = self.workspace()
         self._frames = [body_frame(world.model, link) for link in world.links[1:]]
         self._M_u: Array | None = None  # if M_u is constant: kept once it has been read
         self.mimics = world.mimics
@@ -163,7 +163,7 @@ class System(Mechanism):
 
     def workspace(self) -> Workspace:
         """A workspace of the caller's own."""
-        return Workspace(self._world)
+        return Workspace(self._world, self._order)
 
     def neutral(self) -> Array:
         """Configuration with every position zero and bases at the origin, shape (n_q,)."""
@@ -221,7 +221,8 @@ class System(Mechanism):
         """
         down = gravity if isinstance(gravity, tuple) else tuple(np.asarray(gravity).tolist())
         # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
-        force = self._workspace.gravity_torque(self._order.model_q(q), down)
+        q = with_shape(q, "q", (self.n_q,))
+        force = self._workspace.gravity_torque(q, down)
         return 0.0 - self._order.paper_v(force)
 
     def kinematics(self, q: ArrayLike) -> Kinematics:
@@ -233,7 +234,7 @@ class System(Mechanism):
         bits = q.tobytes()
         if self._latest is None or self._latest[0] != bits:
             self.units.check(q)
-            self._workspace.move(self._order.model_q(q))
+            self._workspace.move(q)
             self._latest = bits, Kinematics(*self._workspace.poses(), self.column_map)
         return self._latest[1]
 

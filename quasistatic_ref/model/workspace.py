@@ -12,6 +12,7 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.coordinates import Order
 from quasistatic_ref.model.urdf.urdf import body_frame, urdf_model
 from quasistatic_ref.model.world import World, joined
 from quasistatic_ref.numbers.angles import cos_sin
@@ -33,8 +34,8 @@ class WorkspacePart(NamedTuple):
     model, data : pinocchio.Model, pinocchio.Data
     R, t : list of ndarray, shapes (3, 3) and (3,)
         Poses of the links of these bodies: views of the workspace, which pinocchio overwrites.
-    entries : slice or ndarray of int
-        For each entry of the part's own q, the entry of the whole q that it is, or is made of.
+    entries : ndarray of int
+        For each entry of the part's own q, the entry of the paper's q that it is, or is made of.
     turns : list of int
         Where in the part's own q the cosines of revolute joints are; their sines follow.
     """
@@ -43,26 +44,28 @@ class WorkspacePart(NamedTuple):
     data: pin.Data
     R: list[Array]
     t: list[Array]
-    entries: slice | Indices
+    entries: Indices
     turns: list[int]
 
     def part_q(self, q: Array) -> Array:
-        """The part's own q, from the whole, shape (n_q,)."""
-        q_part: Array = q[self.entries]
+        """The part's own q, from the paper's, shape (n_q,)."""
+        q_part = q.take(self.entries)
         for i in self.turns:
             q_part[i], q_part[i + 1] = cos_sin(float(q_part[i]))
         return q_part
 
 
 class Workspace:
-    """All bodies of a world, in pinocchio's order.
+    """All bodies of a world.
 
     Parameters
     ----------
     world : World
+    order : Order
+        The paper's, of the q that it is given.
     """
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: World, order: Order) -> None:
         self.parts: list[WorkspacePart] = []
         before = 0
         for model, links in _groups(world):
@@ -70,10 +73,9 @@ class Workspace:
             placements = [data.oMf[body_frame(model, link)] for link in links]
             R = [p.rotation for p in placements]
             t = [p.translation for p in placements]
-            entries = _entries(world.model, model, before)
-            self.parts.append(WorkspacePart(model, data, R, t, *entries))
+            entries, turns = _entries(world.model, model, before)
+            self.parts.append(WorkspacePart(model, data, R, t, order.q_back[entries], turns))
             before += model.njoints - 1
-        self._turns = any(part.turns for part in self.parts)
         self._latest: tuple[bytes, list[Array]] | None = None
         self._none = np.zeros((6, 0))
         self._gravity: tuple[float, ...] | None = None
@@ -86,8 +88,6 @@ class Workspace:
 
     def _part_qs(self, q: Array) -> list[Array]:
         """Each part's own q, kept for the next call at the same q."""
-        if not self._turns:
-            return [q[part.entries] for part in self.parts]
         bits = q.tobytes()
         if self._latest is None or self._latest[0] != bits:
             self._latest = bits, [part.part_q(q) for part in self.parts]
@@ -113,9 +113,10 @@ class Workspace:
         return arrays
 
     def gravity_torque(self, q: Array, gravity: tuple[float, ...]) -> Array:
-        """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m].
+        """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m], at q.
 
-        Gravity is the acceleration of free fall in the world frame, three numbers [m/s^2].
+        Its entries are in pinocchio's order, those of q in the paper's. Gravity is the acceleration
+        of free fall in the world frame, three numbers [m/s^2].
         """
         if gravity != self._gravity:
             for part in self.parts:
@@ -151,10 +152,8 @@ def _groups(world: World) -> Iterator[tuple[pin.Model, list[str]]]:
         yield joined(bodies, models), [link for b in bodies for link in links[b.name]]
 
 
-def _entries(
-    all_bodies: pin.Model, model: pin.Model, before: int
-) -> tuple[slice | Indices, list[int]]:
-    """Fields `entries` and `turns` of a part, whose joints come after `before` others."""
+def _entries(all_bodies: pin.Model, model: pin.Model, before: int) -> tuple[Indices, list[int]]:
+    """Entries of the model's q of a part after `before` other joints, and its `turns`."""
     entries = np.zeros(model.nq, dtype=np.int64)
     turns = []
     for joint in range(1, model.njoints):
@@ -165,5 +164,4 @@ def _entries(
             turns.append(start)
             sources[1] = sources[0]
         entries[start : start + size] = sources
-    first = int(entries.min(initial=all_bodies.nq))
-    return entries if turns else slice(first, first + model.nq), turns
+    return entries, turns

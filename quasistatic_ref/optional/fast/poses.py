@@ -61,8 +61,8 @@ class Poses:
         self._at = None  # of a failure
         self._kinematics = None
         self.q[:] = q
-        self._model_q = self._order.model_q(self.q)  # whoever has q may write into it
-        self._workspace.move(self._model_q)
+        self._here = self.q.copy()  # whoever has q may write into it
+        self._workspace.move(self._here)
         self._at = at
 
     def kinematics(self) -> Kinematics:
@@ -73,4 +73,4 @@ class Poses:
 
     def weigh(self, gravity: tuple[float, ...]) -> None:
         """Have gravity [m/s^2] at that configuration written."""
-        self._workspace.gravity_torque(self._model_q, gravity)
+        self._workspace.gravity_torque(self._here, gravity)
