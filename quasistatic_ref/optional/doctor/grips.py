@@ -57,8 +57,6 @@ def _closed(n: Array) -> bool:
     """Whether normals, (n_c, 3), nearly cancel with weights >= 0 of sum 1."""
     if len(n) < 2 or (n @ n.sum(axis=0)).min() > CLOSED * np.linalg.norm(n.sum(axis=0)):
         return False  # all of them have that much along their mean
-    if np.linalg.norm(n[:, None] + n, axis=2).min() < 2 * CLOSED:
-        return True  # two of them do it
     return least_mean(n) < CLOSED
 
 

@@ -1,22 +1,20 @@
 """Bodies that nothing bears or holds, bodies that fall, and how far they do until they touch."""
 
 from collections.abc import Collection, Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import in_world
+from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.arrays import Mask
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.looks import SLOW
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import SHORT, Start, body, joining, least
 from quasistatic_ref.optional.doctor.tolerances import NEAR
-from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Extra
 
@@ -155,51 +153,31 @@ def fall(start: Start, pair: ContactPair, name: str) -> float:
 
     Of convex bodies the gap along their normal shrinks by as much as they come nearer along it, and
     they do not touch before it is closed: they are moved by that, and have a new normal, until they
-    touch or the normal no longer faces the fall.
+    touch or the normal no longer faces the fall. Of a cloud the first of its points counts.
 
     Raises
     ------
     ContactError
         If the pair has no trustworthy normal on the way.
     """
-    a, b = in_world(pair, start.kinematics.R, start.kinematics.t)
     way = start.gravity / start.g
-    falling, other = (b, a) if body(start.system, pair.beta.link) == name else (a, b)
-    if isinstance(falling.shape, PointCloud):
-        points = moved(np.column_stack([falling.R, falling.t]), falling.shape.points)
-        return _of_points(other, points, way)
-    if isinstance(other.shape, PointCloud):
-        points = moved(np.column_stack([other.R, other.t]), other.shape.points)
-        return _of_points(falling, points, -way)
+    falls = body(start.system, pair.beta.link) == name
+    link, sign = (pair.beta.link, -1.0) if falls else (pair.alpha.link, 1.0)
+    every = replace(pair, k=pair.candidates if pair.has_cloud else 1)
+    t = start.kinematics.t.copy()
     far = 0.0
     for _ in range(ROUNDS):
-        here = falling._replace(t=falling.t + far * way)
-        near = solid_pair(pair.name, other, here)  # n is out of the other
-        nearer = -float(near.n @ way)
-        if near.phi <= CLOSE:
+        near = pair_closest_points(every, start.kinematics.R, t)
+        if near.phi.min() <= CLOSE:
             break
-        if nearer <= LEVEL:
+        nearer = sign * (near.n @ way)
+        meets = nearer > LEVEL
+        if not meets.any():
             return np.inf
-        far += near.phi / nearer
+        step = float((near.phi[meets] / nearer[meets]).min())
+        t[link] += step * way
+        far += step
     return far
-
-
-def _of_points(solid: ShapeInWorld, points: Array, way: Array) -> float:
-    """The least way of some points until one touches a solid."""
-    far = np.zeros(len(points))
-    left = np.arange(len(points))
-    for _ in range(ROUNDS):
-        x = points[left] + far[left, None] * way
-        phi, normal = solid.shape.signed_distance((x - solid.t) @ solid.R)
-        nearer = -(normal @ solid.R.T) @ way
-        past = (phi > CLOSE) & (nearer <= LEVEL)
-        far[left[past]] = np.inf
-        on_way = (phi > CLOSE) & ~past
-        if not on_way.any():
-            break
-        left = left[on_way]
-        far[left] += phi[on_way] / nearer[on_way]
-    return float(far.min())
 
 
 def held(start: Start, loose: Collection[str]) -> set[str]:
