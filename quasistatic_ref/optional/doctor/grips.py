@@ -88,13 +88,7 @@ def _finding(
 ) -> Finding:
     pairs = sorted({int(i) for i in run.pair_of[on]})
     tables = " and ".join(sorted({table(run, run.pairs[i]) for i in pairs}))
-    accounts = [run.pair_accounts[i] for i in pairs]
-    holders = " and ".join(
-        dict.fromkeys(
-            x.beta if run.free[run.pairs[i].alpha.link] else x.alpha
-            for i, x in zip(pairs, accounts, strict=True)
-        )
-    )
+    holders = " and ".join(dict.fromkeys(run.held_by(i)[1] for i in pairs))
     way = float(slips.sum(axis=0).max())
     turn = float(turns.sum(axis=0).max())
     pressed = float(normal[on].sum())

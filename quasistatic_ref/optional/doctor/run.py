@@ -81,6 +81,12 @@ class Run(Start):
         named = [sides(self.system, pair) for pair in self.pairs]
         return pair_accounts(self.trajectory, named, self.noted("moved"), None)
 
+    def held_by(self, i: int) -> tuple[str, str]:
+        """What is free in a pair, and what acts on it."""
+        account = self.pair_accounts[i]
+        names = account.alpha, account.beta
+        return names if self.free[self.pairs[i].alpha.link] else names[::-1]
+
     @cached_property
     def bodies_of(self) -> tuple[Body, ...]:
         """What un-actuated coordinates move together."""

@@ -92,16 +92,6 @@ class Task:
         n = self.run["n"][:, contacts] * np.where(on, sign, 0.0)[:, :, None]
         return np.asarray(np.einsum("kix,kjx->kij", n, n).min(axis=(1, 2), initial=0.0) < OPPOSITE)
 
-    def held(self, i: int) -> str:
-        """What is free in a pair of :attr:`tables`."""
-        account = self.accounts[i]
-        return account.alpha if self.run.free[self.run.pairs[i].alpha.link] else account.beta
-
-    def holder(self, i: int) -> str:
-        """What is driven in it."""
-        account = self.accounts[i]
-        return account.beta if self.run.free[self.run.pairs[i].alpha.link] else account.alpha
-
 
 def late(run: Run) -> Iterator[Finding]:
     """A run that ends long before the first waypoint at which something is to have moved.
@@ -227,18 +217,18 @@ def idle(run: Run) -> Iterator[Finding]:
     if not task.finished:
         return
     for table, pairs in task.tables.items():
-        held = task.held(pairs[0])
+        held, _ = run.held_by(pairs[0])
         others = [each for other, each in task.tables.items() if other != table]
-        if any(task.touched(each) and task.held(each[0]) == held for each in others):
+        if any(task.touched(each) and run.held_by(each[0])[0] == held for each in others):
             continue
         fingers: dict[str, list[int]] = {}
         for i in pairs:
-            fingers.setdefault(task.holder(i), []).append(i)
+            fingers.setdefault(run.held_by(i)[1], []).append(i)
         idle = {name: touch for name, touch in fingers.items() if not task.touched(touch)}
         named = False
         hollow = any(inside(run))  # fingers may open from within
         for name, touch in idle.items():
-            touching = [i for i in pairs if task.holder(i) not in idle]
+            touching = [i for i in pairs if run.held_by(i)[1] not in idle]
             astray = None if hollow else _astray(task, touch, touching)
             if astray is None:
                 continue
@@ -248,8 +238,8 @@ def idle(run: Run) -> Iterator[Finding]:
                 "idle contacts",
                 True,
                 f"check the axis of {joint.name}, or the sign of its targets",
-                f"it leads {name} away from {task.held(touch[0])}, by {length(way)}, and no pair "
-                f"of contacts.{table} that {name} is in ever touches",
+                f"it leads {name} away from {run.held_by(touch[0])[0]}, by {length(way)}, and no "
+                f"pair of contacts.{table} that {name} is in ever touches",
                 {"away_mm": 1e3 * way},
             )
         if named or len(idle) < len(fingers):
@@ -267,7 +257,7 @@ def idle(run: Run) -> Iterator[Finding]:
         yield Finding(
             "idle contacts",
             True,
-            f"check where {task.held(i)} stands and how far {task.holder(i)} moves",
+            "check where {} stands and how far {} moves".format(*run.held_by(i)),
             f"no pair of contacts.{table} ever touches; {apart}",
             numbers,
         )
@@ -304,81 +294,55 @@ def _astray(task: Task, pairs: list[int], others: list[int]) -> tuple[Joint, flo
 
 
 def short(run: Run) -> Iterator[Finding]:
-    """Joints that end far from their targets and are not stopped by what they press on."""
+    """Joints, and bases on springs, that end far from their targets and not for what they press on.
+
+    What a base carries, which has come along by half of its way, does not stop it.
+    """
     task = Task(run)
     if not task.finished:
         return
-    k = run.steps - 1
     lag = run.system.actuated_difference(run["q"][-1], run["q_bar_a"][-1])
-    ways = {
-        track.joint: float(np.ptp(track.values[:, 0]))
-        for track in task.tracks
-        if track.joint.v.stop == track.joint.v.start + 1 and not _at_a_stop(run, track.joint)
-    }
-    far = [joint for joint, way in ways.items() if way and abs(lag[joint.v.start]) > LAGS * way]
-    yield from _short_bases(task, lag)
-    if not far:
-        return
-    spring = run.simulator.K_q @ lag
-    contacts = run.at(k).contacts
-    J_n = frame_jacobian(contacts, contacts.J)[0][:, : run.system.n_a]
-    pushes = run.at(k).forces[:, 2:3] * J_n  # what each contact exerts on each joint
-    for joint in far:
-        v = joint.v.start
-        error = abs(float(lag[v]))
-        stopped = -np.sign(lag[v]) * pushes[:, v].sum() > abs(spring[v]) / 2
-        unit = joint.coordinates[0].unit
-        if stopped and not _stalled(task, int(np.abs(pushes[:, v]).argmax()), error, unit):
-            continue
-        yield _lags(joint, error, unit, abs(float(spring[v])), ways[joint])
-
-
-def _lags(joint: Joint, error: float, unit: str, spring: float, way: float) -> Finding:
-    needed = rounded_up(spring / (LAGS * way))
-    return Finding(
-        "far from target",
-        True,
-        f"raise K_q of {joint.name} to {needed:.3g} or more",
-        f"it ends {amount(error, unit)} from its last target, with {spring:.3g} "
-        f"{'N' if unit == 'm' else 'N m'} on its spring",
-        {f"error_{unit}": error, "K_q": needed},
-    )
-
-
-def _short_bases(task: Task, lag: Array) -> Iterator[Finding]:
-    """Bases on springs that end far from their targets, and not for what they press on.
-
-    What they carry, which has come along by half of their way, does not stop them.
-    """
-    run = task.run
-    k = run.steps - 1
-    forces = run.at(k).forces
     for track in task.tracks:
         joint = track.joint
-        if not joint.actuated or joint.lengths < 2:
+        scalar = joint.v.stop == joint.v.start + 1
+        if not (scalar or joint.lengths > 1) or _at_a_stop(run, joint):
             continue
-        way = float(np.linalg.norm(np.ptp(track.values[:, : joint.lengths], axis=0)))
-        error = run["q_bar_a"][-1][joint.q][:3] - run["q"][-1][joint.q][:3]
-        far = float(np.linalg.norm(error))
-        if not way or far <= LAGS * way:
+        n = 1 if scalar else joint.lengths
+        v = slice(joint.v.start, joint.v.start + n)
+        way = float(np.linalg.norm(np.ptp(track.values[:, :n], axis=0)))
+        error = float(np.linalg.norm(lag[v]))
+        if not way or error <= LAGS * way:
             continue
-        v = slice(joint.v.start, joint.v.start + joint.lengths)
         spring = float(np.linalg.norm((run.simulator.K_q @ lag)[v]))
-        stopped = 0.0
-        for i, pair in enumerate(run.pairs):
-            links = [pair.alpha.link, pair.beta.link]
-            moved = [bool(run.moves[link, v].any()) for link in links]
-            if moved[0] == moved[1]:
-                continue
-            other = links[moved[0]]
-            start, end = (run.system.kinematics(run["q"][j]).t[other] for j in (0, -1))
-            if (end - start) @ error > far * way / 2:
-                continue
-            of_pair = run.pair_of == i
-            push = (forces[of_pair, 2:3] * run["n"][k, of_pair]).sum(axis=0)
-            stopped += abs(float(push @ error)) / far
-        if stopped <= spring / 2:
-            yield _lags(joint, far, "m", spring, way)
+        at = run.at(run.steps - 1)
+        J_n = frame_jacobian(at.contacts, at.contacts.J)[0][:, v]
+        pushes = at.forces[:, 2] * (J_n @ lag[v]) / error  # what each contact exerts along the way
+        if not scalar:
+            pushes[_carried(run, joint, lag[v], way)] = 0.0
+        unit = joint.coordinates[0].unit
+        if -pushes.sum() > spring / 2 and not (
+            scalar and _stalled(task, int(np.abs(pushes).argmax()), error, unit)
+        ):
+            continue
+        needed = rounded_up(spring / (LAGS * way))
+        yield Finding(
+            "far from target",
+            True,
+            f"raise K_q of {joint.name} to {needed:.3g} or more",
+            f"it ends {amount(error, unit)} from its last target, with {spring:.3g} "
+            f"{'N' if unit == 'm' else 'N m'} on its spring",
+            {f"error_{unit}": error, "K_q": needed},
+        )
+
+
+def _carried(run: Run, base: Joint, error: Array, way: float) -> Mask:
+    """Contacts of what has come along with a base, shape (n_c,), whose error is along x, y, z."""
+    moved = run.moves[:, base.v].any(axis=1)
+    start, end = (run.system.kinematics(run["q"][j]).t[:, : len(error)] for j in (0, -1))
+    along = (end - start) @ error > np.linalg.norm(error) * way / 2
+    links = np.array([[pair.alpha.link, pair.beta.link] for pair in run.pairs], dtype=int)
+    of_pairs = (along & ~moved)[links.reshape(-1, 2)].any(axis=1)
+    return np.asarray(of_pairs[run.pair_of])
 
 
 def _at_a_stop(run: Run, joint: Joint) -> bool:
