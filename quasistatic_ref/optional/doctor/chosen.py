@@ -153,8 +153,7 @@ def looked(run: Run) -> int:
         look = run.looking.at(one.k, {one.name}, one.k in corners)
         known.add(one.name)
         seen.add((one.name, one.k))
-        for body in run.bodies_of:
-            if body.name in look.bodies | look.lost:
-                seen.add((body.name, one.k))
-                known.add(body.name)
+        of_look = look.bodies | look.lost
+        known |= of_look
+        seen |= {(name, one.k) for name in of_look}
     return left

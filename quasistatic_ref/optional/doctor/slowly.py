@@ -365,12 +365,13 @@ def _confirmed(
     for one in kept[::-1]:
         if not _sticks(one, sizes):
             at = by_coulomb(step.replace(h=one.T), solvers, one.s, proved=True)
-            if not at.converged:
+            proved = _rung(step, one.T, sizes, at)
+            if proved is None:
                 if lost:
                     break
                 lost = True
                 continue
-            one = Rung(one.T, at.of, at.image, _moves(step, at.of.delta_q, sizes))
+            one = proved
         sure.insert(0, one)
         if len(sure) == 2:
             break

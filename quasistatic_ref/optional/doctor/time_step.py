@@ -8,7 +8,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.tolerances import BEYOND
 from quasistatic_ref.scenario.scenario import Scenario
 
@@ -84,21 +84,15 @@ def time_step_words(record: dict[str, float | None]) -> str:
 
 def _fastest(scenario: Scenario) -> tuple[float, float]:
     """The longest way [m] and the largest turn [rad] that targets take in a step."""
-    placed = [shape for pair in scenario.pairs for shape in (pair.alpha, pair.beta)]
-    if not placed:
-        return 0.0, 0.0
-    links = np.array([shape.link for shape in placed])
-    origins = np.array([shape.t for shape in placed])
+    sides = [side for pair in scenario.pairs for side in (pair.alpha, pair.beta)]
     way = turn = 0.0
     for before, after in _steps(scenario):
-        R = before.R[links]
-        x = _origins(before, links, origins)
-        R_next = after.R[links]
-        x_next = _origins(after, links, origins)
-        chord = np.linalg.norm(R_next - R, axis=(1, 2))  # sqrt(8) sin(angle / 2)
-        angle = 2 * np.arcsin(np.minimum(chord / np.sqrt(8), 1.0))
-        way = max(way, float(np.linalg.norm(x_next - x, axis=1).max()))
-        turn = max(turn, float(angle.max()))
+        for side in sides:
+            link = side.link
+            origin = after.R[link] @ side.t + after.t[link]
+            way = max(way, float(np.linalg.norm(_moved(before, after, link, origin))))
+            chord = float(np.linalg.norm(after.R[link] - before.R[link]))  # sqrt(8) sin(angle / 2)
+            turn = max(turn, 2 * math.asin(min(chord / math.sqrt(8), 1.0)))
     return way, turn
 
 
@@ -151,12 +145,6 @@ def _steps(scenario: Scenario) -> Iterator[tuple[Kinematics, Kinematics]]:
 def _at(scenario: Scenario, t: float) -> Kinematics:
     system = scenario.system
     return system.kinematics(system.with_actuated(system.q_start, scenario.targets(t)))
-
-
-def _origins(kinematics: Kinematics, links: Indices, origins: Array) -> Array:
-    """Origins of shapes on links, shape (n, 3) [m]."""
-    turned = np.einsum("sij,sj->si", kinematics.R[links], origins)
-    return np.asarray(kinematics.t[links] + turned)
 
 
 def _moved(before: Kinematics, after: Kinematics, link: int, x: Array) -> Array:
