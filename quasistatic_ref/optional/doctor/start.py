@@ -246,8 +246,11 @@ def centre(system: System, kinematics: Kinematics, name: str) -> Array:
 
 
 def least_mean(n: Array) -> float:
-    """Nearly the length of the least mean of normals, (n, 3), with weights >= 0 of sum 1 [-]."""
+    """Length m of the least mean of normals, (n, 3), with weights >= 0 of sum 1 [-].
+
+    With weights of sum s the residual's square is s^2 m^2 + (s - 1)^2, at least m^2 / (1 + m^2).
+    """
     from scipy.optimize import nnls  # takes as long as a short run
 
     _, left = nnls(np.vstack([n.T, np.ones(len(n))]), np.array([0.0, 0.0, 0.0, 1.0]))
-    return float(left)
+    return float(left / np.sqrt(1 - left**2)) if left < 1 else np.inf

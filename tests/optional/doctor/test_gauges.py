@@ -5,8 +5,10 @@ import pytest
 
 from quasistatic_ref import Sphere
 from quasistatic_ref.optional.doctor.account import account_of, gauge
+from quasistatic_ref.optional.doctor.start import least_mean
 from tests.model.urdf.urdf_texts import link, robot
 from tests.optional.doctor.words import block, driven, fingers, free, scene, solid
+from tests.tolerances import CLOSED_FORM
 
 MU = np.array([[0.5, 0.5, 0.02]])
 
@@ -83,3 +85,13 @@ def test_a_bar_that_turns_and_slips_is_at_its_whole_limit():
         assert pair.loads.share.max() == pytest.approx(1.0, abs=1e-6)
         assert (pair.loads.torque < 0.9 * 0.02 * pair.loads.normal).all()
         assert pair.spins.any()
+
+
+@pytest.mark.parametrize("fingers", [2, 3, 5])
+def test_a_grip_is_as_open_as_its_normals_have_in_common(fingers):
+    """Normals about the axis z that have 0.3 or 0.6 along it."""
+    angle = 2 * np.pi * np.arange(fingers) / fingers
+    for along in (0.3, 0.6):
+        across = np.sqrt(1 - along**2)
+        n = [across * np.cos(angle), across * np.sin(angle), np.full(fingers, along)]
+        assert abs(least_mean(np.transpose(n)) - along) < CLOSED_FORM
