@@ -107,6 +107,10 @@ KINKS = {
         reason.MANY,
         lambda: free(BOX, (0.06, 0.05, 0.05), PYRAMID_ON_ITS_TIP, k=2),
     ),
+    "faces that overlap in part, of which one point is kept": (
+        reason.MANY,
+        lambda: free(BOX, (0.06, 0.05, 0.05), PYRAMID_ON_ITS_TIP),
+    ),
     "faces that overlap in three corners, which are not all of either": (
         reason.MANY,
         lambda: free(BOX, (0, 0, 0.1), PRISM, k=2),
