@@ -17,10 +17,10 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import compress
-from typing import Final, Protocol, TypeAlias, cast
+from typing import Final, Protocol, TypeAlias
 
 import numpy as np
-from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz_mat
+from flint import arb, arb_mat, fmpq, fmpz_mat
 
 from quasistatic_ref.certify.dependence import combination, implied, null_space
 from quasistatic_ref.certify.form import (
@@ -34,59 +34,15 @@ from quasistatic_ref.certify.form import (
     fraction,
     whole_numbers,
 )
-from quasistatic_ref.certify.near_sets import NearSets
 from quasistatic_ref.certify.rounding import all_nearest, nearest
+from quasistatic_ref.certify.working_set import (
+    NearSets,
+    Solution,
+    ball_solution,
+    fraction_solution,
+)
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.precision import working_precision
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """The solution of H x = g + A_W'y, A_W x + c_W = 0, as numerators and a denominator.
-
-    Parameters
-    ----------
-    z : arb_mat
-        [x; 1] times the denominator, shape (n + 1, 1): balls, or whole numbers.
-    y : list of arb
-        Times the denominator, in the order of W.
-    net : arb_mat
-        A_W'y times the denominator, shape (n, 1).
-    denominator : arb
-        Exact and positive: 1 in balls.
-    """
-
-    z: arb_mat
-    y: list[arb]
-    net: arb_mat
-    denominator: arb
-
-    @property
-    def x(self) -> list[arb]:
-        """Numerators of x."""
-        return self.z.entries()[:-1]
-
-    @cached_property
-    def floats(self) -> tuple[Array, Array]:
-        """Midpoints and radii of the numerators of x, each shape (n,)."""
-        x = self.x
-        return np.array([float(v) for v in x]), np.array([float(v.rad()) for v in x])
-
-    @property
-    def is_wide(self) -> bool:
-        """Whether a radius of x is larger than what float64 tells apart of its largest number."""
-        x, radius = self.floats
-        return not radius.max(initial=0.0) <= UNIT * np.abs(x).max(initial=0.0)
-
-    def in_fractions(self, numerators: Iterable[arb]) -> list[fmpq]:
-        """Some numbers of a solution in fractions."""
-        denominator = fraction(self.denominator)
-        return [fraction(v) / denominator for v in numerators]
-
-    @property
-    def point(self) -> list[fmpq]:
-        """X of a solution in fractions."""
-        return self.in_fractions(self.x)
 
 
 class Line(Protocol):
@@ -147,60 +103,6 @@ NEAR: Final = 1e-9
 
 Numbers: TypeAlias = Callable[[Solution], "list[arb]"]
 """Some numbers of a solution, times its denominator."""
-
-
-def ball_solution(
-    form: ExactForm, working: Sequence[int], near: NearSets | None = None
-) -> Solution:
-    """The solution in balls.
-
-    Parameters
-    ----------
-    form : ExactForm
-    working : sequence of int
-        W.
-    near : NearSets, optional
-        Of a working set that differs by few rows.
-
-    Raises
-    ------
-    ZeroDivisionError
-        If these do not show that the rows are independent.
-    """
-    rows = form.exact_rows(working)
-    A = columns(rows, slice(0, form.n))
-    c = columns(rows, slice(form.n, form.n + 1))
-    with working_precision(PRECISION):
-        right_side = -(A * form.free + c)
-        if near is None:
-            y = (A * (form.H_inverse * A.transpose())).solve(right_side)
-        else:
-            y = arb_mat(len(rows), 1, near.solved(working, right_side.entries()))
-        net = A.transpose() * y
-        x = form.free + form.H_inverse * net
-        z = arb_mat(form.n + 1, 1, [*x.entries(), 1])
-        return Solution(z, y.entries(), net, arb(1))
-
-
-def fraction_solution(form: ExactForm, working: Sequence[int]) -> Solution:
-    """The solution without rounding; ZeroDivisionError if the rows are not independent."""
-    n = form.n
-    k = len(working)
-    rows = form.exact_rows(working)
-    H_g = zip(form.H.tolist(), form.g.entries(), strict=True)
-    with working_precision(EXACT):
-        balance = [[*H_v, *(-a[v] for a in rows), g_v] for v, (H_v, g_v) in enumerate(H_g)]
-        closed = [[*a[:n], *[arb(0)] * k, -a[n]] for a in rows]
-    equations = [whole_numbers(equation) for equation in [*balance, *closed]]
-    K = fmpz_mat(n + k, n + k, [v for equation in equations for v in equation[:-1]])
-    right_side = fmpz_mat(n + k, 1, [equation[-1] for equation in equations])
-    numerators, denominator = cast("fmpq_mat", K.solve(right_side)).numer_denom()  # positive
-    entries = [arb(v) for v in numerators.entries()]
-    x = arb_mat(n, 1, entries[:n])
-    z = arb_mat(n + 1, 1, [*entries[:n], denominator])
-    with working_precision(EXACT):
-        net = form.H * x - form.g * arb(denominator)
-    return Solution(z, entries[n:], net, arb(denominator))
 
 
 class Minimiser:

@@ -60,7 +60,8 @@ class EnergyNorm:
 
     def of_impulses(self, P: Array) -> Array:
         """||H^-1 p||_H of each row p of P, shape (rows, n_v): how far an impulse moves; (rows,)."""
-        return np.array([self.of_impulse(p) for p in P])
+        lengths: Array = np.hypot.reduce(self.inverse @ (P * self.unit).T, axis=0)
+        return lengths
 
 
 def energy_norm(H: Array) -> EnergyNorm:

@@ -23,15 +23,11 @@ from quasistatic_ref.certify.curved_cone import curved_cone
 from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
 from quasistatic_ref.certify.groups import Group, group_steps
-from quasistatic_ref.certify.minimiser import (
-    Minimiser,
-    Solution,
-    fraction_solution,
-    rounded_quotients,
-)
+from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
 from quasistatic_ref.certify.rows import flat_rows, row_owners
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.certify.working_set import Solution, fraction_solution
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.step.data import StepData

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.certify.solution_files import infeasible_text, solution_text
+from quasistatic_ref.certify.working_set import fraction_solution
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.decimals import decimal_string

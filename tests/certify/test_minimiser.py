@@ -13,6 +13,7 @@ from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.form import EXACT, StepForm, exact_matrix
 from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.certify.working_set import NearSets, ball_solution
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
@@ -143,13 +144,16 @@ def test_row_that_differs_in_the_last_bit_is_not_implied():
 
 
 def test_balls_that_hide_x_are_formed_again():
-    """Rows (1, 0) and (1, 2^-150): what the first one says of both loses 300 of 320 bits."""
-    A = np.array([[1.0, 0.0], [1.0, 2.0**-150]])
-    form = exact_form_of(np.eye(2), np.array([-1.0, 1.0]), A, np.array([1.0, 2.0]))
-    minimiser = Minimiser(form, (0,)).on((0, 1))
-    assert minimiser.near_sets.has_near((0, 1))
-    assert not minimiser.balls.is_wide
-    assert minimiser.fractions.point == [1, 2**150]
+    """What rows (1, 0) and (1, 2^-150) say of another set loses 300 of 320 bits."""
+    A = np.array([[1.0, 0.0], [1.0, 2.0**-150], [0.0, 1.0]])
+    form = exact_form_of(np.eye(2), np.array([-1.0, 1.0]), A, np.array([1.0, 2.0, 3.0]))
+    near = NearSets(form, (0, 1))
+    minimiser = Minimiser(form, (1, 2), near)
+    _, radius = ball_solution(form, (1, 2), near).floats
+    _, formed_again = minimiser.balls.floats
+    assert radius.max() > 1e-6
+    assert formed_again.max() < 1e-90
+    assert minimiser.near_sets is not near
 
 
 def test_a_guess_of_sums_takes_memory_by_the_rows_that_come_near():

@@ -17,7 +17,7 @@ from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.dependence import independent_rows
 from quasistatic_ref.certify.form import EXACT, ExactForm, fraction
-from quasistatic_ref.certify.minimiser import Solution, fraction_solution
+from quasistatic_ref.certify.working_set import Solution, fraction_solution
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks, inside, outside_of_cones

@@ -29,7 +29,7 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.certify.form import ExactForm, fraction
-from quasistatic_ref.certify.minimiser import fraction_solution
+from quasistatic_ref.certify.working_set import fraction_solution
 from quasistatic_ref.lab.vectors.exact.rational import UNIT, inverse, largest, rationals
 
 ROUNDINGS = 8

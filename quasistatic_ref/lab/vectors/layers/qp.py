@@ -16,7 +16,7 @@ from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.form import MatrixForm
-from quasistatic_ref.certify.minimiser import fraction_solution
+from quasistatic_ref.certify.working_set import fraction_solution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.scenes.rigid import conic_step, program_step

@@ -6,8 +6,8 @@ import pytest
 from quasistatic_ref.certify.active_set import least_index, most_violated
 from quasistatic_ref.certify.dependence import combination, independent_rows
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.certify.minimiser import Minimiser, ball_solution
-from quasistatic_ref.certify.near_sets import NearSets
+from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.certify.working_set import NearSets, ball_solution
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from tests.oracles.random_steps import any_step, mixed_step
 

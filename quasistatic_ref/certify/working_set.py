@@ -1,0 +1,240 @@
+r"""What x and the multipliers are on a working set: in balls, or without rounding.
+
+On sets that differ by few rows balls share their work. Let G be the inverse of
+:math:`S = A H^{-1} A^T` over the rows of one working set, the base. On another one the rows E have
+entered and the rows D have left. What S y = r comes to there is :math:`y = G r - U t`: a column of
+U for each row of E, :math:`G A H^{-1} a_e^T`, and for each of D its column of G. The few t follow
+from the equations of E and from y_D = 0. So a set costs products with columns, where a solution of
+its own takes the cube of its size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple, cast
+
+import numpy as np
+from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz_mat
+
+from quasistatic_ref.certify.form import (
+    EXACT,
+    PRECISION,
+    UNIT,
+    ExactForm,
+    columns,
+    fraction,
+    whole_numbers,
+)
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.precision import working_precision
+
+FEW = 4
+"""Rows that may enter and leave a base of any size, beside a quarter of its rows."""
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """The solution of H x = g + A_W'y, A_W x + c_W = 0, as numerators and a denominator.
+
+    Parameters
+    ----------
+    z : arb_mat
+        [x; 1] times the denominator, shape (n + 1, 1): balls, or whole numbers.
+    y : list of arb
+        Times the denominator, in the order of W.
+    net : arb_mat
+        A_W'y times the denominator, shape (n, 1).
+    denominator : arb
+        Exact and positive: 1 in balls.
+    """
+
+    z: arb_mat
+    y: list[arb]
+    net: arb_mat
+    denominator: arb
+
+    @property
+    def x(self) -> list[arb]:
+        """Numerators of x."""
+        return self.z.entries()[:-1]
+
+    @cached_property
+    def floats(self) -> tuple[Array, Array]:
+        """Midpoints and radii of the numerators of x, each shape (n,)."""
+        x = self.x
+        return np.array([float(v) for v in x]), np.array([float(v.rad()) for v in x])
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether a radius of x is larger than what float64 tells apart of its largest number."""
+        x, radius = self.floats
+        return not radius.max(initial=0.0) <= UNIT * np.abs(x).max(initial=0.0)
+
+    def in_fractions(self, numerators: Iterable[arb]) -> list[fmpq]:
+        """Some numbers of a solution in fractions."""
+        denominator = fraction(self.denominator)
+        return [fraction(v) / denominator for v in numerators]
+
+    @property
+    def point(self) -> list[fmpq]:
+        """X of a solution in fractions."""
+        return self.in_fractions(self.x)
+
+
+class Pull(NamedTuple):
+    """What a row does to a base.
+
+    Parameters
+    ----------
+    a, moved : arb_mat
+        The row, shape (1, n), and H^-1 a', shape (n, 1).
+    loads, changes : list of arb
+        A H^-1 a' and G A H^-1 a' of the rows A of the base.
+    """
+
+    a: arb_mat
+    moved: arb_mat
+    loads: list[arb]
+    changes: list[arb]
+
+
+class NearSets:
+    """Solves for the multipliers on a base and on working sets near it.
+
+    Parameters
+    ----------
+    form : ExactForm
+    base : sequence of int
+        Independent rows.
+
+    Raises
+    ------
+    ZeroDivisionError
+        If balls do not show that they are independent.
+    """
+
+    def __init__(self, form: ExactForm, base: Sequence[int]) -> None:
+        self.form = form
+        self._place = {i: place for place, i in enumerate(base)}
+        self._A = columns(form.exact_rows(base), slice(0, form.n))
+        with working_precision(PRECISION):
+            self._G = (self._A * (form.H_inverse * self._A.transpose())).inv()
+        self._G_rows = self._G.tolist()
+        self._pulls: dict[int, Pull] = {}
+
+    def has_near(self, working: Sequence[int]) -> bool:
+        """Whether a working set differs by few rows."""
+        return len({*working} ^ {*self._place}) <= FEW + len(self._place) // 4
+
+    def pull(self, i: int) -> Pull:
+        """What a row does to the base."""
+        if i not in self._pulls:
+            a = columns(self.form.exact_rows([i]), slice(0, self.form.n))
+            with working_precision(PRECISION):
+                moved = self.form.H_inverse * a.transpose()
+                loads = self._A * moved
+                self._pulls[i] = Pull(a, moved, loads.entries(), (self._G * loads).entries())
+        return self._pulls[i]
+
+    def loads(self, working: Sequence[int], p: int) -> list[arb]:
+        """A_W H^-1 a_p'."""
+        pull = self.pull(p)
+        place = self._place
+        with working_precision(PRECISION):
+            return [
+                pull.loads[place[i]] if i in place else self._between(i, [p])[0] for i in working
+            ]
+
+    def solved(self, working: Sequence[int], right_side: Sequence[arb]) -> list[arb]:
+        """The y of A_W H^-1 A_W' y = r.
+
+        Raises
+        ------
+        ZeroDivisionError
+            If balls do not show that the rows of W are independent.
+        """
+        right = dict(zip(working, right_side, strict=True))
+        place = self._place
+        entered = [i for i in working if i not in place]
+        left = [j for i, j in place.items() if i not in right]
+        y = arb_mat(len(place), 1, [right.get(i, 0) for i in place])
+        t: list[arb] = []
+        with working_precision(PRECISION):
+            y = self._G * y
+            if entered or left:
+                changes = [self._G_rows[j] for j in left] + [self.pull(i).changes for i in entered]
+                U = arb_mat(changes).transpose()
+                loads = [self._unit(j) for j in left] + [self.pull(i).loads for i in entered]
+                equations = arb_mat(loads)
+                r = [arb(0)] * len(left) + [right[i] for i in entered]
+                own = [[arb(0)] * len(left) + self._between(i, entered) for i in entered]
+                C = arb_mat([[arb(0)] * len(r)] * len(left) + own)
+                few = (C - equations * U).solve(arb_mat(len(r), 1, r) - equations * y)
+                y -= U * few
+                t = few.entries()[len(left) :]
+        found = dict(zip((*place, *entered), (*y.entries(), *t), strict=True))
+        return [found[i] for i in working]
+
+    def _unit(self, j: int) -> list[arb]:
+        return [arb(int(j == k)) for k in range(len(self._place))]
+
+    def _between(self, i: int, rows: Sequence[int]) -> list[arb]:
+        """The a_i H^-1 a' of some rows."""
+        a = self.pull(i).a
+        return [(a * self.pull(other).moved)[0, 0] for other in rows]
+
+
+def ball_solution(
+    form: ExactForm, working: Sequence[int], near: NearSets | None = None
+) -> Solution:
+    """The solution in balls.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+        W.
+    near : NearSets, optional
+        Of a working set that differs by few rows.
+
+    Raises
+    ------
+    ZeroDivisionError
+        If these do not show that the rows are independent.
+    """
+    rows = form.exact_rows(working)
+    A = columns(rows, slice(0, form.n))
+    c = columns(rows, slice(form.n, form.n + 1))
+    with working_precision(PRECISION):
+        right_side = -(A * form.free + c)
+        if near is None:
+            y = (A * (form.H_inverse * A.transpose())).solve(right_side)
+        else:
+            y = arb_mat(len(rows), 1, near.solved(working, right_side.entries()))
+        net = A.transpose() * y
+        x = form.free + form.H_inverse * net
+        z = arb_mat(form.n + 1, 1, [*x.entries(), 1])
+        return Solution(z, y.entries(), net, arb(1))
+
+
+def fraction_solution(form: ExactForm, working: Sequence[int]) -> Solution:
+    """The solution without rounding; ZeroDivisionError if the rows are not independent."""
+    n = form.n
+    k = len(working)
+    rows = form.exact_rows(working)
+    H_g = zip(form.H.tolist(), form.g.entries(), strict=True)
+    with working_precision(EXACT):
+        balance = [[*H_v, *(-a[v] for a in rows), g_v] for v, (H_v, g_v) in enumerate(H_g)]
+        closed = [[*a[:n], *[arb(0)] * k, -a[n]] for a in rows]
+    equations = [whole_numbers(equation) for equation in [*balance, *closed]]
+    K = fmpz_mat(n + k, n + k, [v for equation in equations for v in equation[:-1]])
+    right_side = fmpz_mat(n + k, 1, [equation[-1] for equation in equations])
+    numerators, denominator = cast("fmpq_mat", K.solve(right_side)).numer_denom()  # positive
+    entries = [arb(v) for v in numerators.entries()]
+    x = arb_mat(n, 1, entries[:n])
+    z = arb_mat(n + 1, 1, [*entries[:n], denominator])
+    with working_precision(EXACT):
+        net = form.H * x - form.g * arb(denominator)
+    return Solution(z, entries[n:], net, arb(denominator))
