@@ -78,7 +78,7 @@ def energy_norm(H: Array) -> EnergyNorm:
 
 @lru_cache(maxsize=64)
 def _energy_norm(entries: bytes, n: int) -> EnergyNorm:
-    """The norm, which is kept, since most steps of a run have the same H."""
+    """The norm, kept for as many groups: most steps of a run have the same H in each."""
     H = np.frombuffer(entries).reshape(n, n)
     unit = 1 / np.sqrt(np.diag(H))
     try:

@@ -217,7 +217,8 @@ def layer(run: Run) -> Iterator[Finding]:
     does += f"{there}{best.parts()}"
     if best.stops:
         does = best.says("by Coulomb's law")
-    normal, slip = float(best.there.forces[0]), float(best.there.moves[0])
+    normal = float(best.there.forces[0])
+    slip = float(best.there.moves[0])
     yield Finding(
         "boundary layer",
         False,
@@ -330,7 +331,8 @@ def _changes(every: Statics, look: Look, one: str, other: str) -> Iterator[Chang
         first = one == RUN and run.steps > 1  # of a run, which starts as it likes
         if (first and not k) or (k and not run.presses[k - 1, of_pair].any()):
             continue  # it comes to press in this step
-        here, there = by[one], by[other]
+        here = by[one]
+        there = by[other]
         force = max(here.forces[:TORQUE].max(), there.forces[:TORQUE].max())
         if near and force <= COUNTS * min(run.load(body, k) for body in near):
             continue  # it hardly bears them, as where they are being put down or lifted
@@ -365,7 +367,8 @@ def _parts(
     drags = float(coulomb.forces[what] - by[SLOW].forces[what])
     slowly = abs(by.get(MODEL, by[RUN]).forces[what] - by[SLOW].forces[what])
     if MODEL in by and abs(layers) > max(COUNTS * size, slowly / COUNTS):
-        drags, layers = drags + layers, 0.0
+        drags += layers
+        layers = 0.0
     sticks = stops and bool(coulomb.moves.max() <= COUNTS * by[RUN].moves.max())
     of_drag = abs(drags) > COUNTS * size or (stops and not sticks)
     return of_drag, abs(layers) > COUNTS * size or sticks, drags, layers

@@ -119,3 +119,16 @@ def test_a_joint_at_a_limit_of_its_table_is_not_short_of_its_target(limits):
     run = scene({"finger": finger | {"joint_limits": {"z": limits}}}, {}, 10).run(progress=False)
     assert run.q[-1] == limits[0]
     assert "far from target" not in [one.name for one in run.findings]
+
+
+def test_an_angle_of_a_planar_base_is_no_length():
+    """A torque of 0.5 N m turns a spring of 1 N m/rad by 0.5 rad; x ends at its target."""
+    plate = qr.Body.of_shape("p", qr.Box((0.1, 0.1, 0.01)), 0.1, base="planar", actuated=["base"])
+    way = [(0.0, 0.0), (0.5, 0.05), (0.8, 0.05)]
+    targets = [{"t": t, "base": {"xyz": [x, 0, 0]}} for t, x in way]
+    torque = [{"t": 0.0, "force": [0, 0, 0], "torque": [0, 0, 0.5]}]
+    body = {"urdf": plate, "K_q": {"base": [1e3, 1e3, 1.0]}, "targets": targets, "wrenches": torque}
+    scene = {"h": 0.02, "steps": 45, "fast": True, "bodies": {"p": body}, "contacts": {}}
+    run = qr.load_scenario(scene).run(progress=False)
+    assert run["q"][-1] == pytest.approx([0.05, 0.0, np.cos(0.5), np.sin(0.5)])
+    assert run.findings == ()
