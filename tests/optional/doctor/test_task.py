@@ -121,6 +121,35 @@ def test_a_joint_at_a_limit_of_its_table_is_not_short_of_its_target(limits):
     assert "far from target" not in [one.name for one in run.findings]
 
 
+@pytest.mark.parametrize("load", [0.0, 1.0])
+def test_forces_on_a_base_that_cancel_do_not_stop_it(load):
+    """A finger in front stops it 50 mm short. With one behind, which presses as much, a load does.
+
+    The fingers press with 2.5 N each; the load is that of the base's spring at 50 mm.
+    """
+    tip = collision('<box size="0.02 0.02 0.02"/>')
+    hand = robot(
+        link("hand", inertial=""),
+        link("l", tip, inertial=""),
+        link("r", tip, inertial=""),
+        joint("left", "hand", "l", "0 -1 0", "prismatic", (0, 0.05, 0)),
+        joint("right", "hand", "r", "0 1 0", "prismatic", (0, -0.05, 0)),
+    )
+    rest = {"t": 0.0, "left": 0.0, "right": 0.0}
+    closed = {"t": 0.5, "left": 0.015, "right": 0.015 * load}
+    box = qr.Body.of_shape("b", qr.Box((0.03, 0.03, 0.03)), 0.1, actuated=["base"])
+    way = [{"t": t, "base": {"xyz": [0, y, 0]}} for t, y in [(0, 0), (0.5, 0.05), (0.8, 0.05)]]
+    loads = [{"t": t, "force": [0, f, 0]} for t, f in [(0, 0), (0.5, -load)]]
+    body = {"urdf": box, "K_q": {"base": [20.0] * 6}, "targets": way, "wrenches": loads}
+    gripper = driven(hand, (0, 0, 0), {"left": 500.0, "right": 500.0}, [rest, closed])
+    grip = (["gripper/l", "gripper/r"], "b", 0.5, 4)
+    made = scene({"gripper": gripper, "b": body}, {"grip": grip}, 45, h=0.02, fast=True)
+    found = made.run(progress=False).findings
+    said = [one for one in found if one.name == "far from target"]
+    assert [one.remedy for one in said] == ["raise K_q of b/base to 200 or more"] * (load > 0)
+    assert all(one.numbers["error_m"] == pytest.approx(0.05, rel=1e-6) for one in said)
+
+
 def test_an_angle_of_a_planar_base_is_no_length():
     """A torque of 0.5 N m turns a spring of 1 N m/rad by 0.5 rad; x ends at its target."""
     plate = qr.Body.of_shape("p", qr.Box((0.1, 0.1, 0.01)), 0.1, base="planar", actuated=["base"])
