@@ -65,23 +65,17 @@ def by_one_thread(system: StepSystem) -> Iterator[None]:
         system.lock.release()
 
 
-class Stopwatch:
-    """Wall time between laps, by name."""
+def stopwatch(times: dict[str, float]) -> Callable[[str], None]:
+    """What writes the wall time [s] since its last call, or its making, into `times` by a name."""
+    last = time.perf_counter()
 
-    def __init__(self) -> None:
-        self.seconds: dict[str, float] = {}
-        self._last = time.perf_counter()
-
-    def __call__(self, name: str) -> None:
-        """Record the lap that ends under a name."""
+    def lap(name: str) -> None:
+        nonlocal last
         now = time.perf_counter()
-        self.seconds[name] = now - self._last
-        self._last = now
+        times[name] = now - last
+        last = now
 
-    def separate(self, part: str, seconds: float, name: str) -> None:
-        """Record a part of a lap, of so many `seconds` [s], apart from it."""
-        self.seconds[name] -= seconds
-        self.seconds[part] = seconds
+    return lap
 
 
 def _remade(kind: type[Simulator], settings: dict[str, Any]) -> Simulator:
@@ -259,7 +253,8 @@ class Simulator(Settings, Shown):
             starts or ends beyond the limits.
         """
         with by_one_thread(self.system):
-            lap = Stopwatch()
+            times: dict[str, float] = {}
+            lap = stopwatch(times)
             kinematics = self.system.kinematics(q)
             here = np.asarray(q, np.float64)
             points = self.closest_points(kinematics)
@@ -273,12 +268,13 @@ class Simulator(Settings, Shown):
             # solved. Without an extension it is the same.
             step = solution.step
             lap("solve")
-            lap.separate("proof", solution.statistics.proof_time, "solve")
+            times["proof"] = solution.statistics.proof_time
+            times["solve"] -= times["proof"]
             delta_q = solution.delta_q[: self.system.n_v]
             q_next = self.system.integrate(here, delta_q)  # q (+) delta_q
             self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
             lap("integrate")
-            return StepResult(q_next, step, solution, points, lap.seconds, here, self)
+            return StepResult(q_next, step, solution, points, times, here, self)
 
     def start_cold(self) -> None:
         """Forget what is kept of earlier steps, if answers depend on it."""
