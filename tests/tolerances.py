@@ -81,4 +81,4 @@ conditioning of the contacts; a mistake of the geometry is a tenth."""
 
 QUASI_STATIC = 5.0
 """Times the quasi-dynamic number: how far a slow push may be from Lynch's motion, relative to it.
-(R28) has the distance as Pi (rho^2 / c^2 - 1) and more, of which the factor is below 5 here."""
+(R28) has the distance as Pi (rho^2 / chi^2 - 1) and more, of which the factor is below 5 here."""

@@ -13,25 +13,25 @@ from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 
-M, GRAVITY, MU_V, C = 0.5, 9.81, 0.4, 0.03  # kg, m/s^2, -, m: C is mu_omega / mu_v
-RHO = C  # radius of gyration [m]: then drag does not turn the twist
+M, GRAVITY, MU_V, CHI = 0.5, 9.81, 0.4, 0.03  # kg, m/s^2, -, m: CHI is mu_omega / mu_v
+RHO = CHI  # radius of gyration [m]: then drag does not turn the twist
 LIMIT = MU_V * M * GRAVITY  # N
 ANGLES = np.radians([0, 20, 40, 60, 80, 90])
 """Of the load, between a pure force and a pure torque, in units of the half axes."""
 
 
 def main() -> tuple[np.ndarray, np.ndarray]:
-    """Loads (f_1, tau / C) on the surface [N], and twists (s_1, C omega) [m], (angles, 2) each."""
+    """Loads (f_1, tau / CHI) on the surface [N], twists (s_1, CHI omega) [m], (angles, 2) each."""
     loads = LIMIT * np.column_stack([np.cos(ANGLES), np.sin(ANGLES)])
     twists = []
     for force, torque in 1.05 * loads:
-        wrench = (force, 0.0, -M * GRAVITY, 0.0, 0.0, C * torque)
+        wrench = (force, 0.0, -M * GRAVITY, 0.0, 0.0, CHI * torque)
         step = rigid_step(
             M, M * RHO**2, wrench, [[0.0, 0.0, 0.0]], [np.eye(3)],
-            mu_v=MU_V, mu_omega=MU_V * C, rows=6,
+            mu_v=MU_V, mu_omega=MU_V * CHI, rows=6,
         ).replace(cone="ellipsoid")  # fmt: skip
         delta_q = solve_step(step).delta_q
-        twists.append([delta_q[0], C * delta_q[5]])
+        twists.append([delta_q[0], CHI * delta_q[5]])
     return loads, np.array(twists)
 
 
@@ -40,16 +40,16 @@ def figure() -> Figure:
     page, (axes,) = panels(5.6, 3.8)
     turn = np.linspace(0, np.pi / 2, 100)
     axes.plot(
-        LIMIT * np.cos(turn), LIMIT * C * 1e3 * np.sin(turn), color="0.6", linewidth=scaled(3)
+        LIMIT * np.cos(turn), LIMIT * CHI * 1e3 * np.sin(turn), color="0.6", linewidth=scaled(3)
     )
-    axes.fill_between(LIMIT * np.cos(turn), LIMIT * C * 1e3 * np.sin(turn), color="0.93")
+    axes.fill_between(LIMIT * np.cos(turn), LIMIT * CHI * 1e3 * np.sin(turn), color="0.93")
     loads, twists = main()
     for (force, torque), (slip, spin) in zip(loads, twists, strict=True):
-        # The normal of f_1^2 + (tau / C)^2 = LIMIT^2 is (f_1, tau / C^2): s_1 : omega (R28).
+        # The normal of f_1^2 + (tau / CHI)^2 = LIMIT^2 is (f_1, tau / CHI^2): s_1 : omega (R28).
         assert abs(slip * torque - spin * force) < 1e-6 * np.hypot(slip, spin) * LIMIT
         length = 0.5 / np.hypot(slip, spin)
-        start = np.array([force, 1e3 * C * torque])
-        tip = start + length * np.array([slip, 1e3 * C * spin])
+        start = np.array([force, 1e3 * CHI * torque])
+        tip = start + length * np.array([slip, 1e3 * CHI * spin])
         look = {"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0, "color": "#D55E00"}
         axes.annotate("", tip, start, arrowprops=look | {"linewidth": scaled(1.8)})
         axes.plot(*start, "o", color="#0072B2", markersize=scaled(5))

@@ -1,9 +1,9 @@
 """M_u and tau_u of a free body by hand: its centre of mass is not where its origin is.
 
-A body's twist is the motion of its origin. The centre of mass, at c in its frame, moves by
-v + omega x c, so that the kinetic energy couples v and omega, and the weight has the torque c x m g
-about the origin. Together they make a body fall without turning; without the coupling it would
-turn, (R3).
+A body's twist is the motion of its origin. The centre of mass, at r_m in its frame, moves by
+v + omega x r_m, so that the kinetic energy couples v and omega, and the weight has the torque
+r_m x m g about the origin. Together they make a body fall without turning; without the coupling it
+would turn, (R3).
 """
 
 import numpy as np
@@ -37,20 +37,20 @@ def rod(length: float = LENGTH, tilt: float = TILT) -> tuple[System, Array, Arra
         The system and q; centre of mass in the rod's frame [m], inertia about it [kg m^2].
     """
     inertia = M * length**2 / 12 * np.array([1e-3, 1, 1])
-    c = np.array([length / 2, 0, 0])
-    system = system_of({"rod": body_text(M, inertia, com=c)})
+    r_m = np.array([length / 2, 0, 0])
+    system = system_of({"rod": body_text(M, inertia, com=r_m)})
     q = system.integrate(system.q_start, np.radians(tilt) * np.eye(6)[4])
-    return system, q, c, np.diag(inertia)
+    return system, q, r_m, np.diag(inertia)
 
 
-def mass_matrix(m: float, c: Array, inertia: Array) -> Array:
-    """M_u by hand, of the kinetic energy m |v + omega x c|^2 / 2 + omega' I omega / 2.
+def mass_matrix(m: float, r_m: Array, inertia: Array) -> Array:
+    """M_u by hand, of the kinetic energy m |v + omega x r_m|^2 / 2 + omega' I omega / 2.
 
     Parameters
     ----------
     m : float
         [kg].
-    c : ndarray, shape (3,)
+    r_m : ndarray, shape (3,)
         Centre of mass in the body's frame [m].
     inertia : ndarray, shape (3, 3)
         About the centre of mass [kg m^2].
@@ -60,24 +60,24 @@ def mass_matrix(m: float, c: Array, inertia: Array) -> Array:
     ndarray, shape (6, 6)
         [kg, kg m, kg m^2].
     """
-    C = -cross_matrix(c)  # omega x c = C omega
+    C = -cross_matrix(r_m)  # omega x r_m = C omega
     return np.block([[m * np.eye(3), m * C], [m * C.T, inertia + m * C.T @ C]])
 
 
-def weight(m: float, c: Array, R: Array) -> Array:
+def weight(m: float, r_m: Array, R: Array) -> Array:
     """tau_u by hand: the weight along the body's axes, and its torque about the origin, shape (6,).
 
     Parameters
     ----------
     m : float
         [kg].
-    c : ndarray, shape (3,)
+    r_m : ndarray, shape (3,)
         [m].
     R : ndarray, shape (3, 3)
         Orientation.
     """
     force = R.T @ [0, 0, -m * GRAVITY]
-    return np.concatenate([force, np.cross(c, force)])
+    return np.concatenate([force, np.cross(r_m, force)])
 
 
 def falls(length: float, tilt: float, h: float, coupled: bool, steps: int = STEPS) -> list[Array]:
@@ -91,8 +91,8 @@ def falls(length: float, tilt: float, h: float, coupled: bool, steps: int = STEP
         Whether M_u has its blocks m C.
     steps : int
     """
-    system, q, c, inertia = rod(length, tilt)
-    M_u = mass_matrix(M, c, inertia)
+    system, q, r_m, inertia = rod(length, tilt)
+    M_u = mass_matrix(M, r_m, inertia)
     if not coupled:
         M_u[:3, 3:] = M_u[3:, :3] = 0.0
     link = system.link("rod")
@@ -101,8 +101,8 @@ def falls(length: float, tilt: float, h: float, coupled: bool, steps: int = STEP
         at = system.kinematics(q)
         R = at.R[link]
         t = at.t[link]
-        ends.append(np.array([t, t + R @ (2 * c)]))
-        free = np.linalg.solve(M_u, weight(M, c, R))
+        ends.append(np.array([t, t + R @ (2 * r_m)]))
+        free = np.linalg.solve(M_u, weight(M, r_m, R))
         q = system.integrate(q, np.asarray(h**2 * free, dtype=np.float64))
     return ends
 
@@ -116,9 +116,9 @@ def figure(*, length: float = LENGTH, tilt: float = TILT, h: float = H) -> Figur
         Of the rod [m]; of its start [deg]; [s].
     """
     page, (left, right) = panels(6.3, 3.2, columns=2)
-    system, q, c, _ = rod(length, tilt)
+    system, q, r_m, _ = rod(length, tilt)
     R = system.kinematics(q).R[system.link("rod")]
-    ends = 1e3 * np.array([np.zeros(3), R @ (2 * c)])
+    ends = 1e3 * np.array([np.zeros(3), R @ (2 * r_m)])
     middle = ends.mean(axis=0)
     scale = 1e3 * length / 4
     left.plot(ends[:, 0], ends[:, 2], color="0.8", linestyle="-", linewidth=scaled(7))
@@ -127,7 +127,7 @@ def figure(*, length: float = LENGTH, tilt: float = TILT, h: float = H) -> Figur
                   label=f"body's {'x' if pattern == '--' else 'z'}")  # fmt: skip
     left.plot(middle[0] * np.ones(2), middle[2] - [0, 1.4 * scale], color="#D55E00", linestyle="-",
               label=r"weight $m g$")  # fmt: skip
-    left.plot(*middle[[0, 2]], "ko", markersize=scaled(5), label="centre of mass, at c")
+    left.plot(*middle[[0, 2]], "ko", markersize=scaled(5), label="centre of mass")
     left.plot(0, 0, "ks", markerfacecolor="white", markersize=scaled(5), label="origin")
     left.set(aspect="equal", xlim=(-0.3 * 1e3 * length, 1.1 * 1e3 * length))
     label_axes(left, "x [mm]", "z [mm]")

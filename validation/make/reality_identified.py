@@ -17,7 +17,7 @@ OUT = RESULTS / "reality_identified.json"
 def interval(loads: Loads, ratio: float, rho: float) -> tuple[float, float]:
     """The ends of the interval of a ratio [m], on a grid of steps of a third of a per cent."""
     grid = ratio * np.geomspace(0.5, 2.0, 401)
-    table = np.array([cosines(loads, c, rho) for c in grid])
+    table = np.array([cosines(loads, chi, rho) for chi in grid])
 
     def best(rows: Array) -> float:
         return float(grid[table[:, rows].sum(axis=1).argmax()])

@@ -1,11 +1,11 @@
 r"""mu_omega / mu_v of a support, from measured loads and the motions that they caused.
 
 In the ellipsoid a slider moves along the normal of its limit surface (R28): its twist (v, omega)
-lies along (f, tau / c^2) for the load (f, tau) of the pusher, with c = mu_omega / mu_v. Directions
-of twists are compared as unit vectors of (v, rho omega), rho being the radius of gyration of the
-outline. If measured directions scatter about the predicted ones as a von Mises-Fisher distribution,
-whose concentration does not depend on c, the likelihood is largest where the mean cosine of the
-angle between them is.
+lies along (f, tau / chi^2) for the load (f, tau) of the pusher, with chi = mu_omega / mu_v.
+Directions of twists are compared as unit vectors of (v, rho omega), rho being the radius of
+gyration of the outline. If measured directions scatter about the predicted ones as a von
+Mises-Fisher distribution, whose concentration does not depend on chi, the likelihood is largest
+where the mean cosine of the angle between them is.
 """
 
 import numpy as np
@@ -29,26 +29,26 @@ def identified_ratio(loads: Loads, rho: float) -> float:
         Radius of gyration of the outline, by which turns are compared with displacements [m].
     """
 
-    def loss(c: float) -> float:
-        return float((1 - cosines(loads, c, rho)).mean())
+    def loss(chi: float) -> float:
+        return float((1 - cosines(loads, chi, rho)).mean())
 
-    k = int(np.argmin([loss(c) for c in GRID]))
+    k = int(np.argmin([loss(chi) for chi in GRID]))
     ends = np.log([GRID[max(k - 1, 0)], GRID[min(k + 1, len(GRID) - 1)]])
     least = minimize_scalar(lambda x: loss(float(np.exp(x))), bounds=tuple(ends), method="bounded",
                             options={"xatol": 1e-9})  # fmt: skip
     return float(np.exp(least.x))
 
 
-def cosines(loads: Loads, c: float, rho: float) -> Array:
+def cosines(loads: Loads, chi: float, rho: float) -> Array:
     """Of the angle between each measured twist and that predicted from its load, shape (n,).
 
     Parameters
     ----------
     loads : Loads
-    c, rho : float
+    chi, rho : float
         mu_omega / mu_v, and the length by which turns are scaled [m].
     """
-    predicted = loads.wrench * [1, 1, rho / c**2]
+    predicted = loads.wrench * [1, 1, rho / chi**2]
     measured = loads.twist * [1, 1, rho]
     cosine: Array = np.einsum("ij,ij->i", units(predicted), units(measured))
     return cosine

@@ -85,24 +85,31 @@ def rotated(x: Array, angle: float) -> Array:
     return result
 
 
-def sticking_motion(point: Array, advance: Array, c2: float) -> Array:
+def sticking_motion(point: Array, advance: Array, chi2: float) -> Array:
     """Motion (3,) of a slider whose touched point (2,) [m] is moved by `advance` (2,) [m].
 
-    It is Lynch's, if c2 is (mu_omega / mu_v)^2.
+    It is Lynch's, if chi2 is (mu_omega / mu_v)^2.
     """
-    velocity: Array = (c2 * advance + point * (point @ advance)) / (c2 + point @ point)
-    return np.append(velocity, turned(point) @ velocity / c2)
+    velocity: Array = (chi2 * advance + point * (point @ advance)) / (chi2 + point @ point)
+    return np.append(velocity, turned(point) @ velocity / chi2)
 
 
-def sliding_motion(point: Array, normal: Array, c2: float) -> Array:
+def sliding_motion(point: Array, normal: Array, chi2: float) -> Array:
     """Motion (3,) of a slider whose touched point (2,) [m] advances by 1 [m], without friction."""
     arm = turned(point) @ normal
-    motion: Array = np.append(normal, arm / c2) / (1 + arm**2 / c2)
+    motion: Array = np.append(normal, arm / chi2) / (1 + arm**2 / chi2)
     return motion
 
 
 def push(
-    point: Array, direction: Array, *, mu_v: float, c: float, Pi: float, lifted: float, sticks: bool
+    point: Array,
+    direction: Array,
+    *,
+    mu_v: float,
+    chi: float,
+    Pi: float,
+    lifted: float,
+    sticks: bool,
 ) -> Push:
     """A push along a direction at a quasi-dynamic number; the size of its motion follows.
 
@@ -110,8 +117,8 @@ def push(
     ----------
     point, direction : ndarray, shape (2,)
         Where it touches [m], and which way it goes [-].
-    mu_v, c : float
-        c = mu_omega / mu_v [m].
+    mu_v, chi : float
+        chi = mu_omega / mu_v [m].
     Pi : float
         M / h^2 over N mu_v^2 / s, the gap after the step being s [-].
     lifted : float
@@ -119,20 +126,20 @@ def push(
     sticks : bool
         Whether the pusher does, or is without friction.
     """
-    c2 = (c**2 + Pi * GYRATION**2) / (1 + Pi)
+    chi2 = (chi**2 + Pi * GYRATION**2) / (1 + Pi)
     if sticks:
-        motion = sticking_motion(point, direction, c2)
+        motion = sticking_motion(point, direction, chi2)
         normal = rotated(motion[:2] / np.linalg.norm(motion[:2]), TILT)
     else:
-        motion = sliding_motion(point, direction, c2)
+        motion = sliding_motion(point, direction, chi2)
         normal = direction
     s = Pi * mu_v**2 * GRAVITY * H**2 / (1 - Pi * mu_v**2 * (1 - lifted))
-    motion = motion * s / (mu_v * np.linalg.norm(motion * [1, 1, c]))
+    motion = motion * s / (mu_v * np.linalg.norm(motion * [1, 1, chi]))
     rise = (1 - lifted) * s
     load = M * GRAVITY + M * rise / H**2
     force = (M / H**2 + load * mu_v**2 / s) * motion[:2]
     return Push(
-        point, normal, MU_PUSHER if sticks else 0.0, mu_v, mu_v * c, lifted * s,
+        point, normal, MU_PUSHER if sticks else 0.0, mu_v, mu_v * chi, lifted * s,
         motion, rise, load, force,
     )  # fmt: skip
 
@@ -162,13 +169,13 @@ def push_step(of: Push) -> StepData:
     )  # fmt: skip
 
 
-def turns(c: float) -> list[float]:
-    """Turn over that of Lynch's relation, c^2 omega = x_c v_y - y_c v_x, at each speed."""
+def turns(chi: float) -> list[float]:
+    """Turn over that of Lynch's relation, chi^2 omega = r x v, at each speed."""
     point = np.array([0.03, 0.02])
     direction = np.array([0.0, 1.0])
     ratios = []
     for Pi in SPEEDS:
-        of = push(point, direction, mu_v=0.4, c=c, Pi=Pi, lifted=1.0, sticks=True)
+        of = push(point, direction, mu_v=0.4, chi=chi, Pi=Pi, lifted=1.0, sticks=True)
         motion = exact(push_step(of)).delta_q[2:]
-        ratios.append(c**2 * motion[3] / (turned(point) @ motion[:2]))
+        ratios.append(chi**2 * motion[3] / (turned(point) @ motion[:2]))
     return ratios

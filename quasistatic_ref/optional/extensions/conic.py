@@ -26,6 +26,7 @@ class ConicProgram:
     P : ndarray, shape (n, n)
         Symmetric.
     c : ndarray, shape (n,)
+        The linear part of the objective [that of the program].
     A : ndarray, shape (m, n)
     b : ndarray, shape (m,)
     zero, nonnegative : int

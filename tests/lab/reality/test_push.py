@@ -32,11 +32,11 @@ def test_a_slow_step_moves_a_slider_as_lynch_says(mu_finger):
     found = solve_step(scene.step(BELOW, body, BELOW + 1e-4 * UP))
     point = np.array([0.015, -0.04])
     way = found.delta_q[:2]
-    c2 = RATIO**2
+    chi2 = RATIO**2
     if mu_finger == 0.0:
-        law = sliding_motion(point, UP, c2) * way[1]
+        law = sliding_motion(point, UP, chi2) * way[1]
     else:
-        law = sticking_motion(point, way, c2)
+        law = sticking_motion(point, way, chi2)
     off = np.linalg.norm((found.delta_q[[2, 3, 5]] - law) * [1, 1, RATIO]) / way[1]
     assert off < QUASI_STATIC * scene.by.quasi_dynamic_number
     assert found.certificate.kind == "enclosure"

@@ -17,7 +17,7 @@ from tests.tolerances import ROUNDING
 def planar_push():
     arm = np.array([-0.03, 0.02])
     way = np.array([1.0, 0.0])
-    return push_step(push(arm, way, mu_v=0.4, c=0.03, Pi=0.05, lifted=1.0, sticks=True))
+    return push_step(push(arm, way, mu_v=0.4, chi=0.03, Pi=0.05, lifted=1.0, sticks=True))
 
 
 def enclosure_from_clarabel(step):

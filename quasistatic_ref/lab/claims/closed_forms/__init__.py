@@ -9,7 +9,9 @@ Letters, of one body and one number at a time:
 | `R` | - | rotation matrix (3, 3), from a body's frame to the world's |
 | `r` | m | arm (3,) from a body's origin to a point; radius |
 | `l`, `d`, `depth`, `width`, `offset` | m | lengths |
-| `c`, `c2` | m, m^2 | height of the centre of mass; clearance; or mu_omega / mu_v. Its square |
+| `z` | m | height of the centre of mass |
+| `phi` | m | gap |
+| `chi`, `chi2` | m, m^2 | mu_omega / mu_v; its square |
 | `K` | N/m | stiffness of one coordinate |
 | `mass`, `inertia` | kg, kg m^2 | of a body |
 | `N`, `grip`, `F`, `fx`, `fy` | N | normal force; of a finger; tangential forces |

@@ -25,13 +25,13 @@ L, WIDTH = 0.06, 0.05
 STEPS = 8
 
 
-def block_steps(slope: float, mu_v: float, c: float, steps: int) -> list[StepResult]:
-    """A block with its centre of mass c above the middle of its base, at rest on a slope."""
-    inertia = (M / 3 * (WIDTH**2 + c**2), M / 3 * (L**2 + c**2), M / 3 * (L**2 + WIDTH**2))
+def block_steps(slope: float, mu_v: float, z: float, steps: int) -> list[StepResult]:
+    """A block with its centre of mass z above the middle of its base, at rest on a slope."""
+    inertia = (M / 3 * (WIDTH**2 + z**2), M / 3 * (L**2 + z**2), M / 3 * (L**2 + WIDTH**2))
     normal = np.array([np.sin(slope), 0.0, np.cos(slope)])
-    start = {"rpy": (0.0, slope, 0.0), "xyz": tuple(c * normal)}
+    start = {"rpy": (0.0, slope, 0.0), "xyz": tuple(z * normal)}
     system = system_of({"block": body_text(M, inertia)}, block=start)
-    corners = cloud_on(system, "block", grid([-L, L], [-WIDTH, WIDTH], [-c]))
+    corners = cloud_on(system, "block", grid([-L, L], [-WIDTH, WIDTH], [-z]))
     pair = ContactPair("base", world_plane(normal), corners, mu_v, 0.0, 4, 4)
     return steps_of(simulator_of(system, (pair,), H), steps)
 
@@ -49,13 +49,13 @@ def slide_evidence() -> Evidence:
     left = []
     sideways = []
     k = np.arange(STEPS)
-    for slope, mu, c in grid(np.radians([5, 15, 25, 35, 50]), [0.2, 0.5, 0.9], [0.01, 0.05]):
+    for slope, mu, z in grid(np.radians([5, 15, 25, 35, 50]), [0.2, 0.5, 0.9], [0.01, 0.05]):
         if np.isclose(np.tan(slope), mu, rtol=1e-3):
             continue
         if np.tan(slope) < mu:
-            stuck.append(displacements(block_steps(slope, mu, c, 1)) / (H**2 * GRAVITY))
+            stuck.append(displacements(block_steps(slope, mu, z, 1)) / (H**2 * GRAVITY))
             continue
-        delta_q = displacements(block_steps(slope, mu, c, STEPS))
+        delta_q = displacements(block_steps(slope, mu, z, STEPS))
         steady = H**2 * GRAVITY * (np.sin(slope) - mu * np.cos(slope))
         slips.append(delta_q[:, 0])
         fixed.append(np.full(STEPS, steady))
@@ -69,21 +69,21 @@ def slide_evidence() -> Evidence:
 
 
 def tip_evidence() -> Evidence:
-    """High blocks whose friction would hold them: they tip at tan a = L / c."""
+    """High blocks whose friction would hold them: they tip at tan a = L / z."""
     turns = []
     up = []
     down = []
     held = []
-    for c, share in grid([0.1, 0.2, 0.4], [0.9, 0.999, 1.001, 1.1, 1.4]):
-        slope = np.arctan(share * L / c)
-        delta_q = displacements(block_steps(slope, 1.5, c, 1))[0]
+    for z, share in grid([0.1, 0.2, 0.4], [0.9, 0.999, 1.001, 1.1, 1.4]):
+        slope = np.arctan(share * L / z)
+        delta_q = displacements(block_steps(slope, 1.5, z, 1))[0]
         if share < 1:
             held.append(delta_q / (H**2 * GRAVITY))
             continue
-        about_edge = M / 3 * (L**2 + c**2) + M * (L**2 + c**2)
+        about_edge = M / 3 * (L**2 + z**2) + M * (L**2 + z**2)
         unit = H**2 * M * GRAVITY / about_edge
         turns.append(delta_q[4])
-        down.append(unit * c * np.sin(slope))
+        down.append(unit * z * np.sin(slope))
         up.append(-unit * L * np.cos(slope))
     return Evidence.of(
         comparison("held: motion, in h^2 g [-]", held, 0.0, CLOSED_FORM),
@@ -103,8 +103,8 @@ SLIDE = Claim(
 
 TIP = Claim(
     name="incline_tipping",
-    sentence="A block that friction holds tips over its lower edge when tan a > L / c, by h^2 m g "
-    "(c sin a - L cos a) / (I + m (L^2 + c^2)) in the first step.",
+    sentence="A block that friction holds tips over its lower edge when tan a > L / z, by h^2 m g "
+    "(z sin a - L cos a) / (I + m (L^2 + z^2)) in the first step.",
     where="docs/derivations.md (R11)",
     sweep="three heights of the centre of mass, five slopes from 0.9 to 1.4 times the limit",
     reason="CLOSED_FORM, relative to the larger of the two torques.",

@@ -1,13 +1,13 @@
 """A slider pushed on the plane under an ellipsoidal limit surface, slowly and less slowly.
 
-(R28): with D = diag(1, 1, c^2) and xi = (dx, dy, dtheta), the constraint of a slider that slips
+(R28): with D = diag(1, 1, chi^2) and xi = (dx, dy, dtheta), the constraint of a slider that slips
 is tight, phi + dz = mu_v ||xi||_D = s. On it act N = m g + m dz / h^2 and, along the gradient of
 the limit surface, -N mu_v D xi / ||xi||_D. The balance M xi / h^2 + N mu_v^2 D xi / s = (F, r x
 F) has F along v and gives the law. A sticking pusher moves the touched point by u = v + omega
-r_perp with omega = r_perp . v / c'^2, that is u = (1 + r_perp r_perp' / c'^2) v, which is
-inverted by v = (c'^2 + r r') u / (c'^2 + |r|^2), since r r' + r_perp r_perp' = |r|^2. A pusher
+r_perp with omega = r_perp . v / chi'^2, that is u = (1 + r_perp r_perp' / chi'^2) v, which is
+inverted by v = (chi'^2 + r r') u / (chi'^2 + |r|^2), since r r' + r_perp r_perp' = |r|^2. A pusher
 without friction, of normal n and arm t = r x n, that advances by u gives v = u n / (1 + t^2 /
-c'^2) and omega = t v / c'^2.
+chi'^2) and omega = t v / chi'^2.
 """
 
 import numpy as np
@@ -35,7 +35,7 @@ PUSHES = 64
 def evidence() -> Evidence:
     """Points, directions, coefficients and speeds."""
     rng = np.random.default_rng(28)
-    # The angle of the point, its radius, the angle aside, mu_v, c, Pi; lifted and sticks or not.
+    # The angle of the point, its radius, the angle aside, mu_v, chi, Pi; lifted and sticks or not.
     lowest = [0.0, 0.005, -1.2, 0.1, 0.01, 0.01]
     highest = [2 * np.pi, 0.06, 1.2, 0.8, 0.05, 0.5]
     sizes = rng.uniform(lowest, highest, size=(PUSHES, 6))
@@ -43,22 +43,22 @@ def evidence() -> Evidence:
     pushes = [
         push(
             rotated(np.array([radius, 0.0]), angle), rotated(np.array([-1.0, 0.0]), angle + aside),
-            mu_v=mu_v, c=c, Pi=Pi, lifted=lifted, sticks=bool(sticks),
+            mu_v=mu_v, chi=chi, Pi=Pi, lifted=lifted, sticks=bool(sticks),
         )
-        for angle, radius, aside, mu_v, c, Pi, lifted, sticks in sweep
+        for angle, radius, aside, mu_v, chi, Pi, lifted, sticks in sweep
     ]  # fmt: skip
     answers = [exact(push_step(of)) for of in pushes]
-    c = sweep[:, 4]
-    # Turns and torques as lengths and forces at the radius c.
+    chi = sweep[:, 4]
+    # Turns and torques as lengths and forces at the radius chi.
     moved = np.array([a.delta_q[[2, 3, 5]] for a in answers])
-    moved[:, 2] *= c
+    moved[:, 2] *= chi
     expected = np.array([of.motion for of in pushes])
-    expected[:, 2] *= c
+    expected[:, 2] *= chi
     size = np.linalg.norm(expected, axis=1)
     support = np.array([a.wrench[0, [0, 1, 3]] for a in answers])
-    support[:, 2] /= c
+    support[:, 2] /= chi
     normal = np.array([of.friction for of in pushes])
-    normal[:, 2] /= c
+    normal[:, 2] /= chi
     load = np.array([of.load for of in pushes])
     rise = np.array([of.rise for of in pushes])
     gap = sweep[:, 3] * size
@@ -70,7 +70,7 @@ def evidence() -> Evidence:
     ])  # fmt: skip
     force = np.array([of.force for of in pushes])
     total = np.linalg.norm(force, axis=1)
-    law = [(1 + SPEEDS) / (1 + SPEEDS * (GYRATION / c) ** 2) for c in RADII]
+    law = [(1 + SPEEDS) / (1 + SPEEDS * (GYRATION / chi) ** 2) for chi in RADII]
     along_normal = "support's force, along the normal of its limit surface [N]"
     return Evidence.of(
         comparison("motion of the slider [m]", moved, expected, CLOSED_FORM, size[:, None]),
@@ -78,7 +78,7 @@ def evidence() -> Evidence:
         comparison(along_normal, support, normal, CLOSED_FORM, load[:, None]),
         comparison("push [N]", spring, force, CLOSED_FORM, total[:, None]),
         comparison("load [N]", [a.wrench[0, 2] for a in answers], load, CLOSED_FORM, load),
-        comparison("turn over Lynch's [-]", [turns(c) for c in RADII], law, CLOSED_FORM, law),
+        comparison("turn over Lynch's [-]", [turns(chi) for chi in RADII], law, CLOSED_FORM, law),
         within("error_bound [-]", bounds, 0.0, ENCLOSED),
     )
 
@@ -87,7 +87,7 @@ CLAIM = Claim(
     name="planar_push",
     sentence="A slider pushed on the plane moves along the normal of its ellipsoidal limit "
     "surface: as Lynch, Maekawa and Tanie say while the quasi-dynamic number Pi is small, and at "
-    "any Pi with their c^2 replaced by (c^2 + Pi rho^2) / (1 + Pi).",
+    "any Pi with their chi^2 replaced by (chi^2 + Pi rho^2) / (1 + Pi).",
     where="docs/derivations.md (R28), in the ellipsoid; Lynch, Maekawa & Tanie (1992)",
     sweep=f"{PUSHES} random points, directions, mu_v, mu_omega / mu_v and Pi, from the floor or in "
     "steady motion, with a pusher that sticks or one without friction; turns at nine Pi for "
