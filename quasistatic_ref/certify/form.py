@@ -273,12 +273,12 @@ class StepForm(ExactForm):
         n_c = len(self._phi)
         places = np.array([self._places[i] for i in some], np.int64).reshape(-1, 2)
         rows = np.empty((len(places), self.n + 1))
-        own = places[:, 0] >= n_c
-        rows[own] = self._extra[places[own, 0] - n_c]
-        c, kind = places[~own].T
+        of_user = places[:, 0] >= n_c
+        rows[of_user] = self._extra[places[of_user, 0] - n_c]
+        c, kind = places[~of_user].T
         turn = self._cone_matrix[kind][:, None] @ self._turn[c]
-        rows[~own, :-1] = (turn @ self._J[c])[:, 0]
-        rows[~own, -1] = self._cone_matrix[kind, 0] * self._phi[c]
+        rows[~of_user, :-1] = (turn @ self._J[c])[:, 0]
+        rows[~of_user, -1] = self._cone_matrix[kind, 0] * self._phi[c]
         return rows
 
     def motion(self, c: int) -> arb_mat:

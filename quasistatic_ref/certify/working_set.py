@@ -169,13 +169,13 @@ class NearSets:
                 loads = [self._unit(j) for j in left] + [self.pull(i).loads for i in entered]
                 equations = arb_mat(loads)
                 r = [arb(0)] * len(left) + [right[i] for i in entered]
-                own = [[arb(0)] * len(left) + self._between(i, entered) for i in entered]
-                C = arb_mat([[arb(0)] * len(r)] * len(left) + own)
+                of_entered = [[arb(0)] * len(left) + self._between(i, entered) for i in entered]
+                C = arb_mat([[arb(0)] * len(r)] * len(left) + of_entered)
                 few = (C - equations * U).solve(arb_mat(len(r), 1, r) - equations * y)
                 y -= U * few
                 t = few.entries()[len(left) :]
-        found = dict(zip((*place, *entered), (*y.entries(), *t), strict=True))
-        return [found[i] for i in working]
+        multipliers = dict(zip((*place, *entered), (*y.entries(), *t), strict=True))
+        return [multipliers[i] for i in working]
 
     def _unit(self, j: int) -> list[arb]:
         return [arb(int(j == k)) for k in range(len(self._place))]

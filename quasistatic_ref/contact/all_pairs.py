@@ -88,13 +88,13 @@ class AllPairs:
             raise ContactError("must be finite", field="poses")
         left = [*self._singly]
         for batch, some, rows in self._batches:
-            known, found = batch.contacts(R, t)
-            for field, values in zip(contacts, found, strict=True):
+            known, points = batch.contacts(R, t)
+            for field, values in zip(contacts, points, strict=True):
                 field[rows] = values
             left += some[~known].tolist()
         for i in sorted(left):
-            found = pair_closest_points(self._pairs[i], R, t)
-            for field, values in zip(contacts, found, strict=True):
+            points = pair_closest_points(self._pairs[i], R, t)
+            for field, values in zip(contacts, points, strict=True):
                 field[self._rows[i]] = values
         for field in (contacts.phi, contacts.n):
             field += 0.0  # zero is 0.0, never -0.0

@@ -220,9 +220,9 @@ class Recorder:
         if self.record == "full":
             arrays |= programs([result.step for result in results])
         if self.record == "forces":
-            found = [_forces_of(result) for result in results]
-            arrays["forces"] = np.array([forces for forces, _ in found])
-            arrays["imbalance"] = np.array([imbalance for _, imbalance in found])
+            forces_of = [_forces_of(result) for result in results]
+            arrays["forces"] = np.array([forces for forces, _ in forces_of])
+            arrays["imbalance"] = np.array([imbalance for _, imbalance in forces_of])
             arrays["motion"] = motions(results, self.system.n_v)
         more = ITERATED if self.simulator.law == COULOMB else ()
         if first.step.extra.names:

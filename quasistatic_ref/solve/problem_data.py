@@ -48,12 +48,12 @@ def problem_data(problem: cp.Problem, name: str, options: Options) -> ProblemDat
     The first call compiles the problem, unless its parameters are many: their values then count as
     constants, in each call.
     """
-    with warnings.catch_warnings(record=True) as said:
+    with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         data = problem.get_problem_data(
             name.upper(), ignore_dpp=is_large(problem), canon_backend=CANON, solver_opts=options
         )
-    if any("not DPP" in str(one.message) for one in said):
+    if any("not DPP" in str(one.message) for one in warned):
         words = f"{name} takes no quadratic cost: CVXPY compiles each step anew, which takes longer"
         warnings.warn(words, stacklevel=2)
     return ProblemData(*data)

@@ -54,8 +54,8 @@ def solve_scaled(problem: cp.Problem, data: ProblemData, options: Options) -> No
     scales = Scales(data)
     solver = data.chain.solver
     chain = SolvingChain(reductions=[*data.chain.reductions[:-1], scales, solver])
-    own = {key: value for key, value in options.items() if key != "verbose"}
-    raw = chain.solve_via_data(problem, scales.numbers, False, False, own)
+    solver_options = {key: value for key, value in options.items() if key != "verbose"}
+    raw = chain.solve_via_data(problem, scales.numbers, False, False, solver_options)
     with warnings.catch_warnings():
         # The status says so, too.
         warnings.filterwarnings("ignore", "Solution may be inaccurate", UserWarning)

@@ -195,11 +195,11 @@ def answered(
         return None, statistics._replace(status=f"failed: {failure.status}", unanswered=True)
     if not reply.solved:
         return reply, statistics._replace(status=f"failed: {reply.status}")
-    return reply, said(solver, reply)
+    return reply, statistics_of(solver, reply)
 
 
-def said(solver: Solver, reply: Reply) -> SolverStatistics:
-    """What a solver said of its answer."""
+def statistics_of(solver: Solver, reply: Reply) -> SolverStatistics:
+    """What a backend reports of an answer: status, iterations and time."""
     return SolverStatistics(
         solver.name,
         reply.status,
@@ -312,7 +312,7 @@ def judged(both: StepInBothUnits, solver: Solver, reply: Reply, certify: str) ->
     """
     step = both.si_step
     delta_q, lam = in_si(*reply.answer, both.units)
-    statistics = said(solver, reply)
+    statistics = statistics_of(solver, reply)
     if certify == "off":
         return StepSolution(delta_q, lam, step, NOTHING_CLAIMED, statistics)
     begin = time.perf_counter()

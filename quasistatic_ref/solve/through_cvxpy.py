@@ -82,18 +82,18 @@ class CvxpySolver(BackendSolver):
         raises TypeError on a second warm start anyway.)
         """
         compiled, call = self._compiled
-        found = None
+        direct = None
         if call is not None:
             try:
-                found = call.reply(options)
+                direct = call.reply(options)
             except Exception:  # CVXPY's own call says what is wrong, if anything is
                 self._compiled = compiled, None
-        if found is not None and self._compared:
-            return found
+        if direct is not None and self._compared:
+            return direct
         data = None if compiled is None else compiled.data(options)
         reply = cvxpy_reply(self.problem, self.name, options, False, data)
-        if found is not None:  # the first one: each bit has to be CVXPY's
-            self._compared = bits((found.x, found.lam)) == bits((reply.x, reply.lam))
+        if direct is not None:  # the first one: each bit has to be CVXPY's
+            self._compared = bits((direct.x, direct.lam)) == bits((reply.x, reply.lam))
             if not self._compared:
                 self._compiled = compiled, None
         return reply

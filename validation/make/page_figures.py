@@ -78,13 +78,13 @@ def identified_ratios(record: Record) -> Figure:
     """mu_omega / mu_v of each pair: interval, published, uniform pressure."""
     figure, (axes,) = panels(5.2, 4.6)
     rows = np.arange(len(record))
-    own = list(record.values())
-    ratio = 1e3 * np.array([e["ratio"] for e in own])
-    ends = 1e3 * np.array([[e["low"], e["high"]] for e in own]).T
+    pairs = list(record.values())
+    ratio = 1e3 * np.array([e["ratio"] for e in pairs])
+    ends = 1e3 * np.array([[e["low"], e["high"]] for e in pairs]).T
     axes.errorbar(ratio, rows, xerr=np.abs(ends - ratio), fmt="o", color="black",
                   markersize=scaled(3.5), label="identified, 95 %")  # fmt: skip
-    _marks(axes, 1e3 * np.array([e["published"] for e in own]), rows, "s", 5.5, "published")
-    _marks(axes, 1e3 * np.array([e["uniform"] for e in own]), rows, "|", 8, "uniform")
+    _marks(axes, 1e3 * np.array([e["published"] for e in pairs]), rows, "s", 5.5, "published")
+    _marks(axes, 1e3 * np.array([e["uniform"] for e in pairs]), rows, "|", 8, "uniform")
     _name_rows(axes, list(record))
     axes.set_xlim(left=0)
     label_axes(axes, r"$\mu_\omega / \mu_v$ [mm]")

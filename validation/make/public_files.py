@@ -88,12 +88,12 @@ def sentence(error: Exception, package: str) -> str:
 def of_urdf(path: Path) -> dict[str, float]:
     """Limits of joints and the whole mass [m, rad, kg]."""
     system = System([Body("b", path, actuated="all")])
-    found = {}
+    numbers = {}
     for joint in system.joints:
         if joint.limits is not None:
             name = joint.name.partition("/")[2]
-            found |= {f"{name} lower": joint.limits[0], f"{name} upper": joint.limits[1]}
-    return found | {"mass": float(system.masses.sum())}
+            numbers |= {f"{name} lower": joint.limits[0], f"{name} upper": joint.limits[1]}
+    return numbers | {"mass": float(system.masses.sum())}
 
 
 def of_pinocchio(path: Path) -> dict[str, float]:
@@ -101,12 +101,12 @@ def of_pinocchio(path: Path) -> dict[str, float]:
     import pinocchio as pin
 
     model = pin.buildModelFromUrdf(str(path), pin.JointModelFreeFlyer())
-    found = {}
+    numbers = {}
     for name, joint in zip(model.names, model.joints, strict=True):
         if joint.nq == 1:
             ends = model.lowerPositionLimit[joint.idx_q], model.upperPositionLimit[joint.idx_q]
-            found |= {f"{name} lower": ends[0], f"{name} upper": ends[1]}
-    return found | {"mass": sum(inertia.mass for inertia in model.inertias)}
+            numbers |= {f"{name} lower": ends[0], f"{name} upper": ends[1]}
+    return numbers | {"mass": sum(inertia.mass for inertia in model.inertias)}
 
 
 def of_mesh(path: Path) -> dict[str, float]:
@@ -237,18 +237,18 @@ def outcome(package: str, name: str, path: Path, kind: str) -> Outcome:
 def downloaded(folder: Path) -> Iterator[tuple[str, Path]]:
     """Each package, and the folder of its files."""
     for package in (*WHEELS, *SOURCES):
-        own = folder / package.partition("==")[0]
-        how = ["--no-binary", own.name] if package in SOURCES else []
+        place = folder / package.partition("==")[0]
+        how = ["--no-binary", place.name] if package in SOURCES else []
         command = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", *how]
-        subprocess.run([*command, "--dest", str(own), package], check=True)
-        (archive,) = own.iterdir()
+        subprocess.run([*command, "--dest", str(place), package], check=True)
+        (archive,) = place.iterdir()
         if archive.suffix == ".whl":
             with ZipFile(archive) as files:
-                files.extractall(own)
+                files.extractall(place)
         else:
             with tarfile.open(archive) as files:
-                files.extractall(own, filter="data")
-        yield package, own
+                files.extractall(place, filter="data")
+        yield package, place
 
 
 def page(outcomes: list[Outcome]) -> str:
@@ -257,12 +257,12 @@ def page(outcomes: list[Outcome]) -> str:
     lines += ["|---|---|---|---|---|---|---|"]
     groups = Counter((one.package, one.kind) for one in outcomes)
     for (package, kind), count in sorted(groups.items()):
-        own = [one for one in outcomes if (one.package, one.kind) == (package, kind)]
+        of_kind = [one for one in outcomes if (one.package, one.kind) == (package, kind)]
         counts = [
-            sum(not one.refused for one in own),
-            sum(not one.peer for one in own),
-            sum(bool(one.refused) and not one.peer for one in own),
-            sum(bool(one.differs) for one in own),
+            sum(not one.refused for one in of_kind),
+            sum(not one.peer for one in of_kind),
+            sum(bool(one.refused) and not one.peer for one in of_kind),
+            sum(bool(one.differs) for one in of_kind),
         ]
         lines.append(f"| {package} | {kind} | {count} | {' | '.join(map(str, counts))} |")
     lines += ["", "| file | here | elsewhere |", "|---|---|---|"]

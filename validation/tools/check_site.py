@@ -56,18 +56,18 @@ class Page(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         """Take up one element."""
-        given = {key: value or "" for key, value in attrs}
+        attributes = {key: value or "" for key, value in attrs}
         self._inside = tag
-        self.names |= {given[key] for key in ("id", "name") if key in given}
-        if tag == "a" and "href" in given:
-            self.links.append(given["href"])
-        if tag == "link" and LOADED_RELATIONS & set(given.get("rel", "").split()):
-            self.loads.append(given["href"])
-        if tag in LOADED and LOADED[tag] in given:
-            self.loads.append(given[LOADED[tag]])
-        if tag == "img" and "src" in given:
-            self.pictures.append(given["src"])
-        self.text.append(f"style: {given['style']}" if "style" in given else "")
+        self.names |= {attributes[key] for key in ("id", "name") if key in attributes}
+        if tag == "a" and "href" in attributes:
+            self.links.append(attributes["href"])
+        if tag == "link" and LOADED_RELATIONS & set(attributes.get("rel", "").split()):
+            self.loads.append(attributes["href"])
+        if tag in LOADED and LOADED[tag] in attributes:
+            self.loads.append(attributes[LOADED[tag]])
+        if tag == "img" and "src" in attributes:
+            self.pictures.append(attributes["src"])
+        self.text.append(f"style: {attributes['style']}" if "style" in attributes else "")
 
     def handle_data(self, data: str) -> None:
         """Keep the text of styles and scripts."""
@@ -87,8 +87,8 @@ def site_faults(site: Path) -> Iterator[str]:
                 yield f"{where} loads {address}"
             elif not address.startswith("data:") and not _target(path, address).exists():
                 yield f"{where} loads {address}, which is not there"
-        for found in _remote("\n".join(page.text)):
-            yield f"{where} loads {found}"
+        for host in _remote("\n".join(page.text)):
+            yield f"{where} loads {host}"
         for picture, times in Counter(page.pictures).items():
             if times > 1:
                 yield f"{where} shows {picture} {times} times"
@@ -96,8 +96,8 @@ def site_faults(site: Path) -> Iterator[str]:
             yield from link_faults(path, address, pages, site)
     for path in sorted((*site.rglob("*.css"), *site.rglob("*.js"))):
         if "mathjax" not in path.parts:  # it names addresses, and does not use them
-            for found in _remote(path.read_text("utf-8", "replace")):
-                yield f"{path.relative_to(site)} loads {found}"
+            for host in _remote(path.read_text("utf-8", "replace")):
+                yield f"{path.relative_to(site)} loads {host}"
 
 
 def link_faults(path: Path, address: str, pages: dict[Path, Page], site: Path) -> Iterator[str]:

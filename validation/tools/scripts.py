@@ -40,10 +40,10 @@ def script_options(
             parser.add_argument(f"--{name}", type=default)
         else:
             parser.add_argument(f"--{name}", type=type(default), default=default)
-    given = parser.parse_args()
-    if unknown := set(given.names if names else ()) - set(names):
+    chosen = parser.parse_args()
+    if unknown := set(chosen.names if names else ()) - set(names):
         parser.error(f"no such name: {', '.join(sorted(unknown))}; there are {', '.join(names)}")
-    return given
+    return chosen
 
 
 def show_page(text: str, out: Path | None) -> None:
@@ -69,9 +69,9 @@ def environment(home: Path, *wanted: str, python: str = sys.executable) -> Path:
     python : str
         The interpreter that it is made with.
     """
-    own = home / "bin" / "python"
-    if not own.exists():
+    interpreter = home / "bin" / "python"
+    if not interpreter.exists():
         subprocess.run([python, "-m", "venv", str(home)], check=True)
         if wanted:
-            subprocess.run([str(own), "-m", "pip", "install", "-q", *wanted], check=True)
-    return own
+            subprocess.run([str(interpreter), "-m", "pip", "install", "-q", *wanted], check=True)
+    return interpreter

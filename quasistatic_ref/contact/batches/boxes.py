@@ -147,10 +147,10 @@ class Boxes(Batch):
         n = nearest.n[pair]
         crossing, alpha, beta = lines_crossed(ends[0][pair, i], ends[1][pair, j], n)
         number = self._corners + self.n_c + crossing_number(i, j, some[1].shape[1])
-        found = ClosestPoints(dot(beta - alpha, n), alpha, beta, n, number, 0 * number)
+        points = ClosestPoints(dot(beta - alpha, n), alpha, beta, n, number, 0 * number)
         pair = pair[crossing]
         count = len(nearest.phi)
-        return ClosestPoints._make(padded(one, pair, count, -1) for one in found.chosen(crossing))
+        return ClosestPoints._make(padded(one, pair, count, -1) for one in points.chosen(crossing))
 
 
 def _repeated(candidates: ClosestPoints, there: Mask) -> Mask:

@@ -65,8 +65,8 @@ class JoinedContacts(Contacts):
 
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
-        own = np.concatenate([delta_q, [0.0]])[self.column]
-        return np.asarray(np.add.accumulate(self.own_J * own[:, None], axis=-1)[..., -1]) + 0.0
+        moved = np.concatenate([delta_q, [0.0]])[self.column]
+        return np.asarray(np.add.accumulate(self.own_J * moved[:, None], axis=-1)[..., -1]) + 0.0
 
     def columns(self, contacts: Indices, coordinates: Indices) -> Array:
         """J of some contacts, (k,), and some coordinates, (n,): shape (k, 4, n)."""

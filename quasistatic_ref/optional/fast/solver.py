@@ -62,13 +62,13 @@ class FormedStep(StepInBothUnits):
 
         Each with the number of that, counted in that, counted in the step, and as a step.
         """
-        found = []
+        parts = []
         for i, group in enumerate(self.program.groups):
             whole = group_step(self.si_step, group)
             for part, step in group_steps(whole):
                 of_step = Group(*(of_all[some] for of_all, some in zip(group, part, strict=True)))
-                found.append((i, part, of_step, step))
-        return found
+                parts.append((i, part, of_step, step))
+        return parts
 
     @cached_property
     def parts(self) -> list[tuple[Group, StepData]]:

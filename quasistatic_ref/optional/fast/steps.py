@@ -50,18 +50,20 @@ class Columns:
         counts = np.array(list(map(len, joints)), np.int64)
         self.most = int(counts.max(initial=1))
         joint = np.zeros((n_c, self.most), np.int64)
-        own = np.zeros((n_c, self.most), np.int64)
+        of_joint = np.zeros((n_c, self.most), np.int64)
         self.column = np.full((n_c, self.most), simulator.system.n_v)
         for c, of_contact in enumerate(joints):
             count = len(of_contact)
             joint[c, :count] = of_contact
-            every, own[c, :count] = np.unique(column_map.owner[of_contact], return_inverse=True)
+            every, of_joint[c, :count] = np.unique(
+                column_map.owner[of_contact], return_inverse=True
+            )
             self.column[c, : len(every)] = every
         self.fields: dict[str, int | NDArray[Any]] = {
             "most_joints": self.most,
             "joints": counts,
             "joint": joint,
-            "coordinate": own,
+            "coordinate": of_joint,
             "moves_alpha": moves[layout.link_alpha[:, None], joint],
             "moves_beta": moves[layout.link_beta[:, None], joint],
         }

@@ -40,8 +40,8 @@ def agreed_record(name: str, case: Json) -> Json | None:
     QuasistaticError
         If the package refuses the case.
     """
-    own = layer(name).own(case)
-    record = {"output": own, "flags": FLAGS, "tolerance": _tolerances(own)}
+    output = layer(name).own(case)
+    record = {"output": output, "flags": FLAGS, "tolerance": _tolerances(output)}
     answer = plain(PROGRAM[name](case))
     return None if case_verdict(name, case, record, answer).verdict == FAILED else record
 

@@ -122,8 +122,8 @@ def own_step(case_input: Json) -> Json:
 
 def _forces(case: Json, simulator: Simulator, solution: StepSolution) -> Json:
     """The forces by the compliances of a case, where contacts of a group have one."""
-    given = {pair["name"]: pair.get("compliance", COMPLIANCE) for pair in case["pairs"]}
-    each = np.array([given[name] for name in simulator.layout.names])
+    compliance_of = {pair["name"]: pair.get("compliance", COMPLIANCE) for pair in case["pairs"]}
+    each = np.array([compliance_of[name] for name in simulator.layout.names])
     try:
         forces = contact_forces(solution.step, each, (solution.delta_q, solution.wrench))
     except InputError:
