@@ -147,7 +147,7 @@ def bodies(start: Start) -> Iterator[Body]:
     of_joint = np.zeros((len(joints), len(coordinates)), dtype=bool)
     for i, joint in enumerate(joints):
         of_joint[i, joint.v.start - n_a : joint.v.stop - n_a] = True
-    couplings = np.vstack([of_joint, system.M_u(start.q_start) != 0])
+    couplings = np.vstack([of_joint, start.M_u != 0])
     label, _ = labels(couplings)
     for first in np.unique(label):
         at = n_a + np.flatnonzero(label == first)

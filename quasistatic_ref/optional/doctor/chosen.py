@@ -72,13 +72,19 @@ def _of_bodies(run: Run) -> list[Asked]:
         if body.free:
             here &= sets.any(axis=1)
         for score in (drags, slips, np.where(moves, drags, 0.0)):
-            best: dict[bytes, int] = {}
-            for k in np.flatnonzero(here & (score > LITTLE)).tolist():
-                key = sets[k].tobytes()
-                if key not in best or score[k] > score[best[key]]:
-                    best[key] = k
-            found += [Asked(float(score[k]), body.name, k) for k in best.values()]
+            steps = np.flatnonzero(here & (score > LITTLE))
+            of_set: dict[bytes, list[int]] = {}
+            for k in steps.tolist():
+                of_set.setdefault(sets[k].tobytes(), []).append(k)
+            for each in of_set.values():
+                k = _first(score[each])
+                found.append(Asked(float(score[each[k]]), body.name, each[k]))
     return found
+
+
+def _first(scores: Array) -> int:
+    """The first of those that are the largest, up to a thousandth: equal steps are asked once."""
+    return int((scores >= (1 - LITTLE) * scores.max()).argmax())
 
 
 def _of_pairs(run: Run) -> list[Asked]:
@@ -102,12 +108,12 @@ def _of_pairs(run: Run) -> list[Asked]:
         size = float(f_n[:, of_pair].max(initial=0.0))
         where = share > RISES
         if convex and where.any():
-            found.append(Asked(float(share.max()), pair.name, int(share.argmax())))
+            found.append(Asked(float(share.max()), pair.name, _first(share)))
             most = np.where(where, most, 0.0)
-            found.append(Asked(float(most.max()) / size, pair.name, int(most.argmax())))
+            found.append(Asked(float(most.max()) / size, pair.name, _first(most)))
         corner = stays * (lost * f_n)[:, of_pair].max(axis=1, initial=0.0) / (size or 1.0)
         if corner.max(initial=0.0) > RISES:
-            found.append(Asked(float(corner.max()), pair.name, int(corner.argmax()), True))
+            found.append(Asked(float(corner.max()), pair.name, _first(corner), True))
     if convex:
         for body in run.bodies_of:  # what slides below lifts against the spring above
             c = gives[:, body.contacts]
@@ -116,7 +122,7 @@ def _of_pairs(run: Run) -> list[Asked]:
             adds_up = s[:, body.contacts].max(axis=1, initial=0.0) * stiff
             share = np.divide(adds_up, loads, out=np.zeros_like(loads), where=loads > 0)
             if share.max(initial=0.0) > RISES:
-                found.append(Asked(float(share.max()), body.name, int(share.argmax())))
+                found.append(Asked(float(share.max()), body.name, _first(share)))
     return found
 
 

@@ -179,7 +179,7 @@ def borne(start: Start, q: Array, contacts: Contacts, name: str, squeezed: bool 
         Otherwise they press by what bears the load and no more.
     """
     step = at_rest(start, q, contacts)
-    touching = start.touching(contacts)
+    touching = start.touching(contacts.phi)
     at_most = np.full(contacts.n_c, np.inf)
     if not squeezed:
         at_most = unsqueezed(step, touching)

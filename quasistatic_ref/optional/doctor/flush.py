@@ -6,7 +6,7 @@ Where it is none, an edge lies on an edge, and the normal, which any between the
 one might be, is midway. So no force that the body's weight bears moves it over the seam.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -55,9 +55,10 @@ def flush(start: Start) -> Iterator[Finding]:
     points = start.points
     if points is None or isinstance(start, Run):
         return
-    bears = start.touching(start.contacts_at_start)
-    for on in _sides(start, points, bears):
-        for ahead in _sides(start, points, ~bears):
+    bears = start.touching(points.phi)
+    of_link = _of_links(start)
+    for on in _sides(slices(start.pairs), points, bears):
+        for ahead in _sides(of_link[on.link], points, ~bears):
             if _joined(ahead, on, start.kinematics):
                 along = ahead.normals[0]
                 reach = _reach(ahead.other, along, start.kinematics)
@@ -70,14 +71,15 @@ def flush(start: Start) -> Iterator[Finding]:
 def pushed_back(run: Run) -> Iterator[Finding]:
     """After a run: the first pair of those that press most along the face on which a body lies."""
     f_n = run["wrench"][:, :, 2]
-    most = [(float(f_n[:, at].max(initial=0.0)), at) for _, at in slices(run.pairs)]
-    for force, at in sorted((x for x in most if x[0] > 0), key=lambda x: -x[0]):
+    most = [(float(f_n[:, at].max(initial=0.0)), pair, at) for pair, at in slices(run.pairs)]
+    of_link = _of_links(run)
+    for force, pair, at in sorted((x for x in most if x[0] > 0), key=lambda x: -x[0]):
         k = int(f_n[:, at].max(axis=1).argmax())
         presses = f_n[k] > COUNTS * force
-        every = [*_sides(run, run.points_of(k), presses)]
-        for ahead in (side for side in every if side.at == at):
-            for on in every:
-                if force <= COUNTS * f_n[k, on.at].max() or on.link != ahead.link:
+        points = run.points_of(k)
+        for ahead in _sides([(pair, at)], points, presses):
+            for on in _sides(of_link[ahead.link], points, presses):
+                if force <= COUNTS * f_n[k, on.at].max():
                     continue
                 if _joined(ahead, on, run.system.kinematics(run["q"][k])):
                     forces = f_n[k, at][presses[at]]
@@ -96,16 +98,28 @@ def _finding(start: Start, ahead: Side, on: Side, how: str, numbers: dict[str, f
     return Finding("flush shapes", False, remedy, cause, numbers)
 
 
-def _sides(start: Start, points: ClosestPoints, counts: Mask) -> Iterator[Side]:
-    """Of each pair with a contact that counts, what each of its links sees."""
+def _of_links(start: Start) -> dict[int, list[tuple[ContactPair, slice]]]:
+    """The pairs of each link, and where their contacts are among all."""
+    found: dict[int, list[tuple[ContactPair, slice]]] = {}
     for pair, at in slices(start.pairs):
-        if not counts[at].any():
+        for link in (pair.alpha.link, pair.beta.link):
+            found.setdefault(link, []).append((pair, at))
+    return found
+
+
+def _sides(
+    pairs: Iterable[tuple[ContactPair, slice]], points: ClosestPoints, counts: Mask
+) -> Iterator[Side]:
+    """Of each pair with a contact that counts, what each of its links sees."""
+    for pair, at in pairs:
+        of = at.start + np.flatnonzero(counts[at])
+        if not of.size:
             continue
-        of = points.chosen(at.start + np.flatnonzero(counts[at]))
+        n = points.n[of]
         if pair.beta.link:
-            yield Side(pair, at, pair.beta.link, pair.alpha, of.n, of.alpha)
+            yield Side(pair, at, pair.beta.link, pair.alpha, n, points.alpha[of])
         if pair.alpha.link:
-            yield Side(pair, at, pair.alpha.link, pair.beta, -of.n, of.beta)
+            yield Side(pair, at, pair.alpha.link, pair.beta, -n, points.beta[of])
 
 
 def _joined(ahead: Side, on: Side, kinematics: Kinematics) -> bool:

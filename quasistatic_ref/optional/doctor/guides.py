@@ -185,7 +185,7 @@ def _by_lever_arms(run: Run, step: StepData, J_n: Array, wrench: Array) -> Array
     """
     actuated = step.contacts.J[:, :, : step.n_a].any(axis=(1, 2))
     pushed = step.tau_u + np.where(actuated, wrench[:, 2], 0.0) @ J_n
-    touching = run.touching(step.contacts) & ~actuated
+    touching = run.touching(step.contacts.phi) & ~actuated
     return unsqueezed(step.replace(tau_u=pushed), touching)
 
 

@@ -167,6 +167,42 @@ class Part(NamedTuple):
         look.laws[law].motion[self.at] = self.step.contacts.motion(answer.delta_q)
 
 
+class Groups:
+    """The groups of a step that is looked at.
+
+    Parameters
+    ----------
+    run : Run
+    look : Look
+
+    Attributes
+    ----------
+    whole : StepData
+        Of all that touches or presses.
+    delta_q : ndarray, shape (n_v,)
+        The run's.
+    every : list of (Group, ndarray of int, list of Body)
+        Each with its contacts among all of the run, and its bodies.
+    """
+
+    def __init__(self, run: Run, look: Look) -> None:
+        self.look = look
+        step = run.posed(look.k)
+        live = np.flatnonzero(look.live)
+        every = np.arange(step.n_v)
+        self.delta_q = run.delta_q_of(look.k, step.n_v)
+        reach = np.abs(step.extra.A) @ np.abs(self.delta_q)
+        near = np.flatnonzero(-step.extra.b <= reach + 1e-12)
+        self.whole = step.replace(
+            contacts=step.contacts.some(live, every), extra=step.extra.of(near, every)
+        )
+        of = {i: body for body in run.bodies_of for i in body.coordinates.tolist()}
+        self.every = []
+        for group in groups(self.whole):
+            moved = dict.fromkeys(of[i] for i in group.coordinates.tolist() if i in of)
+            self.every.append((group, live[group.contacts], [*moved]))
+
+
 class Looking:
     """Looks at steps of a run.
 
@@ -179,6 +215,7 @@ class Looking:
         self.run = run
         self.solvers = slowly.Solvers()
         self.looks: dict[int, Look] = {}
+        self._last: Groups | None = None
 
     def at(self, k: int, names: set[str], corners: bool = False) -> Look:
         """A look at step k, of the groups of some bodies and pairs.
@@ -206,31 +243,23 @@ class Looking:
 
     def _solve(self, look: Look, names: set[str], corners: bool) -> None:
         run = self.run
-        step = run.posed(look.k)
-        live = np.flatnonzero(look.live)
-        every = np.arange(step.n_v)
-        delta_q = run.delta_q_of(look.k, step.n_v)
-        reach = np.abs(step.extra.A) @ np.abs(delta_q)
-        near = np.flatnonzero(-step.extra.b <= reach + 1e-12)
-        kept = step.replace(
-            contacts=step.contacts.some(live, every), extra=step.extra.of(near, every)
-        )
-        for group in groups(kept):
-            at = live[group.contacts]
-            moved = set(group.coordinates.tolist())
-            bodies = [b for b in run.bodies_of if not moved.isdisjoint(b.coordinates.tolist())]
+        if self._last is None or self._last.look is not look:
+            self._last = Groups(run, look)
+        groups = self._last
+        for group, at, bodies in groups.every:
             of = {body.name for body in bodies}
             asked = look.asked[at].any() or of & (look.bodies | look.lost)
             if asked or not names & (of | {run.pairs[i].name for i in run.pair_of[at]}):
                 continue
             look.asked[at] = True
-            if 4 * len(at) * len(moved) > GROUP:
+            if 4 * len(at) * len(group.coordinates) > GROUP:
                 look.large |= of
                 continue
             try:
-                part = group_step(kept, group)
-                part = slowly.landed(part, run.presses[look.k, at], delta_q[group.coordinates])
-                self._group(Part(look, kept, part, group.coordinates, at, bodies), corners)
+                part = group_step(groups.whole, group)
+                delta_q = groups.delta_q[group.coordinates]
+                part = slowly.landed(part, run.presses[look.k, at], delta_q)
+                self._group(Part(look, groups.whole, part, group.coordinates, at, bodies), corners)
             except QuasistaticError:  # a step that has no solution, or no float64
                 look.lost |= of
 

@@ -132,7 +132,7 @@ class Run(Start):
         0 where float64 has no number for it, as with an h of 1e-308 s.
         """
         n_a = self.system.n_a
-        M = body.inertia(self.system.M_u(self.q_start), n_a)
+        M = body.inertia(self.M_u, n_a)
         with np.errstate(all="ignore"):
             r = self.noted("momentum")[:, body.coordinates - n_a] / self.h / self.h
             drags = body.amount(M, r)
@@ -144,7 +144,7 @@ class Run(Start):
         It is what gravity and other loads are, or the largest force on it in the run.
         """
         n_a = self.system.n_a
-        M = body.inertia(self.system.M_u(self.q_start), n_a)
+        M = body.inertia(self.M_u, n_a)
         tau = body.amount(M, self.noted("tau")[:, body.coordinates])
         pressed = float(self["wrench"][:, body.contacts, 2].max(initial=0.0))
         return np.asarray(np.maximum(tau, pressed or (0.0 if tau.any() else 1.0)))

@@ -84,6 +84,11 @@ class Start:
         return self.simulator.geometry.contacts(self.points, self.kinematics)
 
     @cached_property
+    def M_u(self) -> Array:
+        """The un-actuated block of the mass matrix, shape (n_u, n_u) [kg, kg m, kg m^2]."""
+        return self.system.M_u(self.q_start)
+
+    @cached_property
     def extension(self) -> Extension | None:
         """What is added to the step at the start, if anything is."""
         extension = self.simulator.extension
@@ -165,9 +170,9 @@ class Start:
         """Size of the smaller shape of each contact, shape (n_c,) [m]."""
         return np.array([least(pair) for pair in self.pairs])[self.pair_of]
 
-    def touching(self, contacts: Contacts) -> Mask:
-        """Which contacts touch, shape (n_c,): a gap below 1e-6 of the smaller shape is none."""
-        return np.asarray(contacts.phi <= SHORT * self.sizes)
+    def touching(self, phi: Array) -> Mask:
+        """Which contacts touch, as phi, (n_c,) [m]: below 1e-6 of the smaller shape it is none."""
+        return np.asarray(phi <= SHORT * self.sizes)
 
     def bodies(self, pair: ContactPair) -> set[str]:
         """The bodies of a pair."""

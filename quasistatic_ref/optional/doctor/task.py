@@ -146,15 +146,17 @@ def through(run: Run) -> Iterator[Finding]:
     system = run.system
     shapes = {s.name: s for s in (*system.shapes, *run.sides)}
     joined = {frozenset((_who(p.alpha), _who(p.beta))) for p in run.pairs}
-    apart = []
+    apart: list[ContactPair] = []
     for a, b in combinations(shapes.values(), 2):
         links = [a.link, b.link]
         one, other = (system.links[link].partition("/")[0] for link in links)
         moved = (run.driven | run.free)[links].any()
         if one != other and moved and frozenset((_who(a), _who(b))) not in joined:
+            if len(apart) == MOST:
+                return
             with suppress(ContactError):  # two clouds, or two half-spaces
                 apart.append(ContactPair(f"{a.name}, {b.name}", a, b, 0.0, 0.0, 4, 1, hull=True))
-    if not apart or len(apart) > MOST:
+    if not apart:
         return
     steps = np.unique(np.linspace(0, run.steps, 1 + LOOKED).round().astype(int)).tolist()
     radii = {name: _radius(placed.shape) for name, placed in shapes.items()}
