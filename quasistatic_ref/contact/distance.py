@@ -35,7 +35,7 @@ from quasistatic_ref.contact.near_points import near_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.ranks import closest, rounded_gaps
 from quasistatic_ref.contact.separations import BISECTOR, UNIQUE_NORMAL, pair_normal, rounding
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
+from quasistatic_ref.contact.shape_in_world import Pose, ShapeInWorld, moved, poses_in_world
 from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
@@ -49,6 +49,9 @@ are not known better."""
 
 FEW = 50
 """Most points of a plane of which each two are taken in turn; of more, those of its outline."""
+
+WEIGHTS: Final = np.cos(np.arange(7))
+"""Of a candidate's distance, place and normal, in a sum that few have in common by symmetry [-]."""
 
 
 class ClosestPoints(NamedTuple):
@@ -80,8 +83,8 @@ class ClosestPoints(NamedTuple):
         """The same contacts with alpha's and beta's bodies exchanged."""
         return self._replace(alpha=self.beta, beta=self.alpha, n=-self.n)
 
-    def chosen(self, index: Indices | Mask) -> "ClosestPoints":
-        """The contacts of an `index` of shape (k,), in its order."""
+    def chosen(self, index: Indices | Mask | tuple[Indices, ...]) -> "ClosestPoints":
+        """The contacts of an `index`, in its order and shape."""
         return ClosestPoints._make(field[index] for field in self)
 
 
@@ -153,7 +156,7 @@ def search(
         return Search(solid.shape.signed_distance(x)[0], np.arange(len(x)), none, none)
     nearest = nearest_of_solids(pair, a, b) if nearest is None else nearest
     every = every_candidate(pair, a, b, nearest)
-    rank = np.where(repeated(every), np.inf, every.phi)
+    rank = np.where(repeated(every, np.zeros(len(every.phi), int)), np.inf, every.phi)
     return Search(rank, every.point, nearest, every)
 
 
@@ -289,22 +292,21 @@ def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
     return local if on_rim and norm(way[:2]) > UPRIGHT else way
 
 
-def repeated(candidates: ClosestPoints) -> Mask:
-    """Which candidates repeat an earlier one: they rank last.
+def repeated(candidates: ClosestPoints, pair: Indices) -> Mask:
+    """Which candidates, shape (N,), repeat an earlier one of their `pair`, (N,): they rank last.
 
     Those that are alike in all entries are near to each other in a weighted sum of these as well,
     so that only neighbours in its order are compared: next ones, next but one and so on.
     """
     every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
-    count, width = every.shape
-    total = (every * np.cos(np.arange(width))).sum(axis=1)  # which few have in common by symmetry
-    order = total.argsort(kind="stable")
-    near = 2 * width * REPEATED  # twice, for what the sums round
-    repeats = np.zeros(count, dtype=bool)
-    for shift in range(1, count):
+    total = (every * WEIGHTS).sum(axis=1)
+    order = np.lexsort((total, pair))
+    near = 2 * len(WEIGHTS) * REPEATED  # twice, for what the sums round
+    repeats = np.zeros(len(total), dtype=bool)
+    for shift in range(1, len(total)):
         a = order[:-shift]
         b = order[shift:]
-        close = np.flatnonzero(total[b] - total[a] <= near)
+        close = np.flatnonzero((pair[a] == pair[b]) & (total[b] - total[a] <= near))
         if not close.size:
             break
         a = a[close]
@@ -323,8 +325,7 @@ def _cloud_on_solid(pair: ContactPair, solid: ShapeInWorld, cloud: ShapeInWorld)
     kept = closest(rounded_gaps(phi, pair.resolution), pair.k)
     surface = cloud_surface(pair.name, solid, cloud, relative, x[kept], phi[kept], normal[kept])
     point = near[kept]
-    contacts = _contacts(solid, cloud, cloud.shape.points[point], 0.0, surface)
-    return contacts._replace(point=point)
+    return contacts_over(solid[1:], cloud[1:], cloud.shape.points[point], 0.0, surface, point)
 
 
 def _corners_on_solid(
@@ -338,7 +339,8 @@ def _corners_on_solid(
     within = rounding(solid, other)
     near = OVER_FACE * solid.shape.extent + within
     surface = corner_surface(solid.shape, x, product(solid.R.T, n), within, near)
-    return _contacts(solid, other, corners, radius, surface)
+    number = np.arange(len(corners))
+    return contacts_over(solid[1:], other[1:], corners, radius, surface, number)
 
 
 def relative_pose(solid: ShapeInWorld, other: ShapeInWorld) -> Array:
@@ -346,29 +348,43 @@ def relative_pose(solid: ShapeInWorld, other: ShapeInWorld) -> Array:
     return product(solid.R.T, np.column_stack([other.R, other.t - solid.t]))
 
 
-def _contacts(
-    solid: ShapeInWorld, other: ShapeInWorld, points: Array, radius: float, surface: Surface
+def contacts_over(
+    solid: Pose,
+    other: Pose,
+    points: Array,
+    radius: float | Array,
+    surface: Surface,
+    number: Indices,
 ) -> ClosestPoints:
+    """Contacts of points of another body, each with a ball about it, with a solid as alpha's.
+
+    Parameters
+    ----------
+    solid, other : tuple of ndarray
+        The poses, (..., 3, 3) [-] and (..., 3) [m].
+    points : ndarray, shape (..., N, 3)
+        In the frame of the other body [m].
+    radius : float or ndarray, shape (..., 1)
+        [m].
+    surface : tuple of ndarray
+        What the points have on the solid, in its frame, of shape (..., N) and (..., N, 3).
+    number : ndarray of int, shape (..., N)
+        Of the points.
+    """
     phi, normal, tie = surface
-    n = rotated(solid.R, normal)
-    centre = rotated(other.R, points) + other.t
+    n = rotated(solid[0][..., None, :, :], normal)
+    centre = rotated(other[0][..., None, :, :], points) + other[1][..., None, :]
     return ClosestPoints(
         phi=phi - radius,
-        alpha=centre - phi[:, None] * n,
-        beta=centre - radius * n,
+        alpha=centre - phi[..., None] * n,
+        beta=centre - np.asarray(radius)[..., None] * n,
         n=n,
-        point=np.arange(len(points)),
+        point=number,
         tie=tie,
     )
 
 
 def in_world(pair: ContactPair, R: Array, t: Array) -> tuple[ShapeInWorld, ShapeInWorld]:
     """Alpha's and beta's shape where their links are; R (L, 3, 3), t (L, 3) [m] are the links'."""
-    links = [pair.alpha.link, pair.beta.link]
-    world = product(R[links], pair.poses)
-    world[:, :, 3] += t[links]
-    of_alpha, of_beta = world
-    return (
-        ShapeInWorld(pair.alpha.shape, of_alpha[:, :3], of_alpha[:, 3]),
-        ShapeInWorld(pair.beta.shape, of_beta[:, :3], of_beta[:, 3]),
-    )
+    pose_a, pose_b = poses_in_world([pair.alpha.link, pair.beta.link], pair.poses, R, t)
+    return ShapeInWorld(pair.alpha.shape, *pose_a), ShapeInWorld(pair.beta.shape, *pose_b)

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.ordered import dot, product, rotated
 from quasistatic_ref.shapes.placed_shape import Shape
 
@@ -25,6 +25,26 @@ class ShapeInWorld(NamedTuple):
 
 Pose = tuple[Array, Array]
 """R (P, 3, 3) [-] and t (P, 3) [m] of one shape of each of P pairs."""
+
+
+def poses_in_world(
+    links: list[int] | Indices, poses: Array, R: Array, t: Array
+) -> tuple[Pose, Pose]:
+    """Poses of alpha's and of beta's shape in the world, of one pair or of each of P.
+
+    Parameters
+    ----------
+    links : list or ndarray of int, shape (..., 2)
+        Those of both sides.
+    poses : ndarray, shape (..., 2, 3, 4)
+        [R, t] of the shapes on these; R [-], t [m].
+    R, t : ndarray, shapes (L, 3, 3) and (L, 3)
+        Of all links [-] and [m].
+    """
+    world = product(R[links], poses)
+    world[..., 3] += t[links]
+    of_alpha, of_beta = world.swapaxes(0, -3)
+    return (of_alpha[..., :3], of_alpha[..., 3]), (of_beta[..., :3], of_beta[..., 3])
 
 
 class Witness(NamedTuple):

@@ -113,8 +113,9 @@ def test_candidates_that_repeat_an_earlier_one_are_those_that_every_two_tell():
         few += REPEATED * rng.choice([-3, -1, -0.5, 0, 0.5, 1, 3], size=few.shape)
         none = np.zeros(count, dtype=np.int64)
         every = ClosestPoints(few[:, 0], few[:, 1:4], few[:, 1:4], few[:, 4:], none, none)
-        same = np.abs(few[:, None] - few).max(axis=2) <= REPEATED
-        assert repeated(every).tolist() == np.tril(same, -1).any(axis=1).tolist()
+        of = rng.integers(0, rng.integers(1, 4), count)
+        same = (np.abs(few[:, None] - few).max(axis=2) <= REPEATED) & (of[:, None] == of)
+        assert repeated(every, of).tolist() == np.tril(same, -1).any(axis=1).tolist()
 
 
 def test_a_hull_of_many_corners_takes_no_memory_in_the_square_of_their_number():

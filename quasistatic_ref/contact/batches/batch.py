@@ -7,9 +7,8 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.shape_in_world import Pose
+from quasistatic_ref.contact.shape_in_world import Pose, poses_in_world
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.numbers.ordered import product
 
 
 class Batch(ABC):
@@ -44,10 +43,7 @@ class Batch(ABC):
 
     def in_world(self, R: Array, t: Array) -> tuple[Pose, Pose]:
         """Poses of alpha's and beta's shapes at those of the links."""
-        world = product(R[self.links], self.poses)
-        world[..., 3] += t[self.links]
-        of_alpha, of_beta = world.swapaxes(0, 1)
-        return (of_alpha[..., :3], of_alpha[..., 3]), (of_beta[..., :3], of_beta[..., 3])
+        return poses_in_world(self.links, self.poses, R, t)
 
 
 def farthest_places(*poses: Pose) -> Array:

@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.contact.batches.batch import Batch, farthest_places
 from quasistatic_ref.contact.crossings import bearing, crossing_number, lines_crossed
-from quasistatic_ref.contact.distance import SPANNED, ClosestPoints
+from quasistatic_ref.contact.distance import SPANNED, ClosestPoints, contacts_over, repeated
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import TIED_FACES, UNIQUE_NORMAL
 from quasistatic_ref.contact.shape_in_world import Pose, Witnesses
@@ -17,7 +17,7 @@ from quasistatic_ref.contact.tied_faces import TURNED, corner_surface
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import dot, norm, product, rotated
 from quasistatic_ref.shapes.placed_shape import Box, Shape
-from quasistatic_ref.tolerances import FILLED, OVER_FACE, REPEATED, SAME_NORMAL
+from quasistatic_ref.tolerances import FILLED, OVER_FACE, SAME_NORMAL
 
 
 class BoxOfEach(Box):
@@ -85,12 +85,15 @@ class Boxes(Batch):
         known &= at_its_place | ~level.any(axis=1)
         there &= ~(alone & at_its_place[:, None]) & (dot(every.n, n[:, None]) >= TURNED)
 
-        rank = np.rint(every.phi / self.resolution[:, None])
-        rank = np.where(there, np.where(_repeated(every, there), np.inf, rank), np.nan)
+        rank = np.full(there.shape, np.nan)
+        some = there.nonzero()
+        ranks = np.rint(every.phi / self.resolution[:, None])[some]
+        rank[some] = np.where(repeated(every.chosen(some), some[0]), np.inf, ranks)
         order = rank.argsort(axis=1, kind="stable")[:, : self.n_c]
         first = np.arange(len(order))[:, None], order
-        kept = ClosestPoints._make(field[first] for field in every)
-        return known, self._filled(kept, nearest, np.count_nonzero(there, axis=1)[:, None])
+        return known, self._filled(
+            every.chosen(first), nearest, np.count_nonzero(there, axis=1)[:, None]
+        )
 
     def _filled(self, kept: ClosestPoints, nearest: Witnesses, count: Indices) -> ClosestPoints:
         """The candidates that rank first, `count` (P, 1) of each pair, and copies that fill up."""
@@ -125,12 +128,9 @@ class Boxes(Batch):
         within = np.repeat(within, count)
         shape = self._of_corners[on]
         phi, normal, tie = corner_surface(shape, x.reshape(-1, 3), ways, within, near)
-        phi = phi.reshape(-1, count)
-        n = rotated(R[:, None], normal.reshape(corners.shape))
-        centre = rotated(R_other[:, None], corners) + t_other[:, None]
-        feet = centre - phi[..., None] * n
-        number = np.broadcast_to(np.arange(count), phi.shape)
-        return ClosestPoints(phi, feet, centre - 0.0 * n, n, number, tie.reshape(phi.shape))
+        surface = phi.reshape(-1, count), normal.reshape(corners.shape), tie.reshape(-1, count)
+        number = np.broadcast_to(np.arange(count), (len(n), count))
+        return contacts_over(poses[on], poses[1 - on], corners, 0.0, surface, number)
 
     def _crossings(self, poses: tuple[Pose, Pose], nearest: Witnesses) -> ClosestPoints:
         """Crossings of edges; numbers of those that are none are negative."""
@@ -151,13 +151,3 @@ class Boxes(Batch):
         pair = pair[crossing]
         count = len(nearest.phi)
         return ClosestPoints._make(padded(one, pair, count, -1) for one in points.chosen(crossing))
-
-
-def _repeated(candidates: ClosestPoints, there: Mask) -> Mask:
-    """Which candidates repeat an earlier one that is there; of shape (P, M) both."""
-    count = there.shape[1]
-    alike = there[:, None] & np.tri(count, k=-1, dtype=bool)
-    every = np.concatenate([candidates.phi[..., None], candidates.alpha, candidates.n], axis=2)
-    for values in np.moveaxis(every, 2, 0):
-        alike &= np.abs(values[:, :, None] - values[:, None]) <= REPEATED
-    return np.asarray(alike.any(axis=2))

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.contact.batches.batch import Batch, farthest_places
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.distance import ClosestPoints, contacts_over
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import UNIQUE_NORMAL
 from quasistatic_ref.numbers.arrays import Array, Mask
@@ -58,12 +58,8 @@ class OnHalfSpaces(Batch):
         first = np.arange(len(order))[:, None], order
         corner = self._corners[first]
         height = height[first]
-        n = np.broadcast_to(rotated(plane[0][:, None], self._normal), corner.shape)
-        centre = rotated(solid[0][:, None], corner) + solid[1][:, None]
-        feet = centre - height[..., None] * n
-        tips = centre - self._radius[..., None] * n
-        alpha, beta = (feet, tips)[:: self._turn]
-        tie = np.full(order.shape, UNIQUE_NORMAL)
-        contacts = ClosestPoints(height - self._radius, alpha, beta, self._turn * n, order, tie)
+        normal = np.broadcast_to(self._normal, corner.shape)
+        surface = height, normal, np.full(order.shape, UNIQUE_NORMAL)
+        contacts = contacts_over(plane, solid, corner, self._radius, surface, order)
         places = np.maximum(farthest_places(plane, solid), np.abs(self._offset[:, 0]))
-        return places < FAR * self.size, contacts
+        return places < FAR * self.size, contacts if self._turn > 0 else contacts.swapped()

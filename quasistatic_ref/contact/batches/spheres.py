@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.contact.batches.batch import Batch, farthest_places
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.distance import ClosestPoints, contacts_over
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import TIED_FACES, UNIQUE_NORMAL
 from quasistatic_ref.numbers.arrays import Array, Mask
@@ -34,10 +34,8 @@ class Spheres(Batch):
         phi, normal = distance_to_rounded_box(x, self._cores, self._balls)
         within = TIED_FACES * np.maximum(farthest_places(solid, ball), self._extent)
         known = phi - self._radius + (self._balls + self._radius) > within
-        n = rotated(solid[0], normal)
-        feet = ball[1] - phi[:, None] * n
-        tips = ball[1] - self._radius[:, None] * n
-        alpha, beta = (feet, tips)[:: self._turn]
-        tie = np.full(len(x), UNIQUE_NORMAL)
-        points = ClosestPoints(phi - self._radius, alpha, beta, self._turn * n, 0 * tie, tie)
-        return known, ClosestPoints._make(field[:, None] for field in points)
+        tie = np.full((len(x), 1), UNIQUE_NORMAL)
+        surface = phi[:, None], normal[:, None], tie
+        centre = np.zeros((len(x), 1, 3))
+        contacts = contacts_over(solid, ball, centre, self._radius[:, None], surface, 0 * tie)
+        return known, contacts if self._turn > 0 else contacts.swapped()
