@@ -39,6 +39,10 @@ class Kinematics:
         Rows 0-2: velocity of the link's origin, rows 3-5: angular velocity, both in the world
         frame, per unit of delta_q.
         """
-        J = self.column_map.of_coordinates(self.columns * self.column_map.moves)
-        J[:, :3] += crossed(J[:, 3:], self.t[:, :, None])  # nu + omega x t
+        return self.J_of(slice(None))
+
+    def J_of(self, links: slice | list[int]) -> Array:
+        """Jacobians of k links, by their numbers, shape (k, 6, n_v) [m, rad]: those rows of J."""
+        J = self.column_map.of_coordinates(self.columns * self.column_map.moves[links])
+        J[:, :3] += crossed(J[:, 3:], self.t[links, :, None])  # nu + omega x t
         return J

@@ -317,7 +317,7 @@ class Mechanism(ABC):
         else:
             arm = checked_array(at, "at", (3,), ModelError) - kinematics.t[link]
         moment = torque + np.cross(arm, force)
-        return product(kinematics.J[link].T, np.concatenate([force, moment]))
+        return product(kinematics.J_of([link])[0].T, np.concatenate([force, moment]))
 
     def pose(self, q: ArrayLike, link: str) -> tuple[Array, Array]:
         """Rotation, shape (3, 3), and origin [m], (3,), of a link at q, in the world frame."""

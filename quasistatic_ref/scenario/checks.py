@@ -128,14 +128,14 @@ def check_motion(system: System, pairs: Sequence[ContactPair]) -> None:
         problem = 'no body can move; give one of them base = "floating", or a URDF with joints'
         raise ScenarioError(problem, field="bodies")
     kinematics = system.kinematics(system.q_start)
-    # Of each link's body extended to the world's origin: two links move as one if these are equal.
-    columns = kinematics.columns * system.column_map.moves
-    twists = system.column_map.of_coordinates(columns)
+    moves = system.column_map.moves
     for pair in pairs:
         a = pair.alpha.link
         b = pair.beta.link
         scale = 1 + np.abs(kinematics.t[[a, b]]).max()
-        if np.abs(twists[a] - twists[b]).max() <= WELDED * scale:
+        # Of bodies extended to the world's origin: two links move as one if this is zero.
+        twists = system.column_map.of_coordinates(kinematics.columns * (moves[a] - moves[b]))
+        if np.abs(twists).max() <= WELDED * scale:
             problem = "its two sides cannot move relative to each other, so it has no effect"
             names = {system.links[link].partition("/")[0] for link in (a, b)}
             still = [body.name for body in system.bodies if body.base == "fixed"]

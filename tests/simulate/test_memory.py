@@ -8,7 +8,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from quasistatic_ref import Recorder, load_scenario
+from quasistatic_ref import Body, Recorder, Sphere, System, load_scenario
 from quasistatic_ref.simulate.recorder import PACKED
 
 GROWTH = """
@@ -66,3 +66,14 @@ def test_a_recorder_holds_what_its_trajectory_does_and_a_few_numbers_more():
     n = scenario.system.n_v + scenario.system.n_u
     more = 8 * (n + 6 * simulator.layout.rows.size + 2 + 6)
     assert grown < arrays + STEPS * (more + APIECE)
+
+
+def test_loads_of_many_bodies_form_no_jacobian_of_all_links():
+    system = System([Body.of_shape(f"b{i}", Sphere(0.1), 1.0, xyz=(i, 0, 0)) for i in range(60)])
+    tracemalloc.start()
+    for body in system.bodies:
+        force = system.load(system.q_start, body.name, (1.0, 0.0, 0.0))
+        assert force.sum() == 1.0
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 8 * len(system.links) * 6 * system.n_v / 2

@@ -34,7 +34,7 @@ def sinks(start: Start, name: str) -> bool:
     base = start.free_bases[name]
     columns = slice(base.v.start, base.v.start + base.lengths)
     link = start.system.link(name)
-    down = start.gravity @ start.kinematics.J[link][:3, columns] / start.g
+    down = start.gravity @ start.kinematics.J_of([link])[0, :3, columns] / start.g
     return bool(start.load_at_start[columns] @ down > LIGHT * start.system.mass(name) * start.g)
 
 
@@ -218,7 +218,8 @@ def _sinks(start: Start, rows: Extra, shifts: list[int], base: Joint) -> float:
     columns = slice(base.v.start, base.v.start + base.lengths)
     way = start.gravity / start.g
     down = np.zeros(system.n_v)
-    down[columns] = np.linalg.lstsq(start.kinematics.J[link][:3, columns], way, rcond=None)[0]
+    J = start.kinematics.J_of([link])[0]
+    down[columns] = np.linalg.lstsq(J[:3, columns], way, rcond=None)[0]
     others = [i for i in shifts if not columns.start <= i < columns.stop]
     motion = np.column_stack([down, np.eye(system.n_v)[:, others]])  # in units of NEAR
     best = linprog(

@@ -153,6 +153,13 @@ class JoinedStep(StepData):
         """H of Eq. :eq:`eq-13`, shape (n_v, n_v)."""
         return self.of_masses.H
 
+    def momentum(self, delta_q: Array) -> Array:
+        """M_u delta_q_u, shape (..., n_u) [kg m, kg m^2], of delta_q, shape (..., n_v) [m, rad]."""
+        u = delta_q[..., self.n_a :]
+        blocks = self.of_masses.blocks
+        parts = u.reshape(*u.shape[:-1], -1, blocks.shape[-1], 1)
+        return np.asarray((blocks @ parts).reshape(u.shape))
+
     def masses(self, some: Indices) -> Array:
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
         return self.of_masses.some(some)
