@@ -221,9 +221,8 @@ class System(Mechanism):
         """
         down = gravity if isinstance(gravity, tuple) else tuple(np.asarray(gravity).tolist())
         # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
-        q = with_shape(q, "q", (self.n_q,))
-        force = self._workspace.gravity_torque(q, down)
-        return 0.0 - self._order.paper_v(force)
+        self.kinematics(q)
+        return 0.0 - self._order.paper_v(self._workspace.gravity_torque(down))
 
     def kinematics(self, q: ArrayLike) -> Kinematics:
         """Pose and Jacobian of every link at q.

@@ -76,22 +76,16 @@ class Workspace:
             entries, turns = _entries(world.model, model, before)
             self.parts.append(WorkspacePart(model, data, R, t, order.q_back[entries], turns))
             before += model.njoints - 1
-        self._latest: tuple[bytes, list[Array]] | None = None
+        self._q: list[Array] = []
         self._none = np.zeros((6, 0))
         self._gravity: tuple[float, ...] | None = None
 
     def move(self, q: Array) -> None:
         """Have pinocchio write the poses and the columns at q, shape (n_q,), into the parts."""
-        for part, q_part in zip(self.parts, self._part_qs(q), strict=True):
+        self._q = [part.part_q(q) for part in self.parts]
+        for part, q_part in zip(self.parts, self._q, strict=True):
             pin.computeJointJacobians(part.model, part.data, q_part)
             pin.updateFramePlacements(part.model, part.data)
-
-    def _part_qs(self, q: Array) -> list[Array]:
-        """Each part's own q, kept for the next call at the same q."""
-        bits = q.tobytes()
-        if self._latest is None or self._latest[0] != bits:
-            self._latest = bits, [part.part_q(q) for part in self.parts]
-        return self._latest[1]
 
     def poses(self) -> tuple[Array, Array, Array]:
         """R (L, 3, 3) and t (L, 3) of all links, the world first, and all joints' columns (6, n_x).
@@ -112,11 +106,11 @@ class Workspace:
             array.setflags(write=False)
         return arrays
 
-    def gravity_torque(self, q: Array, gravity: tuple[float, ...]) -> Array:
-        """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m], at q.
+    def gravity_torque(self, gravity: tuple[float, ...]) -> Array:
+        """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m].
 
-        Its entries are in pinocchio's order, those of q in the paper's. Gravity is the acceleration
-        of free fall in the world frame, three numbers [m/s^2].
+        It is that of the last move, in pinocchio's order. Gravity is the acceleration of free fall
+        in the world frame, three numbers [m/s^2].
         """
         if gravity != self._gravity:
             for part in self.parts:
@@ -124,7 +118,7 @@ class Workspace:
             self._gravity = gravity
         torques = [
             pin.computeGeneralizedGravity(part.model, part.data, q_part)
-            for part, q_part in zip(self.parts, self._part_qs(q), strict=True)
+            for part, q_part in zip(self.parts, self._q, strict=True)
         ]
         return torques[0] if len(torques) == 1 else np.concatenate([self._none[0], *torques])
 

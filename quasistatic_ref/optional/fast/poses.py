@@ -61,8 +61,7 @@ class Poses:
         self._at = None  # of a failure
         self._kinematics = None
         self.q[:] = q
-        self._here = self.q.copy()  # whoever has q may write into it
-        self._workspace.move(self._here)
+        self._workspace.move(q)
         self._at = at
 
     def kinematics(self) -> Kinematics:
@@ -73,4 +72,4 @@ class Poses:
 
     def weigh(self, gravity: tuple[float, ...]) -> None:
         """Have gravity [m/s^2] at that configuration written."""
-        self._workspace.gravity_torque(self._here, gravity)
+        self._workspace.gravity_torque(gravity)
