@@ -132,19 +132,13 @@ def _surely_positive(S: Array) -> bool:
     n = S.shape[-1]
     least, most = RANGE
     try:
-        L = np.linalg.cholesky(S * _less(n))
+        L = np.linalg.cholesky(S * (1 - 2 * n * (n + 3) * U * np.eye(n)))  # S - c D
     except np.linalg.LinAlgError:
         return False
     s = np.linalg.diagonal(S)
     # Twice the share, because these products are rounded.
     sure = np.square(np.linalg.diagonal(L)) > 2 * DEFINITE * s
     return bool((sure & (least < s) & (s < most)).all())
-
-
-@lru_cache(maxsize=8)
-def _less(n: int) -> Array:
-    """What takes c D off a matrix (n, n), entry by entry [-]."""
-    return 1 - 2 * n * (n + 3) * U * np.eye(n)
 
 
 def _diagonal_blocks(S: Array) -> list[Array]:

@@ -25,7 +25,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -33,9 +33,6 @@ from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.parts import ellipsoid_cone
-
-if TYPE_CHECKING:
-    pass
 
 Rows: TypeAlias = "tuple[Any, ...]"
 ConeFunction: TypeAlias = "Callable[[Any, Any, Any, Any], Rows]"
@@ -202,8 +199,8 @@ def cone(name: str) -> FrictionCone:
     raise StepDataError(f"{problem}{nearest_name(str(name), CONES)}", field="cone", value=name)
 
 
-def cone_function(name: str) -> ConeFunction:
-    """The function of a polyhedral cone, by its name.
+def cone_matrix(name: str) -> Array:
+    """The ``matrix`` of a polyhedral cone, (R, 4) [-].
 
     Raises
     ------
@@ -214,12 +211,6 @@ def cone_function(name: str) -> ConeFunction:
     """
     if not cone(name).polyhedral:
         raise InputError("has no rows", field="cone", value=name)
-    return cone(name).function
-
-
-def cone_matrix(name: str) -> Array:
-    """The ``matrix`` of a polyhedral cone, (R, 4) [-]; errors of :func:`cone_function`."""
-    cone_function(name)
     return cone(name).matrix
 
 

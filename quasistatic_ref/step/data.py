@@ -262,10 +262,6 @@ class StepData(Plain, HasPage):
         terms = [(part * Fraction(self.h), K_q), (whole, M_u), (part, of_cost)]
         return positive_sum(self.H, terms)
 
-    def momentum(self, delta_q: Array) -> Array:
-        """M_u delta_q_u, shape (..., n_u) [kg m, kg m^2], of delta_q, shape (..., n_v) [m, rad]."""
-        return np.asarray((self.M_u @ delta_q[..., self.n_a :, None])[..., 0])
-
     def masses(self, some: Indices) -> Array:
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
         return self.M_u[np.ix_(some, some)]

@@ -29,6 +29,7 @@ from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.observer import Observer, Recording
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.step.data import StepData
 
 
 class Doctor(Observer):
@@ -60,9 +61,9 @@ class Doctor(Observer):
         g = float(np.linalg.norm(simulator.gravity))
         gap = gap_after(arrays["phi"], arrays["n"], arrays["motion"])
         if system.constant_mass_matrix and simulator.extension is None:
-            momentum = results[0].step.momentum(np.asarray(arrays["delta_q"]))
+            momentum = _momentum(results[0].step, np.asarray(arrays["delta_q"]))
         else:
-            each = [result.step.momentum(result.solution.delta_q)[:n_u] for result in results]
+            each = [_momentum(one.step, one.solution.delta_q)[:n_u] for one in results]
             momentum = np.array(each)
         return {
             "gap": gap,
@@ -95,6 +96,11 @@ class Doctor(Observer):
             if skipped:
                 print(f"quasistatic-ref: not looked at: {skipped}", file=sys.stderr)
         return trajectory
+
+
+def _momentum(step: StepData, delta_q: Array) -> Array:
+    """M_u delta_q_u, shape (..., n_u) [kg m, kg m^2], of delta_q, shape (..., n_v) [m, rad]."""
+    return np.asarray((step.M_u @ delta_q[..., step.n_a :, None])[..., 0])
 
 
 def _found(recorder: Recording, trajectory: Trajectory) -> tuple[list[Finding], str]:

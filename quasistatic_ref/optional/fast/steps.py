@@ -15,7 +15,7 @@ from quasistatic_ref.optional.fast.joined import JoinedContacts, JoinedStep, Mas
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.cones import cone, cone_function, cone_matrix
+from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.contacts import friction_coefficients
 from quasistatic_ref.step.data import no_rows, row_layout
 
@@ -74,7 +74,7 @@ def cone_terms(name: str) -> dict[str, Array | Indices]:
 
     A term with coefficient zero differs from no term: it can change the sign of a zero.
     """
-    of_nan = cone_function(name)(0.0, *np.where(np.eye(3) > 0, np.nan, 0.0))
+    of_nan = cone(name).function(0.0, *np.where(np.eye(3) > 0, np.nan, 0.0))
     has = np.isnan(np.array([np.broadcast_to(row, 3) for row in of_nan]))
     return {"coefficient": cone_matrix(name)[:, 1:], "has": has.astype(np.int64)}
 
