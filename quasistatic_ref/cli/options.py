@@ -139,7 +139,7 @@ def failed_run(failure: RunFailed, path: Path) -> int:
 
     A trajectory that is there stays.
     """
-    from quasistatic_ref.simulate.trajectory import save_trajectory  # which needs coal
+    from quasistatic_ref.simulate.trajectory import save_trajectory  # which needs pinocchio
 
     trajectory: Trajectory = failure.trajectory
     file = path.with_name(f"{path.stem}_failed.npz") if path.exists() else path

@@ -5,9 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-import coal
 import numpy as np
-from coal import CollisionGeometry
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.numbers.arrays import Array, read_only
@@ -36,11 +34,6 @@ class Box(Rounded):
     ) -> None:
         halved(self, "half_extents", half_extents, "size", size)
         freeze_lengths(self, "half_extents", "three positive lengths, half of each edge")
-
-    @cached_property
-    def coal(self) -> CollisionGeometry:
-        """The shape as a coal geometry."""
-        return coal.Box(2 * self.half_extents)
 
     @cached_property
     def core(self) -> tuple[Array, float]:

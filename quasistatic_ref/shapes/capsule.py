@@ -2,9 +2,7 @@
 
 from functools import cached_property
 
-import coal
 import numpy as np
-from coal import CollisionGeometry
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.revolved import Revolved
@@ -22,11 +20,6 @@ class Capsule(Revolved, Rounded):
     >>> phi.round(12)  # [m]
     array([0.01])
     """
-
-    @cached_property
-    def coal(self) -> CollisionGeometry:
-        """The shape as a coal geometry."""
-        return coal.Capsule(self.radius, 2 * self.half_length)
 
     @cached_property
     def core(self) -> tuple[Array, float]:

@@ -2,9 +2,7 @@
 
 from functools import cached_property
 
-import coal
 import numpy as np
-from coal import CollisionGeometry
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import dot, norm
@@ -23,11 +21,6 @@ class Cone(Revolved):
     >>> phi.round(12)  # [m]
     array([0.01])
     """
-
-    @cached_property
-    def coal(self) -> CollisionGeometry:
-        """The shape as a coal geometry."""
-        return coal.Cone(self.radius, 2 * self.half_length)
 
     @property
     def rim_radius(self) -> float:

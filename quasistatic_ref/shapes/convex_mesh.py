@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import Final
 
 import numpy as np
-from coal import CollisionGeometry
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
@@ -15,15 +14,12 @@ from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.ordered import dot, norm, product
 from quasistatic_ref.shapes.facets import Facets
 from quasistatic_ref.shapes.frozen import freeze_array
-from quasistatic_ref.shapes.shape import CHUNK, Shape, coal_polytope, lengths
+from quasistatic_ref.shapes.shape import CHUNK, Shape, lengths
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 CONVEX_EXCESS: Final = 1e-3
 """Largest excess of a convex hull over its mesh, relative to size and to volume, at which the mesh
 counts as convex [-]. Single precision and coarse modelling leave 1e-5; a real dent is larger."""
-
-MOST_NEIGHBOURS = 254
-"""Most edges at a corner of a convex mesh of coal, which counts them in eight bits."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,17 +60,6 @@ class ConvexMesh(Shape):
     def is_convex(self) -> bool:
         """Whether the mesh that it stands for is its own hull."""
         return self.excess <= CONVEX_EXCESS
-
-    @cached_property
-    def coal(self) -> CollisionGeometry:
-        """The shape as a coal geometry; ModelError where coal has no place for its edges."""
-        if np.bincount(self.triangles.ravel()).max() > MOST_NEIGHBOURS:
-            problem = (
-                f"has a corner with more than {MOST_NEIGHBOURS} edges, which distances to "
-                "cylinders, cones and ellipsoids cannot have; take a coarser mesh"
-            )
-            raise ModelError(problem, field="convex mesh", value=self.words())
-        return coal_polytope(self.vertices, self.triangles)
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m].

@@ -1,10 +1,6 @@
 """The cylinder."""
 
-from functools import cached_property
-
-import coal
 import numpy as np
-from coal import CollisionGeometry
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import norm
@@ -20,11 +16,6 @@ class Cylinder(Revolved):
     >>> phi.round(12)  # [m]
     array([0.01])
     """
-
-    @cached_property
-    def coal(self) -> CollisionGeometry:
-        """The shape as a coal geometry."""
-        return coal.Cylinder(self.radius, 2 * self.half_length)
 
     @property
     def rim_radius(self) -> float:

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
-import coal
 import numpy as np
-from coal import CollisionGeometry
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.numbers.arrays import Array
@@ -39,11 +36,6 @@ class Ellipsoid(Shape):
     ) -> None:
         halved(self, "half_axes", half_axes, "size", size)
         freeze_lengths(self, "half_axes")
-
-    @cached_property
-    def coal(self) -> CollisionGeometry:
-        """The shape as a coal geometry."""
-        return coal.Ellipsoid(self.half_axes)
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m].

@@ -39,7 +39,7 @@ class Groups(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class PointCloud(Shape):
-    """A rigid set of points in its own frame, shape (N, 3) with N >= 1 [m]; no coal object.
+    """A rigid set of points in its own frame, shape (N, 3) with N >= 1 [m].
 
     Points that repeat an earlier one are left out: they would be contacts that bear nothing more,
     in the place of others. Numbers of points count those that are left.

@@ -3,9 +3,7 @@
 from functools import cached_property
 from typing import Self
 
-import coal
 import numpy as np
-from coal import CollisionGeometry
 
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.plain import Plain
@@ -25,11 +23,6 @@ class Shape(Plain):
     @cached_property
     def _hash(self) -> int:
         return super().__hash__()
-
-    @property
-    def coal(self) -> CollisionGeometry:
-        """The shape as a coal geometry; ContactError if there is none."""
-        raise self.lacks("has no coal object")
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
         """Signed distance and outward normal of points.
@@ -161,23 +154,6 @@ class Shape(Plain):
     def lacks(self, problem: str) -> ContactError:
         """The error that says what a shape of this kind does not have."""
         return ContactError(problem, field="shape", value=type(self).__name__)
-
-
-def coal_polytope(vertices: Array, triangles: Indices) -> CollisionGeometry:
-    """A convex polytope as a coal geometry.
-
-    Parameters
-    ----------
-    vertices : ndarray, shape (V, 3)
-        [m].
-    triangles : ndarray of int, shape (T, 3)
-        Corners counter-clockwise from outside.
-    """
-    points = coal.StdVec_Vec3s()
-    polygons = coal.StdVec_Triangle()
-    points.extend(list(vertices))
-    polygons.extend([coal.Triangle(*map(int, corners)) for corners in triangles])
-    return coal.Convex(points, polygons)
 
 
 def lengths(values: Array) -> str:

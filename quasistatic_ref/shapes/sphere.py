@@ -3,9 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-import coal
 import numpy as np
-from coal import CollisionGeometry
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.frozen import freeze_size
@@ -27,11 +25,6 @@ class Sphere(Rounded):
 
     def __post_init__(self) -> None:
         freeze_size(self, "radius")
-
-    @cached_property
-    def coal(self) -> CollisionGeometry:
-        """The shape as a coal geometry."""
-        return coal.Sphere(self.radius)
 
     @cached_property
     def core(self) -> tuple[Array, float]:

@@ -8,7 +8,7 @@ from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.step.data import StepData
 
-if TYPE_CHECKING:  # a trajectory needs coal, which the commands of single steps do without
+if TYPE_CHECKING:  # a trajectory needs pinocchio, which the commands of single steps do without
     from quasistatic_ref.simulate.trajectory import Trajectory
 
 

@@ -1,4 +1,4 @@
-"""Collision shapes: what they refuse, and that coal sees the same solid."""
+"""Collision shapes: what they refuse."""
 
 import numpy as np
 import pytest

@@ -21,14 +21,13 @@ import numpy as np
 
 from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
-from quasistatic_ref.errors import ContactError
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.errors import ContactError, ModelError
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.curved.settle import settled
 from quasistatic_ref.optional.curved.ways_out import rival_directions
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Ellipsoid, Shape
 from quasistatic_ref.shapes.revolved import Revolved
-from quasistatic_ref.shapes.shape import coal_polytope
 
 WITNESS: Final = 1e-10
 """Largest disagreement of a convex pair's closest points with its distance and normal, relative to
@@ -66,6 +65,9 @@ BOX_TRIANGLES = np.array(
     ]
 )  # fmt: skip
 """Of a box's corners: two of each face, counter-clockwise from outside."""
+
+MOST_NEIGHBOURS = 254
+"""Most edges at a corner of a convex mesh of coal, which counts them in eight bits."""
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -148,7 +150,7 @@ def _answers(a: ShapeInWorld, b: ShapeInWorld) -> tuple[Judged, list[Judged], fl
 
 @lru_cache(maxsize=256)
 def _resized(shape: Shape, scale: float) -> Shape:
-    """The shape with all lengths multiplied; kept, with its coal object."""
+    """The shape with all lengths multiplied; kept, for :func:`geometry`."""
     match shape:
         case Box():
             return Box(scale * shape.half_extents)
@@ -166,14 +168,41 @@ def _resized(shape: Shape, scale: float) -> Shape:
 
 
 @lru_cache(maxsize=256)
-def _geometry(shape: Shape) -> coal.CollisionGeometry:
+def geometry(shape: Shape) -> coal.CollisionGeometry:
     """The shape as coal gets it: of a box the polytope.
 
     A `coal.Box` is 1e-10 larger, or not, by what its process asked coal before.
+
+    Raises
+    ------
+    ModelError
+        Of a mesh for whose edges coal has no place.
     """
-    if isinstance(shape, Box):
-        return coal_polytope(shape.corners(UP)[0], BOX_TRIANGLES)
-    return shape.coal
+    match shape:
+        case Box():
+            return _polytope(shape.corners(UP)[0], BOX_TRIANGLES)
+        case Ellipsoid():
+            return coal.Ellipsoid(shape.half_axes)
+        case Revolved():
+            kind = getattr(coal, type(shape).__name__)
+            return kind(shape.radius, 2 * shape.half_length)
+    assert isinstance(shape, ConvexMesh)
+    if np.bincount(shape.triangles.ravel()).max() > MOST_NEIGHBOURS:
+        problem = (
+            f"has a corner with more than {MOST_NEIGHBOURS} edges, which distances to "
+            "cylinders, cones and ellipsoids cannot have; take a coarser mesh"
+        )
+        raise ModelError(problem, field="convex mesh", value=shape.words())
+    return _polytope(shape.vertices, shape.triangles)
+
+
+def _polytope(vertices: Array, triangles: Indices) -> coal.CollisionGeometry:
+    """A convex polytope, the corners of its triangles counter-clockwise from outside."""
+    points = coal.StdVec_Vec3s()
+    polygons = coal.StdVec_Triangle()
+    points.extend(list(vertices))
+    polygons.extend([coal.Triangle(*map(int, corners)) for corners in triangles])
+    return coal.Convex(points, polygons)
 
 
 def _best(a: ShapeInWorld, b: ShapeInWorld, start: Judged) -> Judged:
@@ -228,8 +257,8 @@ def _by_coal(a: ShapeInWorld, b: ShapeInWorld) -> Judged:
         request.gjk_tolerance = request.epa_tolerance = accuracy
         request.gjk_max_iterations = request.epa_max_iterations = 1000
         phi = coal.distance(
-            _geometry(a.shape), coal.Transform3s(a.R, a.t),
-            _geometry(b.shape), coal.Transform3s(b.R, b.t),
+            geometry(a.shape), coal.Transform3s(a.R, a.t),
+            geometry(b.shape), coal.Transform3s(b.R, b.t),
             request, result,
         )  # fmt: skip
         alpha = np.array(result.getNearestPoint1())

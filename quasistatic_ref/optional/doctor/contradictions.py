@@ -1,5 +1,6 @@
 """Masses, inertias and sizes that contradict each other."""
 
+import math
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from itertools import product
@@ -10,7 +11,16 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.start import Start, body
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
-from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cone,
+    Ellipsoid,
+    PlacedShape,
+    Shape,
+    Sphere,
+)
+from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.simulate.finding import Finding
 
 DENSITIES = 10.0, 25_000.0
@@ -25,6 +35,8 @@ OUTSIDE = 0.25
 a cloud may be a part of a surface."""
 FOOT = 0.2
 """Largest extent of a foot over that of all feet [-]."""
+BALL = 4 / 3 * math.pi
+"""Volume of a ball over the third power of its radius [-]."""
 RATIO = 1000.0
 """Of the largest and the smallest body or shape of a scene [-]."""
 
@@ -77,8 +89,20 @@ def _are_feet(shapes: Sequence[PlacedShape], hull: ConvexMesh) -> bool:
 
 
 def _volume(shape: Shape) -> float:
-    """Volume [m^3]; a mesh knows its own, and may have more edges at a corner than coal counts."""
-    return shape.volume if isinstance(shape, ConvexMesh) else float(shape.coal.computeVolume())
+    """Volume [m^3]."""
+    match shape:
+        case Sphere():
+            return BALL * shape.radius**3
+        case Box():
+            return 8.0 * float(np.prod(shape.half_extents))
+        case Ellipsoid():
+            return BALL * float(np.prod(shape.half_axes))
+        case ConvexMesh():
+            return shape.volume
+    assert isinstance(shape, Revolved)
+    cylinder = 2 * math.pi * shape.radius**2 * shape.half_length
+    caps = BALL * shape.radius**3 if isinstance(shape, Capsule) else 0.0
+    return cylinder / 3 if isinstance(shape, Cone) else cylinder + caps
 
 
 def inertia(start: Start) -> Iterator[Finding]:

@@ -13,6 +13,7 @@ from quasistatic_ref import (
     Sphere,
     System,
 )
+from tests.oracles.coal_solids import coal_solid
 from tests.scenes import BALL
 from tests.tolerances import ROUNDING
 
@@ -34,7 +35,8 @@ def test_a_body_of_a_shape_is_a_free_solid_about_its_centre(shape):
     """Its moments of inertia are those of coal, whose solids have a density of one."""
     system = System([Body.of_shape("it", shape, MASS, xyz=(1, 2, 3), rpy=(0.1, 0.2, 0.3))])
     expected = MASS * np.eye(6)
-    expected[3:, 3:] = MASS / shape.coal.computeVolume() * shape.coal.computeMomentofInertia()
+    solid = coal_solid(shape)
+    expected[3:, 3:] = MASS / solid.computeVolume() * solid.computeMomentofInertia()
     np.testing.assert_allclose(
         system.M_u(system.q_start), expected, rtol=ROUNDING, atol=ROUNDING * MASS
     )

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, Cone, ContactError, Ellipsoid
+from quasistatic_ref import Box, Cone, ContactError, Ellipsoid, ModelError, convex_hull
 from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.curved import by_coal
@@ -151,3 +151,12 @@ def test_a_smooth_way_out_between_all_axes_is_near_a_sample():
     z = np.array([0.0, 0.0, 1.0])
     (found,) = rival_directions(a, b, z, float(gaps(a, b, z[None])[0]), 0.05)
     assert found @ -z > np.cos(REACH)
+
+
+def test_a_fan_of_many_edges_has_no_distance_to_a_cone():
+    turn = np.linspace(0, 2 * np.pi, 300, endpoint=False)
+    rim = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(300)])
+    fan = convex_hull(np.vstack([rim, [[0, 0, 1]]]))
+    kinematics = standing_links((np.eye(3), np.array([0.0, 0.0, 2.0])))
+    with pytest.raises(ModelError, match="has a corner with more than 254 edges"):
+        found_for(placed_shape(fan), placed_shape(Cone(0.15, 0.2), 1), kinematics)

@@ -206,6 +206,26 @@ def test_masses_and_centres_that_no_body_of_such_shapes_has_are_still_said():
         assert name in [one.name for one in found(four, mass, 2e-3 * mass, centre)]
 
 
+SIZES = {
+    "sphere": "0.03",
+    "box": "0.01 0.02 0.03",
+    "cylinder": "0.03 0.01",
+    "capsule": "0.03 0.01",
+    "ellipsoid": "0.01 0.02 0.03",
+}
+
+
+def test_a_density_is_that_of_the_volume_by_which_mujoco_makes_the_mass():
+    bodies = "".join(
+        f'<body name="{kind}" pos="{i} 0 1"><freejoint/>'
+        f'<geom type="{kind}" size="{size}" density="3"/></body>'
+        for i, (kind, size) in enumerate(SIZES.items())
+    )
+    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
+    said = [one for one in qr.mujoco_scenario(model).findings() if one.name == "density"]
+    assert [one.numbers["density_kg_per_m3"] for one in said] == pytest.approx([3.0] * len(SIZES))
+
+
 BALLS = (qr.Sphere(0.03), qr.Sphere(0.03))
 
 
