@@ -10,10 +10,7 @@ divided by a power of a, are wrong by 5e-13 of themselves at 2e-4 rad, those of 
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
 from quasistatic_ref.numbers.angles import angle_of, cos_sin
-from quasistatic_ref.numbers.arrays import Array
 
 Vector = Sequence[float]
 """Few numbers: on so few, plain arithmetic takes a tenth of NumPy's time."""
@@ -160,12 +157,6 @@ def along(R: list[list[float]], v: Vector) -> list[float]:
     """R'v of the rows of R: a vector of the world along a link's own axes [its unit]."""
     x, y, z = v
     return [p * x + q * y + r * z for p, q, r in zip(*R, strict=True)]
-
-
-def quaternion_rates(quaternion: Array) -> Array:
-    """Derivative of a quaternion [x y z w], shape (4,), by a turn in its own frame, (4, 3)."""
-    x, y, z, w = quaternion.tolist()
-    return np.array([[w, -z, y], [z, w, -x], [-y, x, w], [-x, -y, -z]]) / 2
 
 
 def turn_between(before: Vector, after: Vector) -> float:

@@ -61,10 +61,6 @@ class AxisJoint(Joint):
         """Its entry of q_next (-) q."""
         return [q_next[0] - q[0]]
 
-    def rates(self, q: Array) -> Array:
-        """Derivative of its entries of q (+) e by e at 0, shape (1, 1)."""
-        return np.ones((1, 1))
-
 
 class Revolute(AxisJoint):
     """A joint that turns about its axis, between limits."""

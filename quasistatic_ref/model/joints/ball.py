@@ -30,7 +30,3 @@ class Ball(TwistJoint):
     def change(self, q: list[float], q_next: list[float]) -> list[float]:
         """Its entries of q_next (-) q."""
         return screw.rotation_between(q, q_next)[0]
-
-    def rates(self, q: Array) -> Array:
-        """Derivative of its entries of q (+) e by e at 0, shape (4, 3)."""
-        return screw.quaternion_rates(q)

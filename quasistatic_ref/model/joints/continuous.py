@@ -2,7 +2,6 @@
 
 from typing import Any
 
-import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.model import screw
@@ -46,8 +45,3 @@ class Continuous(AxisJoint):
     def change(self, q: list[float], q_next: list[float]) -> list[float]:
         """Its entry of q_next (-) q."""
         return [screw.turn_between(q, q_next)]
-
-    def rates(self, q: Array) -> Array:
-        """Derivative of its entries of q (+) e by e at 0, shape (2, 1)."""
-        c, s = q.tolist()
-        return np.array([[-s], [c]])

@@ -1,6 +1,5 @@
 """A body that moves freely: q holds x, y, z and a quaternion [x y z w], delta_q a twist."""
 
-import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.model import screw
@@ -8,7 +7,6 @@ from quasistatic_ref.model.joints.joint import QUATERNION
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.ordered import length
 
 
 class Floating(TwistJoint):
@@ -39,10 +37,3 @@ class Floating(TwistJoint):
         apart = [b - a for a, b in zip(q[:3], q_next[:3], strict=True)]
         w, a, c2 = screw.rotation_between(q[3:], q_next[3:])
         return [*screw.combined(screw.along(screw.rows(q[3:]), apart), w, a, -0.5, c2), *w]
-
-    def rates(self, q: Array) -> Array:
-        """Derivative of its entries of q (+) e by e at 0, shape (7, 6)."""
-        E = np.zeros((7, 6))
-        E[:3, :3] = screw.rows((q[3:] / length(q[3:])).tolist())
-        E[3:, 3:] = screw.quaternion_rates(q[3:])
-        return E

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.numbers.arrays import Array
 
 QUATERNION = "quaternion"
 COSINE_SINE = "(cos, sin)"
@@ -122,13 +121,3 @@ class Joint(Plain, ABC):
     @abstractmethod
     def change(self, q: list[float], q_next: list[float]) -> list[float]:
         """Its entries of q_next (-) q, from its entries of both [m, rad]."""
-
-    @abstractmethod
-    def rates(self, q: Array) -> Array:
-        """Derivative of its entries of q (+) e by its entries of e at 0, shape (k, n) [1/m, 1/rad].
-
-        Parameters
-        ----------
-        q : ndarray, shape (k,)
-            Its entries of q, those of :attr:`unit_part` of any length but zero.
-        """

@@ -1,6 +1,5 @@
 """A body that stays upright at its height: q holds x, y, cos and sin of its angle."""
 
-import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.model import screw
@@ -8,7 +7,6 @@ from quasistatic_ref.model.joints.joint import COSINE_SINE
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.ordered import length
 
 
 class Planar(TwistJoint):
@@ -38,13 +36,6 @@ class Planar(TwistJoint):
         apart = screw.along(_rows(q), [q_next[0] - q[0], q_next[1] - q[1], 0.0])
         angle = screw.turn_between(q[2:], q_next[2:])
         return [*screw.linear_part(apart, [0.0, 0.0, angle])[:2], angle]
-
-    def rates(self, q: Array) -> Array:
-        """Derivative of its entries of q (+) e by e at 0, shape (4, 3)."""
-        _, _, c, s = q.tolist()
-        E = np.array([[c, -s, 0], [s, c, 0], [0, 0, -s], [0, 0, c]])
-        E[:2] /= length(q[2:])
-        return E
 
 
 def _rows(q: list[float]) -> list[list[float]]:

@@ -14,10 +14,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.model.joints.joint import COSINE_SINE, QUATERNION, Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
+from quasistatic_ref.model.screw import rows
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.ordered import crossed
+from quasistatic_ref.numbers.ordered import crossed, length
 
 TERMS = 28
 """Of the series: of a turn by pi the rest is below 1e-16 of the twist."""
@@ -108,8 +109,29 @@ def entry_rates(joints: Sequence[Joint], q: Array) -> Array:
     """
     E = np.zeros((joints[-1].q.stop, joints[-1].v.stop)) if joints else np.zeros((0, 0))
     for joint in joints:
-        E[joint.q, joint.v] = joint.rates(q[joint.q])
+        E[joint.q, joint.v] = _joint_rates(joint, q[joint.q])
     return E
+
+
+def _joint_rates(joint: Joint, q: Array) -> Array:
+    """The block of one joint, of its own entries of q, shape (k, n)."""
+    n = joint.lengths
+    turn = q[n:]
+    E = np.eye(len(q), joint.v.stop - joint.v.start)
+    if joint.unit == QUATERNION:
+        E[:n, :n] = rows((turn / length(turn)).tolist())[:n]
+        E[n:, n:] = _quaternion_rates(turn)
+    if joint.unit == COSINE_SINE:
+        c, s = turn
+        E[:n, :n] = np.array([[c, -s], [s, c]])[:n, :n] / length(turn)
+        E[n:, n:] = [[-s], [c]]
+    return E
+
+
+def _quaternion_rates(quaternion: Array) -> Array:
+    """Derivative of a quaternion [x y z w], shape (4,), by a turn in its own frame, (4, 3)."""
+    x, y, z, w = quaternion.tolist()
+    return np.array([[w, -z, y], [z, w, -x], [-y, x, w], [-x, -y, -z]]) / 2
 
 
 def _bases(joints: Sequence[Joint], change: Array) -> list[tuple[tuple[slice, slice], Array]]:
