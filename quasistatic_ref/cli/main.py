@@ -41,21 +41,8 @@ COMMANDS = {
 }
 SWEEP = "sweep"
 """What does ``run`` with ``--sweep``."""
-LABS = (
-    "demo",
-    "account",
-    "body",
-    "opinion",
-    "serve",
-    "vectors",
-    "validate",
-    "study",
-    "figures",
-    "bench",
-    "schema",
-    SWEEP,
-)
-"""Commands that do something with the core, or ask an optional part alone."""
+OF_CORE = ("run", "solve", "verify", "inspect", "extract", "backends")
+"""Commands of the core; the others do something with it, or ask an optional part alone."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -199,7 +186,7 @@ def _actions(command: argparse.ArgumentParser) -> list[argparse.ArgumentParser]:
 
 def _module(command: str) -> ModuleType:
     """Import the module of a command: the lab's are imported nowhere else in the core."""
-    return import_module(f"{LAB if command in LABS else CORE}.{command}")
+    return import_module(f"{CORE if command in OF_CORE else LAB}.{command}")
 
 
 def _run(options: argparse.Namespace) -> int:

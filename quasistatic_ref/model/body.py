@@ -15,7 +15,7 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.urdf.solid import Homogeneous, solid_urdf
-from quasistatic_ref.shapes.frozen import finite, freeze_array
+from quasistatic_ref.shapes.frozen import finite_number, freeze_array
 
 FIXED = "fixed"
 BASE_WORDS = (FIXED, *BASES)
@@ -93,7 +93,7 @@ class Body(Plain):
         if obstacle is not None:
             raise ModelError(obstacle, field=f"{self.name}.rpy", value=rpy.tolist())
         positions = {
-            joint: finite(value, f"{self.name}.positions.{joint}")
+            joint: finite_number(value, f"{self.name}.positions.{joint}")
             for joint, value in self.positions.items()
         }
         object.__setattr__(self, "positions", positions)

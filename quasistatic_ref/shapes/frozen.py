@@ -1,5 +1,6 @@
 """Fields of frozen dataclasses, checked and made read-only."""
 
+import math
 from typing import Any, Final
 
 import numpy as np
@@ -12,13 +13,13 @@ SHORT: Final = 1e-15
 """
 
 
-def finite(value: Any, key: str) -> float:
+def finite_number(value: Any, key: str) -> float:
     """A finite float [the field's unit]; ModelError naming the field otherwise."""
     try:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
-        raise ModelError("must be a finite number", field=key, value=value) from None
-    if not np.isfinite(number):
+        number = math.nan
+    if not math.isfinite(number):
         raise ModelError("must be a finite number", field=key, value=value)
     return number
 
@@ -40,7 +41,7 @@ def freeze_array(owner: object, key: str, shape: tuple[int, ...]) -> None:
 def freeze_size(owner: object, key: str) -> None:
     """Replace a field by a float; ModelError unless it is positive."""
     value = getattr(owner, key)
-    number = finite(value, key)
+    number = finite_number(value, key)
     _check_lengths([number], key, "a positive length", value)
     object.__setattr__(owner, key, number)
 

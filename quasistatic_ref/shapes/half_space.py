@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import dot, length
-from quasistatic_ref.shapes.frozen import finite, freeze_array
+from quasistatic_ref.shapes.frozen import finite_number, freeze_array
 from quasistatic_ref.shapes.shape import Shape
 
 
@@ -44,7 +44,7 @@ class HalfSpace(Shape):
 
     def __post_init__(self) -> None:
         freeze_array(self, "normal", (3,))
-        offset = finite(self.offset, "offset")
+        offset = finite_number(self.offset, "offset")
         size = length(self.normal)
         if not (size > 0 and np.isfinite(offset / size)):
             raise ModelError("must not be zero", field="normal", value=self.normal.tolist())

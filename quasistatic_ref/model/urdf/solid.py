@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.shapes.frozen import finite
+from quasistatic_ref.shapes.frozen import finite_number
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Sphere
 
 Homogeneous = Sphere | Box | Cylinder | Capsule
@@ -30,7 +30,7 @@ def solid_urdf(shape: Homogeneous, mass: float, name: str) -> str:
     if not isinstance(shape, Homogeneous):
         problem = "must be a Sphere, Box, Cylinder or Capsule; other bodies need a URDF"
         raise ModelError(problem, field=f"{name}.shape", value=shape)
-    m = finite(mass, f"{name}.mass")
+    m = finite_number(mass, f"{name}.mass")
     if not m > 0:
         raise ModelError("must be greater than 0", field=f"{name}.mass", value=mass)
     xx, yy, zz = solid_inertia(shape, m).tolist()
