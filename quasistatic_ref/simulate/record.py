@@ -20,6 +20,13 @@ PER_STEP = (
 )  # fmt: skip
 PROGRAM = ("H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
 """What a full record adds, step by step."""
+LOADS = PROGRAM[-3:]
+"""Fields of a step that are no matrices."""
+OF_MANY = ("column", *PROGRAM[4:])
+"""What it adds of a `fast` step of many bodies: of J and M_u what can differ from zero."""
+LARGEST = 1_000_000
+"""Entries of J from which a step is one of many bodies; beyond those of one step, no more are kept
+before they become arrays."""
 NOT_KNOWN = ("worst_residual", "digits", "forces", "imbalance")
 """Arrays that hold NaN where nothing was certified, or no forces were found; all others are finite.
 """
@@ -74,15 +81,17 @@ def check_arrays(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
         names = getattr(header, name)
         if len(names) != count:
             raise InputError(f"must have {count} entries", field=name, value=len(names))
-    extra = header.extra
+    extra = EXTRA if header.extra else ()
     iterated = ITERATED if header.law == COULOMB else ()
+    many = "column" in arrays
+    program = OF_MANY if many else PROGRAM
+    own = {"full": program, "forces": FORCES}.get(record, ())
     if steps:
-        needed = (*PER_STEP, *PROGRAM, *(EXTRA if extra else ())) if full else PER_STEP
-        _check_present(arrays, (*needed, *(FORCES if record == "forces" else ()), *iterated))
+        _check_present(arrays, (*PER_STEP, *own, *(extra if full else ()), *iterated))
     if any(name in arrays for name in COST):
         _check_present(arrays, COST)
-    of_record = {"full": (*PROGRAM, *COST, "forces"), "forces": FORCES}.get(record, ())
-    known = ("q", *CONSTANT, *PER_STEP, *of_record, *(EXTRA if extra else ()), *iterated)
+    more = (*COST, "forces") if full else ()
+    known = ("q", *CONSTANT, *PER_STEP, *own, *more, *extra, *iterated)
     for name in arrays:
         if name not in known:
             raise InputError(f"is unknown{suggestion(name, known)}", field=name)
@@ -103,7 +112,15 @@ def check_arrays(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
     shapes: dict[str, tuple[int, ...]] = dict.fromkeys(CONSTANT, (n_c,))
     if steps:
         shapes |= of_steps | {n: (steps, arrays[n].shape[-1]) for n in ("q_bar_a", "lam")}
-    if steps and full:  # an extension may have coordinates of its own
+    if many:
+        column = arrays["column"]
+        width = column.shape[-1]
+        size = max(1, arrays["M_u"].shape[-1])
+        shapes |= {"column": (steps, n_c, width), "J": (steps, n_c, 4, width)}
+        shapes["M_u"] = (steps, header.n_u // size, size, size)
+        if column.dtype.kind == "f" or ((column < 0) | (column > n_v)).any():
+            raise InputError(f"must contain whole numbers of 0 to {n_v}", field="column")
+    elif steps and full:  # an extension may have coordinates of its own
         shapes["J"] = (steps, n_c, 4, max(n_v, arrays["g"].shape[-1]))
     for name, shape in shapes.items():
         if name in arrays and arrays[name].shape != shape:

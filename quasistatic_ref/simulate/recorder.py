@@ -25,6 +25,8 @@ from quasistatic_ref.simulate.record import (
     COST,
     EXTRA,
     FORCES,
+    LARGEST,
+    LOADS,
     PER_STEP,
     PROGRAM,
 )
@@ -40,12 +42,8 @@ if TYPE_CHECKING:
 
 PACKED = 100
 """Steps that are kept one by one before they become arrays, all at once."""
-LARGEST = 1_000_000
-"""Entries of J that are kept so, beyond those of one step."""
-FORMED = ("g", "A", "b", "J")
-"""What of a program is no field of its step."""
 POINTS = ("phi", "alpha", "beta", "n", "point")
-IN_ORDER = (*PER_STEP, *PROGRAM, *FORCES, *EXTRA, *COST, *ITERATED)
+IN_ORDER = (*PER_STEP, *PROGRAM, "column", *FORCES, *EXTRA, *COST, *ITERATED)
 SECONDS = "seconds."
 """What the names of wall times begin with."""
 
@@ -372,17 +370,17 @@ def programs(steps: Sequence[StepData]) -> StepArrays:
     dict of str to ndarray, shape as in the notation, behind a first axis, the step [-]
         By the notation's names [in its units].
     """
-    arrays: StepArrays = {name: _of_all(steps, name) for name in PROGRAM if name not in FORMED}
-    forms = [standard_form(step) for step in steps]
-    arrays |= {name: _of_all(forms, name) for name in ("g", "A", "b")}
-    arrays["J"] = np.array([step.contacts.J for step in steps])
-    if steps[0].extra.names:
-        extra = [step.extra for step in steps]
-        arrays |= {"extra_A": _of_all(extra, "A"), "extra_b": _of_all(extra, "b")}
-    if steps[0].extra.cost is not None:
-        extra = [step.extra for step in steps]
-        arrays |= {"extra_H": _of_all(extra, "H"), "extra_g": _of_all(extra, "g")}
-    return arrays
+    arrays: StepArrays = {name: _of_all(steps, name) for name in LOADS}
+    matrices = [step.recorded for step in steps]
+    arrays |= {name: np.array([each[name] for each in matrices]) for name in matrices[0]}
+    if "H" in arrays:
+        forms = [standard_form(step) for step in steps]
+        arrays |= {name: _of_all(forms, name) for name in ("g", "A", "b")}
+    extra = [step.extra for step in steps]
+    of_extra = ("A", "b") if extra[0].names else ()
+    if extra[0].cost is not None:
+        of_extra = (*of_extra, "H", "g")
+    return arrays | {f"extra_{name}": _of_all(extra, name) for name in of_extra}
 
 
 def _checked_note(name: str, note: ArrayLike, steps: int, before: Array | None) -> Array:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import load_step, load_trajectory, solve_step
+from quasistatic_ref.cli import extract
 from quasistatic_ref.simulate import simulator
 from tests.model.urdf.urdf_texts import joint, urdf_of_text
 from tests.scenes import RAIL, SWING, written_scenario
@@ -115,3 +116,22 @@ def test_a_run_in_another_cone_can_be_replayed_from_its_file(name, scene, tmp_pa
     out = tmp_path / "step.json"
     cli("extract", tmp_path / "scene.npz", "--step", "3", "-o", out)
     assert load_step(out) == step
+
+
+@pytest.mark.extra("fast")
+def test_the_step_of_one_body_s_group_is_extracted_and_proved(scene, tmp_path, cli, monkeypatch):
+    """A plate on a rail is in the ball's group; a wheel on that rail is not."""
+    cli("run", scene, "--fast", "--set", "steps=2", "--set", "record=full", "--out", tmp_path)
+    path = tmp_path / "scene.npz"
+    step = tmp_path / "step.json"
+    answer = tmp_path / "answer.json"
+    cli("extract", path, "--step", "1", "--body", "ball", "-o", step)
+    part = load_step(step)
+    whole = load_trajectory(path).step_data(1)
+    assert (part.n_v, part.contacts.name) == (whole.n_v - 1, whole.contacts.name)
+    cli("solve", step, "-o", answer)
+    assert "verified" in cli("verify", step, answer).out
+    asked = ("extract", path, "--step", "1")
+    assert "did you mean 'ball'" in cli(*asked, "--body", "bal", status=2).err
+    monkeypatch.setattr(extract, "LARGEST_TEXT", 100)
+    assert "extract the group of one body, with --body" in cli(*asked, status=2).err

@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from scipy.linalg import block_diag
 
 from quasistatic_ref import Extra, StepData, StepDataError, solve_step
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.lab.scenes.contacts import no_contacts
-from quasistatic_ref.numbers.pivots import DEFINITE, positive_pivots
+from quasistatic_ref.numbers.pivots import DEFINITE, MANY, positive_pivots
 from tests.oracles.attacked_steps import positive_definite, singular
 from tests.tolerances import ROUNDING
 
@@ -52,6 +53,13 @@ def test_a_pivot_of_zero_is_none_also_where_rounding_makes_it_positive():
 def test_a_stack_obeys_the_rule_if_each_of_its_matrices_does():
     assert positive_pivots(np.array([NEAR, np.eye(3)]))
     assert not positive_pivots(np.array([np.eye(3), -np.eye(3)]))
+
+
+@pytest.mark.parametrize("last", [[[2.0]], [[-1.0]], [[0.0]]])
+def test_blocks_of_a_large_matrix_obey_the_rule_one_by_one(last):
+    S = block_diag(*[NEAR] * MANY, last)
+    assert positive_pivots(S) == (last[0][0] > 0)
+    assert positive_pivots(np.eye(len(S)) + 0.5) is True
 
 
 def test_a_nearly_singular_stiffness_has_norms_and_an_exact_answer():

@@ -1,11 +1,14 @@
 """Trajectories: the same bits in and out, without pickles."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, load_scenario, load_trajectory, save_trajectory
 from quasistatic_ref.certify import solution
 from quasistatic_ref.cli.run import worst_residual
+from quasistatic_ref.optional.fast import joined
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.header import header_table
 from tests.scenes import written_scenario
@@ -54,6 +57,27 @@ def test_a_recorded_step_is_the_one_that_was_solved(scenario, run):
         solved = simulator.step(q, targets(t), force(t, q))
         assert run.step_data(k) == solved.step
         np.testing.assert_array_equal(run["delta_q"][k], solved.solution.delta_q)
+
+
+@pytest.mark.extra("fast")
+@pytest.mark.parametrize("name", ["block_push", "stack", "door"])
+def test_a_recorded_step_of_many_bodies_is_the_one_that_was_solved(name, tmp_path, monkeypatch):
+    scenario = load_scenario(name, ["record=full"], steps=3, fast=True)
+    every = scenario.run(progress=False)
+    monkeypatch.setattr(joined, "LARGEST", 0)
+    run = scenario.run(progress=False)
+    assert {*every} - {*run} == {"H", "g", "A", "b"}
+    assert run["J"].size == 4 * run["column"].size <= every["J"].size
+    moved = run.account(forces=False).numbers
+    assert moved["pairs"] == every.account(forces=False).numbers["pairs"]
+    path = save_trajectory(tmp_path / "run.npz", run)
+    back = load_trajectory(path)
+    for k in range(3):
+        assert back.step_data(k) == run.step_data(k) == every.step_data(k)
+    for array in (run["column"] - 1, run["column"] + 99, run["column"] + 0.0):
+        save_trajectory(path, replace(run, arrays={**run.arrays, "column": array}))
+        with pytest.raises(InputError, match=r"column: must contain whole numbers of 0 to \d+"):
+            load_trajectory(path)
 
 
 def test_a_file_read_back_is_the_same_bits(tmp_path, run):

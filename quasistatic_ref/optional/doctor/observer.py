@@ -61,7 +61,9 @@ class Doctor(Observer):
         g = float(np.linalg.norm(simulator.gravity))
         gap = gap_after(arrays["phi"], arrays["n"], arrays["motion"])
         if system.constant_mass_matrix and simulator.extension is None:
-            momentum = _momentum(results[0].step, np.asarray(arrays["delta_q"]))
+            blocks = system.mass_blocks
+            u = arrays["delta_q"][:, system.n_a :].reshape(len(results), *blocks.shape[:2], 1)
+            momentum = (blocks @ u).reshape(len(results), n_u)
         else:
             each = [_momentum(one.step, one.solution.delta_q)[:n_u] for one in results]
             momentum = np.array(each)

@@ -9,27 +9,40 @@ import numpy as np
 
 from quasistatic_ref.model.mass import whole
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
-from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.simulate.record import LARGEST
+from quasistatic_ref.step.contacts import Contacts, spread
 from quasistatic_ref.step.data import StepData, hessian
 
 
-def spread(rows: Array, column: Indices, n: int) -> Array:
-    """Rows in all of n columns, shape (..., n).
+class Joined:
+    """Data of which some fields are formed when they are read.
 
-    Parameters
+    Attributes
     ----------
-    rows : ndarray, shape (..., w)
-        [any unit].
-    column : ndarray of int, shape (..., w), or one that is broadcast to it
-        Which columns these are; n stands for none.
-    n : int
+    formed, kept_instead : tuple of str
+        Their names, and what is kept in their place.
     """
-    every = np.zeros((*rows.shape[:-1], n + 1))
-    np.put_along_axis(every, column, rows, axis=-1)
-    return every[..., :n].copy()
+
+    formed: tuple[str, ...]
+    kept_instead: tuple[str, ...]
+
+    def __new__(cls, *_: object, **fields: Any) -> Any:
+        """Such data as any other where all fields are given, as by ``dataclasses.replace``."""
+        return cls.compared_as()(**fields) if fields else super().__new__(cls)
+
+    @classmethod
+    def compared_as(cls) -> type:
+        """The class whose fields it forms."""
+        return cls.__bases__[1]
+
+    @classmethod
+    def kept(cls) -> tuple[str, ...]:
+        """As of that class, without what is formed."""
+        every: tuple[str, ...] = super().kept()  # type: ignore[misc]
+        return *(name for name in every if name not in cls.formed), *cls.kept_instead
 
 
-class JoinedContacts(Contacts):
+class JoinedContacts(Joined, Contacts):
     """Contacts whose J is formed when it is read.
 
     Attributes
@@ -40,23 +53,10 @@ class JoinedContacts(Contacts):
         Which these are, ascending; n_v where a contact has fewer.
     """
 
+    formed = ("J",)
+    kept_instead = ("own_J", "column", "n_v")
     own_J: Array
     column: Indices
-
-    def __new__(cls, *_: object, **fields: Any) -> Any:
-        """Contacts as any other where all fields are given, as by ``dataclasses.replace``."""
-        return Contacts(**fields) if fields else super().__new__(cls)
-
-    @classmethod
-    def compared_as(cls) -> type:
-        """The class Contacts, whose fields it forms."""
-        return Contacts
-
-    @classmethod
-    def kept(cls) -> tuple[str, ...]:
-        """As of Contacts, without J."""
-        fields = (name for name in super().kept() if name != "J")
-        return *fields, "own_J", "column", "n_v"
 
     @cached_property
     def J(self) -> Array:
@@ -119,7 +119,7 @@ class Masses:
         return hessian(self.h, self.K_q[np.ix_(a, a)], self.some(u))
 
 
-class JoinedStep(StepData):
+class JoinedStep(Joined, StepData):
     """A step whose M_u and H are formed when they are read.
 
     Attributes
@@ -127,21 +127,10 @@ class JoinedStep(StepData):
     of_masses : Masses
     """
 
+    formed = ("M_u",)
+    kept_instead = ("of_masses",)
+    contacts: JoinedContacts
     of_masses: Masses
-
-    def __new__(cls, *_: object, **fields: Any) -> Any:
-        """A StepData as any other where all fields are given."""
-        return StepData(**fields) if fields else super().__new__(cls)
-
-    @classmethod
-    def compared_as(cls) -> type:
-        """The class StepData, whose fields it forms."""
-        return StepData
-
-    @classmethod
-    def kept(cls) -> tuple[str, ...]:
-        """As of StepData, without M_u."""
-        return *(name for name in super().kept() if name != "M_u"), "of_masses"
 
     @cached_property
     def M_u(self) -> Array:
@@ -153,12 +142,19 @@ class JoinedStep(StepData):
         """H of Eq. :eq:`eq-13`, shape (n_v, n_v)."""
         return self.of_masses.H
 
-    def momentum(self, delta_q: Array) -> Array:
-        """M_u delta_q_u, shape (..., n_u) [kg m, kg m^2], of delta_q, shape (..., n_v) [m, rad]."""
-        u = delta_q[..., self.n_a :]
+    @property
+    def recorded(self) -> dict[str, Array | Indices]:
+        """As of StepData; of many bodies J, (n_c, 4, w), `column`, and blocks of M_u, (k, s, s)."""
+        contacts = self.contacts
+        if 4 * contacts.n_c * self.n_v <= LARGEST:
+            return super().recorded
         blocks = self.of_masses.blocks
-        parts = u.reshape(*u.shape[:-1], -1, blocks.shape[-1], 1)
-        return np.asarray((blocks @ parts).reshape(u.shape))
+        return {
+            "J": contacts.own_J,
+            "column": contacts.column,
+            "K_q": self.K_q,
+            "M_u": blocks.reshape(-1, *blocks.shape[-2:]),
+        }
 
     def masses(self, some: Indices) -> Array:
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""

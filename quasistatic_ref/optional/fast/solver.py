@@ -31,12 +31,12 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
     name : str, optional
         Of the backend.
     """
-    polyhedral = cone(step.cone).polyhedral
-    if name is None:
-        name = DAQP if polyhedral else None
-    elif name == DAQP:
-        check_backend(name, step.cone)
-    return FastSolver(step) if name == DAQP else solver_for(step, name)
+    if name is None and cone(step.cone).polyhedral:
+        name = DAQP
+    if name != DAQP:
+        return solver_for(step, name)
+    check_backend(name, step.cone)
+    return FastSolver(step)
 
 
 class FormedStep(StepInBothUnits):
