@@ -10,6 +10,11 @@ where l is g - H x. If the rows of EG depend on each other, with :math:`\nu^T E 
 go on: :math:`\nu^T E\,(dG\,x + d\phi) = 0`, and :math:`dG^T E^T \nu` combines the rows. A row that
 touches without load must keep its slack of zero. Where one of these fails there is no
 derivative, but one on each side.
+
+That the rank of [A_S b_S] stays |W| (R26) is seen at one other value of a parameter. For a gap this
+is so because b is affine in the gap. For a coefficient mu > 0 it is so because the rows of a
+contact, J_n plus mu times a slip, have the same b, and their differences span the same space at
+every mu. Most parameters of a contact keep the rank, as they change all rows of this contact.
 """
 
 from collections.abc import Callable
