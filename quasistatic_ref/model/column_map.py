@@ -60,7 +60,7 @@ class JointColumns(ColumnMap):
         owner = np.zeros(model.nvExtended, dtype=np.int64)
         for of_joint, v in zip(columns, model.idx_vs, strict=True):
             owner[of_joint] = v + np.arange(of_joint.stop - of_joint.start)
-        super().__init__(moves, order.v_back[owner], int(model.nv))
+        super().__init__(moves, np.argsort(order.v)[owner], int(model.nv))
         self.order = order
         # A mimic joint comes after the one that it mimics.
         self.owned = np.unique(self.owner, return_index=True)[1]

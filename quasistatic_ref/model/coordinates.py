@@ -5,7 +5,6 @@ Within each block the order is pinocchio's. Outside of `model` all vectors are i
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -50,16 +49,6 @@ class Order:
     joints: tuple[Joint, ...]
     q: Indices
     v: Indices
-
-    @cached_property
-    def q_back(self) -> Indices:
-        """For each entry of pinocchio's q, its index in the paper's q, shape (n_q,)."""
-        return np.argsort(self.q)
-
-    @cached_property
-    def v_back(self) -> Indices:
-        """For each entry of pinocchio's delta_q, its index in the paper's, shape (n_v,)."""
-        return np.argsort(self.v)
 
     def paper_q(self, q: Array) -> Array:
         """Configuration in the paper's order, from pinocchio's; both of shape (n_q,)."""

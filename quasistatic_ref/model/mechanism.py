@@ -17,7 +17,6 @@ from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.configuration import (
     UnitParts,
     configuration,
-    surely_configurations,
     unit_configuration,
 )
 from quasistatic_ref.model.coordinates import with_shape
@@ -199,10 +198,6 @@ class Mechanism(ABC):
         """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""
         q_a = with_shape(q_a, "q_a", (self.n_q_a,))
         return np.concatenate([q_a, np.asarray(q)[self.n_q_a :]])
-
-    def surely_actuated(self, q_a: Array) -> bool:
-        """Whether `checked` would surely change nothing in actuated entries, (steps, n_q_a)."""
-        return surely_configurations(self.actuated, q_a)
 
     def checked(self, q: ArrayLike) -> Array:
         """Copy of q, finite, of shape (n_q,), its quaternions of length one.

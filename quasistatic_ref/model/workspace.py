@@ -68,13 +68,14 @@ class Workspace:
     def __init__(self, world: World, order: Order) -> None:
         self.parts: list[WorkspacePart] = []
         before = 0
+        of_paper = np.argsort(order.q)
         for model, links in _groups(world):
             data = pin.Data(model)
             placements = [data.oMf[body_frame(model, link)] for link in links]
             R = [p.rotation for p in placements]
             t = [p.translation for p in placements]
             entries, turns = _entries(world.model, model, before)
-            self.parts.append(WorkspacePart(model, data, R, t, order.q_back[entries], turns))
+            self.parts.append(WorkspacePart(model, data, R, t, of_paper[entries], turns))
             before += model.njoints - 1
         self._q: list[Array] = []
         self._none = np.zeros((6, 0))

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.quoting import known_names
+from quasistatic_ref.model.configuration import surely_configurations
 from quasistatic_ref.model.named import Values
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, checked_numbers, read_only
@@ -79,7 +80,7 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
     if values.ndim == 1:
         constant = checked(values)
         return lambda t, q, last: constant
-    sure = system.surely_actuated(values)
+    sure = surely_configurations(system.actuated, values)
     table = read_only(values + 0.0) if sure else [checked(row) for row in values]
     return lambda t, q, last: np.asarray(table[round(t / h) - 1])
 

@@ -71,11 +71,6 @@ class Backend:
     no_steps: str = ""
     returns: bool = True
 
-    def first(self, accuracy: float) -> Options:
-        """The options tried first for an accuracy in natural units [-]."""
-        ((_, options), *_) = self.attempts(accuracy)
-        return dict(options)
-
     def attempts(self, accuracy: float, curved: bool = False) -> list[tuple[float, Options]]:
         """Accuracies in natural units [-] with options, in the order in which they are tried.
 

@@ -142,7 +142,8 @@ class Solver:
         if setting.accuracy is None or "accuracy" not in facts:
             return limit
         if setting.tuned and self.target in BACKENDS:
-            return BACKENDS[self.target].first(setting.accuracy) | limit
+            (_, options), *_ = BACKENDS[self.target].attempts(setting.accuracy)
+            return options | limit
         return limit | self._options_at(setting)
 
     def _options_at(self, setting: Setting) -> Options:

@@ -50,6 +50,6 @@ def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():
     form = StandardForm(np.array([[3.0, 1.0], [1.0, 2.0]]), np.array([0.0, 4.0]), np.eye(2),
                         np.array([1.0, -9.0]))  # fmt: skip
     programs = CompiledProblems("osqp")
-    options = BACKENDS["osqp"].first(1e-10)
+    options = BACKENDS["osqp"].attempts(1e-10)[0][1]
     first, warm, cold = (programs.reply(form, options, warm=w) for w in (False, True, False))
     assert cold.iterations == first.iterations > warm.iterations
