@@ -149,23 +149,23 @@ def bodies(start: Start) -> Iterator[Body]:
         of_joint[i, joint.v.start - n_a : joint.v.stop - n_a] = True
     couplings = np.vstack([of_joint, start.M_u != 0])
     label, _ = labels(couplings)
+    of = np.array([side.link for side in start.sides], dtype=np.int64)
+    extents = np.array([side.shape.extent for side in start.sides])
     for first in np.unique(label):
         at = n_a + np.flatnonzero(label == first)
         own = tuple(joint for joint in joints if joint.v.start in at)
         free = len(own) == 1 and own[0].free
         links: Mask = np.asarray(np.any(start.moves[:, at], axis=1), dtype=np.bool_)
-        of_pairs = np.array(
-            [links[p.alpha.link] or links[p.beta.link] for p in start.pairs], dtype=np.bool_
-        )
-        extents = [side.shape.extent for side in start.sides if links[side.link] and side.link]
-        size = max((x for x in extents if 0 < x < np.inf), default=FARTHEST)
+        of_sides = links[of]
+        of_pairs = of_sides[::2] | of_sides[1::2]
+        size = extents[of_sides & (of > 0) & (extents < np.inf)].max(initial=0.0) or FARTHEST
         yield Body(
             own[0].name.removesuffix("/base"),
             at,
             free,
             float(system.masses[links].sum()) or 1.0,
             np.asarray(of_pairs[start.pair_of]),
-            size,
+            float(size),
             np.array([coordinates[i - n_a].unit == "m" for i in at]),
             own,
         )

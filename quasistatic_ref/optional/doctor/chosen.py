@@ -8,6 +8,7 @@ import numpy as np
 
 from quasistatic_ref.optional.doctor import slowly
 from quasistatic_ref.optional.doctor.looks import TOUCHES
+from quasistatic_ref.optional.doctor.start import slices
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.friction import slip_norm
@@ -21,7 +22,7 @@ LITTLE = slowly.LITTLE
 RISES = 0.03
 """What a layer may add to a force, and the part of friction lost to corners, that are asked [-]."""
 PROVED = 60
-"""Steps that are proved until bodies are left out which hardly move."""
+"""Proofs after which no body is asked again, nor one that hardly moves."""
 
 
 class Asked(NamedTuple):
@@ -98,8 +99,7 @@ def _of_pairs(run: Run) -> list[Asked]:
         shares = np.where(run.presses & (gives > 0), adds / f_n, 0.0)
     lost = _lost(run, s)
     convex = run.simulator.law == CONVEX
-    for i, pair in enumerate(run.pairs):
-        of_pair = run.pair_of == i
+    for pair, of_pair in slices(run.pairs):
         stays = np.asarray(run.presses[:, of_pair].any(axis=1))
         stays[1:] &= stays[:-1].copy()  # not where it comes to press
         later = np.arange(run.steps) >= min(1, run.steps - 1)
@@ -156,7 +156,7 @@ def looked(run: Run) -> int:
         if run.looking.solvers.proved >= PROVED and one.name not in far - known:
             left += 1
             continue
-        look = run.looking.at(one.k, {one.name}, one.k in corners)
+        look = run.looking.at(one.k, one.name, one.k in corners)
         known.add(one.name)
         seen.add((one.name, one.k))
         of_look = look.bodies | look.lost

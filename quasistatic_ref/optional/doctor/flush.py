@@ -56,9 +56,8 @@ def flush(start: Start) -> Iterator[Finding]:
     if points is None or isinstance(start, Run):
         return
     bears = start.touching(points.phi)
-    of_link = _of_links(start)
     for on in _sides(slices(start.pairs), points, bears):
-        for ahead in _sides(of_link[on.link], points, ~bears):
+        for ahead in _sides(_near(start, on), points, ~bears):
             if _joined(ahead, on, start.kinematics):
                 along = ahead.normals[0]
                 reach = _reach(ahead.other, along, start.kinematics)
@@ -72,13 +71,12 @@ def pushed_back(run: Run) -> Iterator[Finding]:
     """After a run: the first pair of those that press most along the face on which a body lies."""
     f_n = run["wrench"][:, :, 2]
     most = [(float(f_n[:, at].max(initial=0.0)), pair, at) for pair, at in slices(run.pairs)]
-    of_link = _of_links(run)
     for force, pair, at in sorted((x for x in most if x[0] > 0), key=lambda x: -x[0]):
         k = int(f_n[:, at].max(axis=1).argmax())
         presses = f_n[k] > COUNTS * force
         points = run.points_of(k)
         for ahead in _sides([(pair, at)], points, presses):
-            for on in _sides(of_link[ahead.link], points, presses):
+            for on in _sides(_near(run, ahead), points, presses):
                 if force <= COUNTS * f_n[k, on.at].max():
                     continue
                 if _joined(ahead, on, run.system.kinematics(run["q"][k])):
@@ -89,6 +87,11 @@ def pushed_back(run: Run) -> Iterator[Finding]:
                     return
 
 
+def _near(start: Start, side: Side) -> list[tuple[ContactPair, slice]]:
+    """The pairs of a side's body."""
+    return start.pairs_of[body(start.system, side.link)]
+
+
 def _finding(start: Start, ahead: Side, on: Side, how: str, numbers: dict[str, float]) -> Finding:
     name = body(start.system, ahead.link)
     one, other = on.other.name, ahead.other.name
@@ -96,15 +99,6 @@ def _finding(start: Start, ahead: Side, on: Side, how: str, numbers: dict[str, f
     cause += "of this face have a normal along it"
     remedy = f"make {one} and {other} one shape, or set {other} 10 um lower"
     return Finding("flush shapes", False, remedy, cause, numbers)
-
-
-def _of_links(start: Start) -> dict[int, list[tuple[ContactPair, slice]]]:
-    """The pairs of each link, and where their contacts are among all."""
-    found: dict[int, list[tuple[ContactPair, slice]]] = {}
-    for pair, at in slices(start.pairs):
-        for link in (pair.alpha.link, pair.beta.link):
-            found.setdefault(link, []).append((pair, at))
-    return found
 
 
 def _sides(

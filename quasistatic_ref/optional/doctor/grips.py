@@ -32,14 +32,14 @@ def lost(run: Run) -> Iterator[Finding]:
     driven = np.array(of_pairs, dtype=bool)[run.pair_of]
     for body in run.bodies_of:
         on = body.contacts & driven & run.presses
-        closed = np.array([_closed(n[here]) for n, here in zip(run["n"], on, strict=True)])
-        if not closed.any():
+        slips = np.where(on, np.linalg.norm(run.slips[..., :2], axis=2), 0.0)
+        turns = np.where(on, np.abs(run.noted("moved")[..., 3]), 0.0)
+        if not _slips(run, slips, turns):
             continue
-        slips = np.where(on & closed[:, None], np.linalg.norm(run.slips[..., :2], axis=2), 0.0)
-        turns = np.where(on & closed[:, None], np.abs(run.noted("moved")[..., 3]), 0.0)
-        ways = slips.sum(axis=0) / run.sizes
-        turned = turns.sum(axis=0)
-        if ways.max(initial=0.0) <= SLIPPED and turned.max(initial=0.0) <= TURNED:
+        closed = np.array([_closed(n[here]) for n, here in zip(run["n"], on, strict=True)])
+        slips = slips * closed[:, None]
+        turns = turns * closed[:, None]
+        if not _slips(run, slips, turns):
             continue
         scores = (slips / run.sizes / SLIPPED + turns / TURNED).max(axis=1)
         k = int(scores.argmax())
@@ -51,6 +51,12 @@ def lost(run: Run) -> Iterator[Finding]:
         known = look.knows(COULOMB, on[k])  # what the layer adds is none of the grip
         forces = look.laws[COULOMB].forces if known else run["wrench"][k]
         yield _finding(run, body, k, on[k], forces[:, 2], lacks, slips, turns)
+
+
+def _slips(run: Run, slips: Array, turns: Array) -> bool:
+    """Whether any contact slips, (steps, n_c) [m], or turns, (steps, n_c) [rad], by much."""
+    way = (slips.sum(axis=0) / run.sizes).max(initial=0.0)
+    return bool(way > SLIPPED or turns.sum(axis=0).max(initial=0.0) > TURNED)
 
 
 def _closed(n: Array) -> bool:

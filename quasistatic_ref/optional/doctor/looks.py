@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.groups import group_step, groups
+from quasistatic_ref.certify.groups import Group, group_step, groups
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor import slowly
 from quasistatic_ref.optional.doctor.bodies import Body, Missing
-from quasistatic_ref.step.cones import ELLIPSOID, cone
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.friction import frame_jacobian
 
 if TYPE_CHECKING:
@@ -26,8 +26,11 @@ TOUCHES = 1e-6
 """Gap that is none, over the smaller shape [-]."""
 NULL = 1e-9
 """Singular value that is none, over the largest [-]."""
-GROUP = 10_000
+GROUP = 50_000
 """Most entries of J, 4 n_c n_v, of a group that is looked at."""
+
+KEPT = 8
+"""Groups whose answers are kept for those that are alike."""
 
 
 class Law(NamedTuple):
@@ -77,7 +80,7 @@ class Look:
     def __post_init__(self) -> None:
         self.asked = np.zeros_like(self.live)
 
-    def knows(self, law: str, contacts: Mask | Indices) -> bool:
+    def knows(self, law: str, contacts: Mask | slice) -> bool:
         """Whether a law has an answer for some contacts, shape (n_c,)."""
         return law in self.laws and bool(np.isfinite(self.laws[law].forces[contacts]).all())
 
@@ -181,8 +184,8 @@ class Groups:
         Of all that touches or presses.
     delta_q : ndarray, shape (n_v,)
         The run's.
-    every : list of (Group, ndarray of int, list of Body)
-        Each with its contacts among all of the run, and its bodies.
+    of : dict of str to list of (Group, ndarray of int, list of Body)
+        Of each body or pair: its groups, with their contacts among all of the run and bodies.
     """
 
     def __init__(self, run: Run, look: Look) -> None:
@@ -197,10 +200,13 @@ class Groups:
             contacts=step.contacts.some(live, every), extra=step.extra.of(near, every)
         )
         of = {i: body for body in run.bodies_of for i in body.coordinates.tolist()}
-        self.every = []
+        self.of: dict[str, list[tuple[Group, Indices, list[Body]]]] = {}
         for group in groups(self.whole):
+            at = live[group.contacts]
             moved = dict.fromkeys(of[i] for i in group.coordinates.tolist() if i in of)
-            self.every.append((group, live[group.contacts], [*moved]))
+            names = {body.name for body in moved} | {run.pairs[i].name for i in run.pair_of[at]}
+            for name in names:
+                self.of.setdefault(name, []).append((group, at, [*moved]))
 
 
 class Looking:
@@ -216,14 +222,15 @@ class Looking:
         self.solvers = slowly.Solvers()
         self.looks: dict[int, Look] = {}
         self._last: Groups | None = None
+        self._kept: dict[bytes, slowly.Slow] = {}
 
-    def at(self, k: int, names: set[str], corners: bool = False) -> Look:
-        """A look at step k, of the groups of some bodies and pairs.
+    def at(self, k: int, name: str, corners: bool = False) -> Look:
+        """A look at step k, of the groups of a body or a pair.
 
         Parameters
         ----------
         k : int
-        names : set of str
+        name : str
         corners : bool
             Whether the round cone is asked.
         """
@@ -232,24 +239,23 @@ class Looking:
             live = (run["phi"][k] <= TOUCHES * run.sizes) | run.presses[k]
             of_run = Law(np.asarray(run["wrench"][k]), run.noted("moved")[k])
             self.looks[k] = Look(k, {RUN: of_run}, live)
-        self._solve(self.looks[k], names, corners)
+        self._solve(self.looks[k], name, corners)
         return self.looks[k]
 
     def alone(self, k: int, body: Body, contacts: Mask) -> Look:
         """Step k as if a body had some of its contacts alone."""
         look = Look(k, {}, contacts & self.run.presses[k])
-        self._solve(look, {body.name}, False)
+        self._solve(look, body.name, False)
         return look
 
-    def _solve(self, look: Look, names: set[str], corners: bool) -> None:
+    def _solve(self, look: Look, name: str, corners: bool) -> None:
         run = self.run
         if self._last is None or self._last.look is not look:
             self._last = Groups(run, look)
         groups = self._last
-        for group, at, bodies in groups.every:
+        for group, at, bodies in groups.of.get(name, ()):
             of = {body.name for body in bodies}
-            asked = look.asked[at].any() or of & (look.bodies | look.lost)
-            if asked or not names & (of | {run.pairs[i].name for i in run.pair_of[at]}):
+            if look.asked[at].any() or any(x in look.bodies or x in look.lost for x in of):
                 continue
             look.asked[at] = True
             if 4 * len(at) * len(group.coordinates) > GROUP:
@@ -265,10 +271,9 @@ class Looking:
 
     def _group(self, part: Part, corners: bool) -> None:
         look = part.look
-        step = part.step
-        sizes = self.run.sizes[part.at]
-        first = slowly.rung(step, step.h, self.solvers, sizes, np.zeros(len(part.at)))
-        climbed = slowly.climb(step, self.solvers, sizes, first)
+        slow = self._slow(part)
+        first = slow.first
+        climbed = slow.climbed
         if climbed.open:
             look.lost |= part.names
             return
@@ -282,25 +287,29 @@ class Looking:
         if first is not None:
             part.note(COULOMB, first.answer)
             if RUN in look.laws and self._differs(part):
-                part.note(MODEL, self.solvers(step.replace(h=last.T), proved=False))
+                part.note(MODEL, slow.answer(last.T))
         asked = corners or part.names & look.missing[SLOW].keys()
-        slips = (last.s > slowly.STICKS * sizes).any()
-        if cone(step.cone).polyhedral and step.cone != "frictionless" and slips and asked:
-            self._in_round(part, climbed)
+        name = part.step.cone
+        if cone(name).polyhedral and name != "frictionless" and not slow.sticks(last) and asked:
+            self._in_round(part, slow)
 
-    def _in_round(self, part: Part, climbed: slowly.Climb) -> None:
-        part = part._replace(step=part.step.replace(cone=ELLIPSOID))
+    def _slow(self, part: Part) -> slowly.Slow:
+        """What is asked of a group, or of one that is alike."""
         sizes = self.run.sizes[part.at]
+        key = slowly.alike(part.step, sizes)
+        if key not in self._kept:
+            kept = [*self._kept.items()][-KEPT:]
+            self._kept = {**dict(kept), key: slowly.Slow(part.step, self.solvers, sizes)}
+        return self._kept[key]
+
+    def _in_round(self, part: Part, slow: slowly.Slow) -> None:
         try:
-            rungs = [
-                slowly.rung(part.step, one.T, self.solvers, sizes, one.s) for one in climbed.rungs
-            ]
+            climbed = slow.in_round
         except QuasistaticError:  # no optional/ellipsoid, or no solution
             return
-        found = [one for one in rungs if one is not None]
-        if len(found) == len(rungs):
-            part.note(ROUND, found[-1].answer)
-            self._missing(part, ROUND, slowly.Climb(found, False))
+        if not climbed.open:
+            part.note(ROUND, climbed.rungs[-1].answer)
+            self._missing(part, ROUND, climbed)
 
     def _differs(self, part: Part) -> bool:
         """Whether Coulomb's law has other forces than the run."""

@@ -160,10 +160,9 @@ def _contacts(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float
     up = -start.gravity / start.g
     for name in start.free_bases:
         of_body = []
-        for pair, at in slices(start.pairs):
-            if name in start.bodies(pair):
-                sign = 1.0 if body(start.system, pair.beta.link) == name else -1.0
-                j = at.start + int(np.argmin(points.phi[at]))
-                of_body.append((pair, float(points.phi[j]), sign * float(points.n[j] @ up)))
+        for pair, at in start.pairs_of.get(name, ()):
+            sign = 1.0 if body(start.system, pair.beta.link) == name else -1.0
+            j = at.start + int(np.argmin(points.phi[at]))
+            of_body.append((pair, float(points.phi[j]), sign * float(points.n[j] @ up)))
         if of_body:
             yield name, of_body

@@ -17,7 +17,6 @@ from quasistatic_ref.optional.doctor.start import (
     centre,
     least,
     more_points,
-    slices,
 )
 from quasistatic_ref.optional.doctor.tolerances import SUNK
 from quasistatic_ref.parts import is_there
@@ -42,7 +41,7 @@ def few_points(start: Start) -> Iterator[Finding]:
     if not start.g or points is None:
         return
     for name in start.free_bases:
-        of_body = [(p, at) for p, at in slices(start.pairs) if name in start.bodies(p)]
+        of_body = start.pairs_of.get(name, [])
         if all(pair.n_c == pair.candidates for pair, _ in of_body):
             continue
         each = [(pair, points.chosen(np.r_[at])) for pair, at in of_body]

@@ -28,9 +28,7 @@ from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.recorder import POINTS
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
@@ -39,8 +37,6 @@ if TYPE_CHECKING:
     from quasistatic_ref.optional.doctor.statics import Statics
     from quasistatic_ref.step.contacts import Contacts
 
-ACCURATE = ("clarabel", "daqp")
-"""Backends whose answers have ten digits without a proof."""
 FAR = 0.1
 """Way of a body over its size [-], or its turn [rad], that counts."""
 HELD = 1e-9
@@ -66,7 +62,6 @@ class Run(Start):
         self.steps = trajectory.steps
         self.complete = trajectory.failed is None
         self._last: RunStep | None = None
-        self._solvers: dict[str, Solver] = {}
         self.looking = Looking(self)
         self.statics: Statics | None = None
 
@@ -93,15 +88,25 @@ class Run(Start):
         return tuple(bodies(self))
 
     @cached_property
+    def near(self) -> dict[str, list[Body]]:
+        """The bodies of each pair, by its name."""
+        found: dict[str, list[Body]] = {pair.name: [] for pair in self.pairs}
+        for body in self.bodies_of:
+            for i in np.unique(self.pair_of[body.contacts]).tolist():
+                found[self.pairs[i].name].append(body)
+        return found
+
+    @cached_property
     def presses(self) -> Mask:
-        """Which contacts press, shape (steps, n_c): a share of what a body's largest force is."""
+        """Which contacts press, (steps, n_c): a share of a body's weight or largest force."""
         f_n = self["wrench"][:, :, 2]
         most = np.zeros_like(f_n)
         alone = np.ones(f_n.shape[1], dtype=bool)
         for body in self.bodies_of:
             alone &= ~body.contacts
-        for of in (*(body.contacts for body in self.bodies_of), alone):
-            largest = f_n[:, of].max(axis=1, initial=0.0, keepdims=True)
+        weights = [(body.contacts, body.mass * self.g) for body in self.bodies_of]
+        for of, weight in (*weights, (alone, 0.0)):
+            largest = f_n[:, of].max(axis=1, initial=weight, keepdims=True)
             most[:, of] = np.maximum(most[:, of], largest)
         return np.asarray(f_n > BEARS * most)
 
@@ -208,29 +213,16 @@ class Run(Start):
             self._last = RunStep(self, k)
         return self._last
 
-    def axes(self, k: int, contacts: Mask | Indices) -> tuple[Array, Array]:
+    def axes(self, k: int, contacts: Mask | Indices | slice) -> tuple[Array, Array]:
         """The tangents d1 and d2 of some contacts in step k, shape (n, 3) each [-]."""
         return self["d1"][k, contacts], self["d2"][k, contacts]
 
     def solved(self, step: StepData) -> StepSolution | None:
         """A step, unproved; None where it is not solved."""
         try:
-            return solve_step(step, self._solver(step), certify="off")
+            return solve_step(step, fast=self.simulator.fast, certify="off")
         except QuasistaticError:
             return None
-
-    def _solver(self, step: StepData) -> Solver:
-        """A solver of steps like one of the run, which is kept.
-
-        It is that of the run if its answers are accurate without a proof, else the default.
-        """
-        last = self.simulator.solver
-        if last is not None and last.name in ACCURATE and last.fits(step):
-            return last
-        fast = self.simulator.fast and cone(step.cone).polyhedral
-        if step.cone not in self._solvers or not self._solvers[step.cone].fits(step):
-            self._solvers[step.cone] = solver_for(step, fast=fast)
-        return self._solvers[step.cone]
 
 
 class RunStep:

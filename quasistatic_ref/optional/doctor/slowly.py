@@ -20,24 +20,27 @@ last two T, unless nothing slips: without a slip the step is the convex one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from functools import cached_property
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.plain import field_values
-from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
+from quasistatic_ref.formats.plain import Plain, field_values
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only, without_warnings
 from quasistatic_ref.optional.doctor.artifacts import gives
 from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.step.friction import frame_jacobian, slip_norm
+from quasistatic_ref.solve.units import StepInBothUnits, Units, in_si
+from quasistatic_ref.step.cones import ELLIPSOID, cone
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian, slip_norm
+from quasistatic_ref.tolerances import ACCURACY
 
+Data = TypeVar("Data", bound=Plain)
 SLOWLY = 10.0
 """T [s], or a thousand h if that is more: what nothing bears falls by 500 m."""
 LITTLE = 1e-3
@@ -63,6 +66,10 @@ AGREES = 0.01
 """Change of r that is none, where no T beyond it has a fixed point [-]."""
 FEW = 16
 """Of floats, where s is not predicted by a smaller T."""
+ROUNDS = 2.0**12
+"""Number that rounds what is added to it, a part of the size of its kind, to 1e-12 [-]."""
+LARGE = 10_000
+"""Entries of J, 4 n_c n_v, of a group whose proof counts as two; twice as many as three."""
 CUTS, ROUND = 20, 1e-8
 """Rounds of tangents to a round cone, and the part of a slip that they may leave [-]."""
 
@@ -75,12 +82,14 @@ class Answer(NamedTuple):
     delta_q : ndarray, shape (n_v,)
     forces : ndarray, shape (n_c, 4)
         Along d1, d2 and n, and about n [N, N m].
+    proved : bool
     creeps : bool
         Whether these are one of many.
     """
 
     delta_q: Array
     forces: Array
+    proved: bool = False
     creeps: bool = False
 
 
@@ -90,25 +99,31 @@ class Solvers:
     Attributes
     ----------
     proved : int
-        Number of steps that were proved.
+        Number of steps that were proved, where a large group counts as several.
     """
 
     def __init__(self) -> None:
         self.proved = 0
         self._kept: list[Solver] = []
 
-    def __call__(self, step: StepData, *, proved: bool, tangents: Tangents | None = None) -> Answer:
-        """The optimum of a step, which a proof confirms or floats alone name.
+    def by_floats(self, step: StepData, units: Units) -> tuple[Array, Array]:
+        """delta_q, (n_v,), and lam, (m,), of a step in some units, by a backend's word alone.
 
-        In a round cone there is no proof.
-
-        QuasistaticError if there is none.
+        QuasistaticError if there are none.
         """
-        if not cone(step.cone).polyhedral:
-            return self._round(step, tangents or Tangents(step.contacts.mu))
-        self.proved += proved
-        solution = solve_step(step, self._solver(step), certify="full" if proved else "off")
-        return Answer(solution.delta_q, solution.wrench)
+        both = StepInBothUnits(step)
+        both.units = units
+        solver = self._solver(step)
+        reply = solver.answer(both, ACCURACY)
+        if not reply.solved:
+            raise StepNotSolved(solver.name, reply.status, step, reply.accuracy)
+        return in_si(*reply.answer, units)
+
+    def by_proof(self, step: StepData) -> Answer:
+        """The optimum of a step, which a proof confirms; QuasistaticError if there is none."""
+        self.proved += 1 + step.contacts.J.size // LARGE
+        solution = solve_step(step, self._solver(step))
+        return Answer(solution.delta_q, solution.wrench, True)
 
     def _solver(self, step: StepData) -> Solver:
         for solver in self._kept:
@@ -120,120 +135,6 @@ class Solvers:
             solver = solver_for(step)
         self._kept = [solver, *self._kept[:7]]
         return solver
-
-    def _round(self, step: StepData, tangents: Tangents) -> Answer:
-        """The optimum in the ellipsoid, whose rows are tangents where contacts slip."""
-        contacts = step.contacts
-        J_n, *J_t = frame_jacobian(contacts, contacts.J)
-        slips = contacts.mu[:, :, None] * np.stack(J_t, axis=1)
-        own = len(step.extra.names)
-        for _ in range(CUTS):
-            at = tangents.at
-            u = tangents.u
-            extra = replace(
-                step.extra,
-                names=(*step.extra.names, *(f"tangent {i}" for i in range(len(at)))),
-                A=np.vstack([step.extra.A, J_n[at] - np.einsum("ri,riv->rv", u, slips[at])]),
-                b=np.concatenate([step.extra.b, -contacts.phi[at]]),
-            )
-            cut = step.replace(cone="frictionless", extra=extra)
-            solution = solve_step(cut, self._solver(cut), certify="off")
-            slip = slips @ solution.delta_q
-            norm = np.linalg.norm(slip, axis=1)
-            gap = contacts.phi + J_n @ solution.delta_q
-            pushes = solution.lam_extra[own:] / step.h
-            new = np.flatnonzero((norm > 0) & (norm - gap > ROUND * norm.max(initial=0.0)))
-            kept = tangents.basic | (pushes > 0)
-            tangents.at = np.concatenate([at[kept], new])
-            tangents.u = np.vstack([u[kept], slip[new] / norm[new, None]])
-            tangents.basic = np.pad(tangents.basic[kept], (0, len(new)))
-            if not new.size:
-                break
-        forces = np.array(solution.wrench)
-        np.add.at(forces[:, 2], at, pushes)
-        for i, column in enumerate((0, 1, 3)):
-            np.add.at(forces[:, column], at, -u[:, i] * pushes)
-        forces[:, [0, 1, 3]] *= contacts.mu
-        return Answer(solution.delta_q, forces)
-
-
-class Tangents:
-    """Rows that touch the round cones of contacts.
-
-    Parameters
-    ----------
-    mu : ndarray, shape (n_c, 3)
-
-    Attributes
-    ----------
-    at : ndarray of int, shape (k,)
-        Contact of each.
-    u : ndarray, shape (k, 3)
-        Where it touches: gap >= u . (mu_v slip_1, mu_v slip_2, mu_omega spin) [-].
-    basic : ndarray of bool, shape (k,)
-        Whether it is one of those along the axes, which stay.
-    """
-
-    def __init__(self, mu: Array) -> None:
-        contact, axis = np.nonzero(mu > 0)
-        units = np.eye(3)[axis]
-        self.at = np.concatenate([contact, contact])
-        self.u = np.concatenate([units, -units])
-        self.basic = np.ones(len(self.at), dtype=bool)
-
-
-def slip_of(step: StepData, delta_q: Array) -> Array:
-    """The norm of each contact's slip by delta_q, shape (n_v,), in the step's cone, (n_c,) [m]."""
-    _, *J_t = frame_jacobian(step.contacts, step.contacts.J)
-    scaled = step.contacts.mu * np.stack([J @ delta_q for J in J_t], axis=1)
-    if not cone(step.cone).polyhedral:
-        return np.asarray(np.linalg.norm(scaled, axis=1))
-    return slip_norm(scaled, step.cone)
-
-
-def by_coulomb(
-    step: StepData, solvers: Solvers, start: Array, *, proved: bool, most: int | None = None
-) -> Iterate[Answer]:
-    """The step by Coulomb's law: phi is raised by the slip that comes of it.
-
-    The iteration starts at start, shape (n_c,) [m], and has at most as many iterates.
-    """
-    J = np.abs(step.contacts.J)
-    mu = step.contacts.mu
-    tangents = Tangents(mu)
-    kind = "proved" if proved else "floats"
-    if not cone(step.cone).polyhedral:
-        kind = "round"
-    soft = gives(step)
-    stiffness = (1 / soft[soft > 0]).max(initial=0.0)
-
-    before = np.inf
-
-    def at(s: Array) -> Iterate[Answer]:
-        nonlocal before
-        answer = solvers(_raised(step, s), proved=proved, tangents=tangents)
-        slip = slip_of(step, answer.delta_q)
-        moves = J @ np.abs(answer.delta_q)
-        longest = (mu[:, 0] * moves[:, :3].sum(axis=1) + mu[:, 2] * moves[:, 3]).max(initial=0.0)
-        residual = np.abs(slip - s).max(initial=0.0)
-        limit = CLOSE[kind] * longest if proved else max(CLOSE[kind] * longest, NOISE)
-        presses = answer.forces[:, 2].max(initial=0.0)
-        slight = residual <= CREEPS[0] * longest and stiffness * residual <= CREEPS[1] * presses
-        creeps = bool(proved and residual > limit and slight and residual > before / 2)
-        before = residual
-        converged = creeps or bool(residual <= limit)
-        return Iterate(s, slip, residual, converged, answer._replace(creeps=creeps))
-
-    found, _ = fixed_point(at, start, most or MOST[kind], leaps=True)
-    return found
-
-
-def _raised(step: StepData, s: Array) -> StepData:
-    """A step with phi + s, shape (n_c,) [m], in the place of phi: nothing else of it changes."""
-    contacts = step.contacts
-    phi = read_only(contacts.phi + s)
-    raised = Contacts.unchecked(**(field_values(contacts) | {"phi": phi}))
-    return StepData.unchecked(**(field_values(step) | {"contacts": raised}))
 
 
 class Rung(NamedTuple):
@@ -256,8 +157,7 @@ class Rung(NamedTuple):
     moves: float
 
 
-@dataclass(frozen=True, eq=False)
-class Climb:
+class Climb(NamedTuple):
     """What came of a step that was taken more and more slowly.
 
     Parameters
@@ -272,74 +172,256 @@ class Climb:
     open: bool
 
 
-def rung(step: StepData, T: float, solvers: Solvers, sizes: Array, start: Array) -> Rung | None:
-    """The step by Coulomb's law at T [s], from floats; None where no fixed point is found.
-
-    The iteration starts at start [m], and shapes have sizes [m], each of shape (n_c,).
-    """
-    at = by_coulomb(step.replace(h=T), solvers, start, proved=False)
-    nearly = at.residual <= NEARLY * at.s.max(initial=0.0)
-    if nearly and not at.converged and cone(step.cone).polyhedral:
-        at = by_coulomb(step.replace(h=T), solvers, at.image, proved=True)
-    return _rung(step, T, sizes, at)
-
-
-def _rung(step: StepData, T: float, sizes: Array, at: Iterate[Answer]) -> Rung | None:
-    if not at.converged:
-        return None
-    return Rung(T, at.of, at.image, _moves(step, at.of.delta_q, sizes))
-
-
-def climb(step: StepData, solvers: Solvers, sizes: Array, first: Rung | None) -> Climb:
-    """A step taken more and more slowly.
+class Slow:
+    """A step of one group at any T, by its own law and by Coulomb's.
 
     Parameters
     ----------
     step : StepData
-        Of one group.
     solvers : Solvers
     sizes : ndarray, shape (n_c,)
         Of the smaller shapes of its contacts [m].
-    first : Rung or None
-        The step by Coulomb's law at h.
     """
-    end = max(SLOWLY, 1000 * step.h)
-    nothing = np.zeros(step.contacts.n_c)
-    s = nothing if first is None else first.s
-    ends: list[Rung] = []
-    for T in (end, end / 3):  # where targets alone move bodies, s is that of h
-        at = by_coulomb(step.replace(h=T), solvers, s, proved=False, most=FEW)
-        far = _rung(step, T, sizes, at)
-        if far is None or far.moves > 1:
-            break
-        ends.insert(0, far)
-        s = far.s
-    if len(ends) == 2:
-        if all(_sticks(one, sizes) for one in ends):
-            return Climb(ends, False)
-        climbed = _confirmed(step, solvers, sizes, ends, False)
-        if not climbed.open:
-            return climbed
-    kept = [] if first is None else [first]
-    straight = max(1.0, 2 * first.moves) if first else 1.0  # what moves far at h is asked for
-    T = step.h
-    lost = first is None
-    while end > T:
-        T = min(3 * T, end)
-        found = rung(step, T, solvers, sizes, _ahead(kept, nothing))
-        if found is None:
-            lost = bool(kept)
-            if lost:
+
+    def __init__(self, step: StepData, solvers: Solvers, sizes: Array) -> None:
+        contacts = step.contacts
+        self.step = step
+        self.solvers = solvers
+        self.sizes = sizes
+        self._J_n, *J_t = frame_jacobian(contacts, contacts.J)
+        self._slips = contacts.mu[:, :, None] * np.stack(J_t, axis=1)
+        self._polyhedral = cone(step.cone).polyhedral
+        self._of_T = StepInBothUnits(step)
+        of, axis = np.nonzero(contacts.mu > 0)
+        u = np.eye(3)[axis]
+        self._axes = 2 * len(of)
+        self._tangents = np.concatenate([of, of]), np.concatenate([u, -u])
+
+    def answer(self, T: float, s: Array | None = None, proved: bool = False) -> Answer:
+        """The step with T [s] in the place of h and phi + s, (n_c,) [m], in that of phi.
+
+        A proof confirms it, or floats alone name it. In a round cone there is no proof.
+
+        QuasistaticError if there is none.
+        """
+        return without_warnings(self._answer, T, s, proved)
+
+    def _answer(self, T: float, s: Array | None, proved: bool) -> Answer:
+        if self._of_T.si_step.h != T:
+            self._of_T = StepInBothUnits(with_fields(self.step, h=T))
+        step = self._of_T.si_step
+        units = self._of_T.units
+        if s is not None:
+            phi = read_only(step.contacts.phi + s)
+            step = with_fields(step, contacts=with_fields(step.contacts, phi=phi))
+        if not self._polyhedral:
+            return self._round(step, units)
+        if proved:
+            return self.solvers.by_proof(step)
+        delta_q, lam = self.solvers.by_floats(step, units)
+        of_contacts = lam[: step.offsets[-1]]
+        return Answer(delta_q, contact_wrenches(step.contacts, of_contacts, T, step.cone))
+
+    def _round(self, step: StepData, units: Units) -> Answer:
+        """The optimum in the ellipsoid, whose rows are tangents where contacts slip.
+
+        Each has a contact, `at`, and a direction u: gap >= u . (mu_v slip_1, mu_v slip_2, mu_omega
+        spin). Those along the axes stay, others while they press.
+        """
+        contacts = step.contacts
+        own = len(step.extra.names)
+        at, u = self._tangents
+        for _ in range(CUTS):
+            extra = with_fields(
+                step.extra,
+                names=(*step.extra.names, *("tangent",) * len(at)),
+                A=np.vstack(
+                    [step.extra.A, self._J_n[at] - np.einsum("ri,riv->rv", u, self._slips[at])]
+                ),
+                b=np.concatenate([step.extra.b, -contacts.phi[at]]),
+            )
+            cut = with_fields(step, cone="frictionless", extra=extra)
+            delta_q, lam = self.solvers.by_floats(cut, units)
+            slip = self._slips @ delta_q
+            norm = np.linalg.norm(slip, axis=1)
+            gap = contacts.phi + self._J_n @ delta_q
+            pushes = lam[contacts.n_c + own :] / step.h
+            pressed = at, u
+            new = np.flatnonzero((norm > 0) & (norm - gap > ROUND * norm.max(initial=0.0)))
+            kept = (pushes > 0) | (np.arange(len(at)) < self._axes)
+            at = np.concatenate([at[kept], new])
+            u = np.vstack([u[kept], slip[new] / norm[new, None]])
+            if not new.size:
                 break
-            continue
-        lost = False
-        if found.moves > straight and kept:
-            T = _until(kept[-1], found, straight)
-            found = rung(step, T, solvers, sizes, kept[-1].s) if T > 1.2 * kept[-1].T else None
-            kept += [] if found is None else [found]
-            break
-        kept.append(found)
-    return _confirmed(step, solvers, sizes, kept, lost)
+        self._tangents = at, u
+        at, u = pressed
+        forces = np.zeros((contacts.n_c, 4))
+        forces[:, 2] = lam[: contacts.n_c] / step.h
+        np.add.at(forces[:, 2], at, pushes)
+        for i, column in enumerate((0, 1, 3)):
+            np.add.at(forces[:, column], at, -u[:, i] * pushes)
+        forces[:, [0, 1, 3]] *= contacts.mu
+        return Answer(delta_q, forces)
+
+    def _by_coulomb(
+        self, T: float, start: Array, proved: bool = False, most: int | None = None
+    ) -> Iterate[Answer]:
+        """The step by Coulomb's law at T [s]: phi is raised by the slip that comes of it.
+
+        The iteration starts at start, shape (n_c,) [m], and has at most as many iterates.
+        """
+        J = np.abs(self.step.contacts.J)
+        mu = self.step.contacts.mu
+        kind = ("proved" if proved else "floats") if self._polyhedral else "round"
+        soft = gives(self.step)
+        stiffness = (1 / soft[soft > 0]).max(initial=0.0)
+        before = np.inf
+
+        def at(s: Array) -> Iterate[Answer]:
+            nonlocal before
+            answer = self.answer(T, s, proved)
+            slip = slip_norm(self._slips @ answer.delta_q, self.step.cone)
+            moves = J @ np.abs(answer.delta_q)
+            ways = mu[:, 0] * moves[:, :3].sum(axis=1) + mu[:, 2] * moves[:, 3]
+            longest = ways.max(initial=0.0)
+            residual = np.abs(slip - s).max(initial=0.0)
+            limit = CLOSE[kind] * longest if proved else max(CLOSE[kind] * longest, NOISE)
+            presses = answer.forces[:, 2].max(initial=0.0)
+            slight = residual <= CREEPS[0] * longest and stiffness * residual <= CREEPS[1] * presses
+            creeps = bool(proved and residual > limit and slight and residual > before / 2)
+            before = residual
+            converged = creeps or bool(residual <= limit)
+            return Iterate(s, slip, residual, converged, answer._replace(creeps=creeps))
+
+        found, _ = fixed_point(at, start, most or MOST[kind], leaps=True)
+        return found
+
+    def rung(self, T: float, start: Array, *, sure: bool = True) -> Rung | None:
+        """The step by Coulomb's law at T [s], from floats; None where no fixed point is found.
+
+        The iteration starts at start, shape (n_c,) [m]. Where floats come near to one, proved
+        answers lead to it, unless it has to be no surer.
+        """
+        at = self._by_coulomb(T, start)
+        nearly = at.residual <= NEARLY * at.s.max(initial=0.0)
+        if nearly and not at.converged and self._polyhedral:
+            at = self._by_coulomb(T, at.image, proved=True) if sure else at._replace(converged=True)
+        return self._rung(T, at)
+
+    def _rung(self, T: float, at: Iterate[Answer]) -> Rung | None:
+        if not at.converged:
+            return None
+        motion = self.step.contacts.motion(at.of.delta_q)
+        way = np.linalg.norm(motion[:, :3], axis=1) / self.sizes
+        moves = np.maximum(way, np.abs(motion[:, 3])).max(initial=0.0)
+        return Rung(T, at.of, at.image, float(moves) / STRAIGHT)
+
+    @cached_property
+    def first(self) -> Rung | None:
+        """The step by Coulomb's law at h."""
+        return self.rung(self.step.h, np.zeros_like(self.sizes))
+
+    @cached_property
+    def climbed(self) -> Climb:
+        """The step, taken more and more slowly."""
+        h = self.step.h
+        first = self.first
+        end = max(SLOWLY, 1000 * h)
+        nothing = np.zeros_like(self.sizes)
+        s = nothing if first is None else first.s
+        ends: list[Rung] = []
+        for T in (end, end / 3):  # where targets alone move bodies, s is that of h
+            far = self._rung(T, self._by_coulomb(T, s, most=FEW))
+            if far is None or far.moves > 1:
+                break
+            ends.insert(0, far)
+            s = far.s
+        if len(ends) == 2:
+            if all(map(self.sticks, ends)):
+                return Climb(ends, False)
+            climbed = self._confirmed(ends, False)
+            if not climbed.open:
+                return climbed
+        kept = [] if first is None else [first]
+        straight = max(1.0, 2 * first.moves) if first else 1.0  # what moves far at h is asked for
+        T = h
+        lost = first is None
+        while end > T:
+            T = min(3 * T, end)
+            found = self.rung(T, _ahead(kept, nothing), sure=False)
+            if found is None:
+                lost = bool(kept)
+                if lost:
+                    break
+                continue
+            lost = False
+            if found.moves > straight and kept:
+                T = _until(kept[-1], found, straight)
+                found = self.rung(T, kept[-1].s, sure=False) if T > 1.2 * kept[-1].T else None
+                kept += [] if found is None else [found]
+                break
+            kept.append(found)
+        return self._confirmed(kept, lost)
+
+    def _confirmed(self, kept: list[Rung], lost: bool) -> Climb:
+        """The last two rungs that proved answers confirm."""
+        sure: list[Rung] = []
+        for one in kept[::-1]:
+            if not (one.answer.proved or self.sticks(one)):
+                proved = self._rung(one.T, self._by_coulomb(one.T, one.s, proved=True))
+                if proved is None:
+                    if lost:
+                        break
+                    lost = True
+                    continue
+                one = proved
+            sure.insert(0, one)
+            if len(sure) == 2:
+                break
+        if len(sure) < 2:
+            return Climb(sure, True)
+        if not lost:
+            return Climb(sure, False)
+        a, b = (x.answer.delta_q[self.step.n_a :] / x.T**2 for x in sure)
+        off = np.sqrt((a - b) @ self.step.M_u @ (a - b))
+        agrees = bool(off <= AGREES * np.sqrt(b @ self.step.M_u @ b))
+        return Climb(sure, not agrees)
+
+    def sticks(self, one: Rung) -> bool:
+        """Whether nothing slips."""
+        return bool((one.s <= STICKS * self.sizes).all())
+
+    @cached_property
+    def in_round(self) -> Climb:
+        """The same T in the round cone; open where one of them has no fixed point there."""
+        slow = Slow(with_fields(self.step, cone=ELLIPSOID), self.solvers, self.sizes)
+        rungs = [slow.rung(one.T, one.s) for one in self.climbed.rungs]
+        found = [one for one in rungs if one is not None]
+        return Climb(found, len(found) < len(rungs))
+
+
+def with_fields(data: Data, **changes: Any) -> Data:
+    """A copy of plain data with other fields, which are right by construction."""
+    return data.unchecked(**(field_values(data) | changes))
+
+
+def alike(step: StepData, sizes: Array) -> bytes:
+    """What steps of groups have in common whose answers are the same, up to rounding.
+
+    Parameters
+    ----------
+    step : StepData
+    sizes : ndarray, shape (n_c,)
+        Of the smaller shapes of its contacts [m].
+    """
+    c = step.contacts
+    extra = step.extra
+    lengths = np.concatenate([step.delta_q_bar_a, c.phi, extra.b, sizes])
+    loads = np.concatenate([step.tau_a, step.tau_u, [step.h]])
+    data = (lengths, loads, step.K_q, step.M_u, c.n, c.d1, c.J, c.mu, extra.A, *(extra.cost or ()))
+    powers = [2.0 ** np.frexp(np.abs(a).max(initial=0.0))[1] for a in data]
+    rounded = [a / power + ROUNDS for a, power in zip(data, powers, strict=True)]
+    return b"".join(a.tobytes() for a in (np.array(powers), *rounded))
 
 
 def _ahead(kept: list[Rung], nothing: Array) -> Array:
@@ -355,45 +437,6 @@ def _until(one: Rung, other: Rung, straight: float) -> float:
     """T [s] at which motions that go with T^2 from one to the other are as long as is straight."""
     grows = (other.moves - one.moves) / (other.T**2 - one.T**2)
     return float(np.sqrt(one.T**2 + (straight - one.moves) / grows)) if grows > 0 else 0.0
-
-
-def _confirmed(
-    step: StepData, solvers: Solvers, sizes: Array, kept: list[Rung], lost: bool
-) -> Climb:
-    """The last two rungs that proved answers confirm."""
-    sure: list[Rung] = []
-    for one in kept[::-1]:
-        if not _sticks(one, sizes):
-            at = by_coulomb(step.replace(h=one.T), solvers, one.s, proved=True)
-            proved = _rung(step, one.T, sizes, at)
-            if proved is None:
-                if lost:
-                    break
-                lost = True
-                continue
-            one = proved
-        sure.insert(0, one)
-        if len(sure) == 2:
-            break
-    if len(sure) < 2:
-        return Climb(sure, True)
-    if not lost:
-        return Climb(sure, False)
-    a, b = (x.answer.delta_q[step.n_a :] / x.T**2 for x in sure)
-    off = np.sqrt((a - b) @ step.M_u @ (a - b))
-    agrees = bool(off <= AGREES * np.sqrt(b @ step.M_u @ b))
-    return Climb(sure, not agrees)
-
-
-def _sticks(one: Rung, sizes: Array) -> bool:
-    return bool((one.s <= STICKS * sizes).all())
-
-
-def _moves(step: StepData, delta_q: Array, sizes: Array) -> float:
-    """The longest motion of a contact of a step, over what is straight [-]."""
-    motion = step.contacts.motion(delta_q)
-    way = np.linalg.norm(motion[:, :3], axis=1) / sizes
-    return float(np.maximum(way, np.abs(motion[:, 3])).max(initial=0.0) / STRAIGHT)
 
 
 def landed(step: StepData, presses: Mask, delta_q: Array) -> StepData:
@@ -419,7 +462,7 @@ def landed(step: StepData, presses: Mask, delta_q: Array) -> StepData:
     rows = np.vstack([1e3 * J_n[presses], *(J[sticks] for J in J_t[:2])])  # gaps first
     gaps = np.concatenate([-1e3 * contacts.phi[presses], np.zeros(2 * int(sticks.sum()))])
     down = root @ np.linalg.lstsq(rows @ root, gaps, rcond=1e-9)[0]
-    extra: Extra = replace(step.extra, b=step.extra.b - step.extra.A @ down)
+    extra = with_fields(step.extra, b=step.extra.b - step.extra.A @ down)
     return step.replace(
         contacts=contacts.raised(J_n @ down),
         delta_q_bar_a=step.delta_q_bar_a - down[: step.n_a],

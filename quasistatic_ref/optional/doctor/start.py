@@ -178,10 +178,21 @@ class Start:
         """The bodies of a pair."""
         return {body(self.system, side.link) for side in (pair.alpha, pair.beta)}
 
+    @cached_property
+    def pairs_of(self) -> dict[str, list[tuple[ContactPair, slice]]]:
+        """The pairs of each body, and where their contacts are among all."""
+        found: dict[str, list[tuple[ContactPair, slice]]] = {}
+        for pair, at in slices(self.pairs):
+            for name in self.bodies(pair):
+                found.setdefault(name, []).append((pair, at))
+        return found
+
     def of_body(self, name: str) -> Mask:
         """Which contacts are of a body, shape (n_c,)."""
-        pairs = np.array([name in self.bodies(pair) for pair in self.pairs], dtype=bool)
-        return pairs[self.pair_of]
+        of = np.zeros(len(self.pair_of), dtype=bool)
+        for _, at in self.pairs_of.get(name, ()):
+            of[at] = True
+        return of
 
     @property
     def sides(self) -> list[PlacedShape]:

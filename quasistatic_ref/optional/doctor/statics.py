@@ -10,12 +10,12 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.formats.quoting import listed
-from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor import chosen
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
 from quasistatic_ref.optional.doctor.looks import COULOMB, MODEL, ROUND, RUN, SLOW, Look, resultants
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import least
+from quasistatic_ref.optional.doctor.start import least, slices
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.optional.doctor.unsupported import falls
 from quasistatic_ref.simulate.finding import Finding
@@ -61,7 +61,7 @@ class Statics:
         if large := {name for look in self.looks for name in look.large}:
             lines.append(f"equilibrium of {len(large)} bodies: too many of them touch")
         if self.left:
-            lines.append(f"{self.left} steps with other contacts: {chosen.PROVED} were proved")
+            lines.append(f"{self.left} steps with other contacts: {chosen.PROVED} proofs were made")
         return "; ".join(lines)
 
     def lacks(self, name: str) -> list[tuple[Look, Missing]]:
@@ -79,7 +79,7 @@ class Statics:
         if body.name not in self._rests:
             still = bool(run.drags(body)[-1] <= STILL * run.loads(body)[-1])
             if still and self.lacks(body.name):
-                last = run.looking.at(run.steps - 1, {body.name})
+                last = run.looking.at(run.steps - 1, body.name)
                 still = body.name not in {*last.missing[SLOW], *last.lost}
             self._rests[body.name] = still
         return self._rests[body.name]
@@ -320,17 +320,19 @@ def _changes(every: Statics, look: Look, one: str, other: str) -> Iterator[Chang
     """The changes of pairs, from one law to another, whose bodies are in equilibrium."""
     run = every.run
     k = look.k
-    for i, pair in enumerate(run.pairs):
-        of_pair = run.pair_of == i
-        by = {law: _acts(run, look, law, of_pair) for law in look.laws if look.knows(law, of_pair)}
-        if not ({one, other} <= by.keys() and (of_pair & look.live).any()):
+    if one == RUN and run.steps > 1 and not k:
+        return  # a run starts as it likes
+    for i, (pair, of_pair) in enumerate(slices(run.pairs)):
+        near = run.near[pair.name]
+        if not look.live[of_pair].any() or any(
+            body.name in look.missing[SLOW] or body.name in look.lost for body in near
+        ):
             continue
-        near = [body for body in run.bodies_of if body.contacts[of_pair].any()]
-        if {b.name for b in near} & (look.missing[SLOW].keys() | look.lost):
-            continue
-        first = one == RUN and run.steps > 1  # of a run, which starts as it likes
-        if (first and not k) or (k and not run.presses[k - 1, of_pair].any()):
+        if k and not run.presses[k - 1, of_pair].any():
             continue  # it comes to press in this step
+        by = {law: _acts(run, look, law, of_pair) for law in look.laws if look.knows(law, of_pair)}
+        if not {one, other} <= by.keys():
+            continue
         here = by[one]
         there = by[other]
         force = max(here.forces[:TORQUE].max(), there.forces[:TORQUE].max())
@@ -380,7 +382,7 @@ def _sizes(resultants: Array) -> Array:
     return np.stack([np.abs(normal), np.linalg.norm(rubs, axis=0), np.abs(torque)])
 
 
-def _acts(run: Run, look: Look, law: str, of_pair: Mask) -> Acts:
+def _acts(run: Run, look: Look, law: str, of_pair: slice) -> Acts:
     """What a pair does by a law."""
     forces, motion = (x[of_pair] for x in look.laws[law])
     axes = run.axes(look.k, of_pair)
@@ -391,7 +393,7 @@ def _acts(run: Run, look: Look, law: str, of_pair: Mask) -> Acts:
     return Acts(_sizes(resultants(axes, forces)), moves)
 
 
-def _stops(run: Run, pair: ContactPair, of_pair: Mask, here: Acts, there: Acts) -> bool:
+def _stops(run: Run, pair: ContactPair, of_pair: slice, here: Acts, there: Acts) -> bool:
     """Whether a pair with friction slips or spins by the first law alone, and far in the run."""
     way = np.where(run.presses[:, of_pair, None], np.abs(run.slips[:, of_pair]), 0.0).sum(axis=0)
     sizes = SLID * np.array([least(pair), 1.0])

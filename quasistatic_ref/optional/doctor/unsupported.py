@@ -121,6 +121,8 @@ def falls(run: Run) -> dict[str, Fall]:
         if free[-1]:
             first = int(len(free) - np.argmin(free[::-1])) if not free.all() else 0
             sinking[name] = Fall(first, float(drop[first:].sum()), of_body)
+    if not sinking:
+        return {}
     others = alone(run) | held(run, sinking)
     others |= {name for name in sinking if name not in others and _yields(run, name)}
     return {name: fall for name, fall in sinking.items() if name not in others}
@@ -130,7 +132,7 @@ def _yields(run: Run, name: str) -> bool:
     """Whether what touches a body in the last step bears it slowly, as a soft spring does."""
     if run.own_terms:
         return False
-    look = run.looking.at(run.steps - 1, {name})
+    look = run.looking.at(run.steps - 1, name)
     touches = bool((look.asked & run.of_body(name)).any())
     return touches and name in look.bodies and name not in look.missing[SLOW]
 

@@ -8,7 +8,8 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref import load_scenario, load_trajectory
 from quasistatic_ref.formats.npz import json_array
-from quasistatic_ref.optional.doctor import looks, start
+from quasistatic_ref.lab.bench.scenes import boxes
+from quasistatic_ref.optional.doctor import chosen, looks, slowly, start
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.header import header_table
 from tests.extras import SCENARIOS_TO_RUN
@@ -154,6 +155,41 @@ def test_a_large_scene_is_looked_at_by_groups(most, names, monkeypatch):
     assert [found.name for found in run.findings] == names
     said = "equilibrium of 1 bodies: too many of them touch"
     assert (said in run.header.not_looked_at) is (most == 0)
+
+
+def slid():
+    """Three equal boxes, pushed by 0.7 of their weight, of which friction takes a half."""
+    slides = boxes(3)
+    force = slides.force
+    simulator = slides.simulator("off", True)
+    return qr.rollout(
+        simulator, slides.q, slides.target, 8, force=lambda t, q: force, progress=False
+    )
+
+
+def test_groups_that_are_alike_are_proved_once(monkeypatch):
+    proved = []
+    by_proof = slowly.Solvers.by_proof
+    monkeypatch.setattr(
+        slowly.Solvers, "by_proof", lambda self, step: proved.append(step) or by_proof(self, step)
+    )
+    together = slid()
+    count = len(proved)
+    monkeypatch.setattr(slowly, "alike", lambda step, sizes: object())
+    apart = slid()
+    assert count * 3 == len(proved) - count
+    for one, other in zip(together.findings, apart.findings, strict=True):
+        assert (one.name, one.remedy) == (other.name, other.remedy)
+        numbers = {key: value for key, value in other.numbers.items() if key != "step"}
+        assert {key: one.numbers[key] for key in numbers} == pytest.approx(numbers, rel=1e-9)
+
+
+def test_what_is_beyond_the_budget_is_counted_and_what_moves_far_is_asked_once(monkeypatch):
+    monkeypatch.setattr(chosen, "PROVED", 0)
+    run = slid()
+    names = [found.name for found in run.findings]
+    assert names.count("not in equilibrium") == 3
+    assert "steps with other contacts: 0 proofs were made" in run.header.not_looked_at
 
 
 def test_what_is_not_looked_at_in_a_large_scene_is_said(tmp_path, cli, monkeypatch):
