@@ -109,7 +109,7 @@ class Solvers:
     def by_floats(self, step: StepData, units: Units) -> tuple[Array, Array]:
         """delta_q, (n_v,), and lam, (m,), of a step in some units, by a backend's word alone.
 
-        QuasistaticError if there are none.
+        StepNotSolved, or another QuasistaticError, if there are none.
         """
         both = StepInBothUnits(step)
         both.units = units
