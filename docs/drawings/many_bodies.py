@@ -9,8 +9,8 @@ from quasistatic_ref.lab.figures.line_styles import MARKS
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 
 MEASURED: Mapping[str, Mapping[int, float]] = {
-    "proved": {1: 2.46, 3: 6.61, 10: 20.6, 30: 49.4, 100: 252, 300: 490, 1000: 2100},
-    "unproved": {1: 0.32, 3: 0.37, 10: 0.50, 30: 0.87, 100: 2.9, 300: 11, 1000: 23},
+    "proved": {1: 2.29, 3: 4.76, 10: 15.1, 30: 42.9, 100: 191, 300: 518, 1000: 1850},
+    "unproved": {1: 0.43, 3: 0.36, 10: 0.50, 30: 0.81, 100: 3.2, 300: 7.4, 1000: 24},
 }
 """Processor time of a step [ms] by the number of boxes: the least of some steps, in one thread of
 an AMD EPYC (2 cores of a virtual machine)."""
