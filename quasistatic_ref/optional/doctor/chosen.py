@@ -63,10 +63,10 @@ def _of_bodies(run: Run) -> list[Asked]:
     found = []
     moves = run.targets_move & (np.arange(run.steps) > 0)
     for body in run.bodies_of:
-        drags = run.drags(body) / run.loads(body)
+        drags = run.drags[body] / run.loads[body]
         slips = ways[:, body.contacts].max(axis=1, initial=0.0)
         with np.errstate(all="ignore"):
-            slips = slips * body.mass / run.h / run.h / run.loads(body)
+            slips = slips * body.mass / run.h / run.h / run.loads[body]
         slips = np.where(np.isfinite(slips), slips, 0.0)
         sets = near[:, body.contacts]
         here = drags > LITTLE

@@ -327,7 +327,7 @@ class Looking:
             places = np.searchsorted(of_u, body.coordinates[here])
             r[here] = slowly.missing(part.step, climbed, places)
             lacks = body.missing(r, body.inertia(part.whole.M_u, n_a))
-            if lacks.amount > slowly.LITTLE * self.run.load(body, part.look.k):
+            if lacks.amount > slowly.LITTLE * self.run.loads[body][part.look.k]:
                 part.look.missing[law][body.name] = lacks
 
     def _inner(self, part: Part) -> None:

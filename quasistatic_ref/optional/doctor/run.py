@@ -131,32 +131,34 @@ class Run(Start):
         ways = np.abs(np.diff(self["q_bar_a"], axis=0)).max(axis=1, initial=0.0) > HELD
         return np.concatenate([ways[:1], ways]) if len(ways) else np.zeros(self.steps, dtype=bool)
 
-    def drags(self, body: Body) -> Array:
-        """What inertia bears of a body's load in each step, shape (steps,) [N].
+    @cached_property
+    def drags(self) -> dict[Body, Array]:
+        """What inertia bears of each body's load in each step, shape (steps,) [N].
 
         0 where float64 has no number for it, as with an h of 1e-308 s.
         """
         n_a = self.system.n_a
-        M = body.inertia(self.M_u, n_a)
-        with np.errstate(all="ignore"):
-            r = self.noted("momentum")[:, body.coordinates - n_a] / self.h / self.h
-            drags = body.amount(M, r)
-        return np.where(np.isfinite(drags), drags, 0.0)
+        found = {}
+        for body in self.bodies_of:
+            with np.errstate(all="ignore"):
+                r = self.noted("momentum")[:, body.coordinates - n_a] / self.h / self.h
+                drags = body.amount(body.inertia(self.M_u, n_a), r)
+            found[body] = np.where(np.isfinite(drags), drags, 0.0)
+        return found
 
-    def loads(self, body: Body) -> Array:
-        """A body's own load in each step, shape (steps,) [N].
+    @cached_property
+    def loads(self) -> dict[Body, Array]:
+        """Each body's own load in each step, shape (steps,) [N].
 
         It is what gravity and other loads are, or the largest force on it in the run.
         """
-        n_a = self.system.n_a
-        M = body.inertia(self.M_u, n_a)
-        tau = body.amount(M, self.noted("tau")[:, body.coordinates])
-        pressed = float(self["wrench"][:, body.contacts, 2].max(initial=0.0))
-        return np.asarray(np.maximum(tau, pressed or (0.0 if tau.any() else 1.0)))
-
-    def load(self, body: Body, k: int) -> float:
-        """The same in one step [N]."""
-        return float(self.loads(body)[k])
+        found = {}
+        for body in self.bodies_of:
+            M = body.inertia(self.M_u, self.system.n_a)
+            tau = body.amount(M, self.noted("tau")[:, body.coordinates])
+            pressed = float(self["wrench"][:, body.contacts, 2].max(initial=0.0))
+            found[body] = np.maximum(tau, pressed or (0.0 if tau.any() else 1.0))
+        return found
 
     def delta_q_of(self, k: int, n_v: int) -> Array:
         """delta_q of step k, with private rises that do not rise, shape (n_v,) [m, rad]."""

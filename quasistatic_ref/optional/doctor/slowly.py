@@ -26,11 +26,11 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain, field_values
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only, without_warnings
 from quasistatic_ref.optional.doctor.artifacts import gives
 from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
+from quasistatic_ref.parts import is_there
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
@@ -129,10 +129,7 @@ class Solvers:
         for solver in self._kept:
             if solver.fits(step):
                 return solver
-        try:
-            solver = solver_for(step, fast=True)
-        except InputError:  # no optional/fast
-            solver = solver_for(step)
+        solver = solver_for(step, fast=is_there("fast"))
         self._kept = [solver, *self._kept[:7]]
         return solver
 
@@ -378,10 +375,8 @@ class Slow:
             sure.insert(0, one)
             if len(sure) == 2:
                 break
-        if len(sure) < 2:
-            return Climb(sure, True)
-        if not lost:
-            return Climb(sure, False)
+        if len(sure) < 2 or not lost:
+            return Climb(sure, len(sure) < 2)
         a, b = (x.answer.delta_q[self.step.n_a :] / x.T**2 for x in sure)
         off = np.sqrt((a - b) @ self.step.M_u @ (a - b))
         agrees = bool(off <= AGREES * np.sqrt(b @ self.step.M_u @ b))

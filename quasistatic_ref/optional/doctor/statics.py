@@ -77,7 +77,7 @@ class Statics:
         """
         run = self.run
         if body.name not in self._rests:
-            still = bool(run.drags(body)[-1] <= STILL * run.loads(body)[-1])
+            still = bool(run.drags[body][-1] <= STILL * run.loads[body][-1])
             if still and self.lacks(body.name):
                 last = run.looking.at(run.steps - 1, body.name)
                 still = body.name not in {*last.missing[SLOW], *last.lost}
@@ -116,7 +116,7 @@ def out_of_balance(run: Run) -> Iterator[Finding]:
         if every.rests(body):
             if every.settles(body):
                 continue
-            drags = run.drags(body)[look.k :] > chosen.LITTLE * run.loads(body)[look.k :]
+            drags = run.drags[body][look.k :] > chosen.LITTLE * run.loads[body][look.k :]
             steps = 1 + int(np.flatnonzero(drags).max(initial=0))
             way, turn = run.way(body, look.k)
             does = f"falls by {length(way)}"
@@ -336,7 +336,7 @@ def _changes(every: Statics, look: Look, one: str, other: str) -> Iterator[Chang
         here = by[one]
         there = by[other]
         force = max(here.forces[:TORQUE].max(), there.forces[:TORQUE].max())
-        if near and force <= COUNTS * min(run.load(body, k) for body in near):
+        if near and force <= COUNTS * min(run.loads[body][k] for body in near):
             continue  # it hardly bears them, as where they are being put down or lifted
         most = float(run["wrench"][:, of_pair, 2].sum(axis=1).max())
         rubs = max(force, most / 2)
