@@ -73,9 +73,12 @@ def _replaced(target: Path, write: Callable[[IO[bytes]], object]) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     _swept(target.parent)
     descriptor, temporary = tempfile.mkstemp(PARTIAL, f".{target.name}.", target.parent)
+    is_locked = _locked(descriptor, wait=True)
+    if not os.fstat(descriptor).st_nlink:  # another process has swept it before it was locked
+        os.close(descriptor)
+        return _replaced(target, write)
     try:
         with os.fdopen(descriptor, "wb") as file:
-            is_locked = _locked(descriptor)
             write(file)
             file.flush()
             if is_locked:  # until it has its name
@@ -102,14 +105,17 @@ def _swept(folder: Path) -> None:
                 path.unlink()
 
 
-def _locked(descriptor: int) -> bool:
-    """Lock a file until it is closed; tell whether that is possible, and no other process did."""
+def _locked(descriptor: int, *, wait: bool = False) -> bool:
+    """Lock a file until it is closed; tell whether that is possible, and no other process did.
+
+    A file that is made is locked by others as long as they sweep its folder: it may `wait`.
+    """
     if sys.platform == "win32":
         return False
     import fcntl
 
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        fcntl.flock(descriptor, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
     except OSError:
         return False
     return True

@@ -5,6 +5,7 @@ import os
 import stat
 import subprocess
 import sys
+import tempfile
 
 import numpy as np
 import pytest
@@ -82,6 +83,22 @@ def test_what_a_killed_process_had_half_written_is_removed(tmp_path):
     assert left.name.startswith(".b.")
     writers[1].communicate(b"\n")
     assert sorted(os.listdir(tmp_path)) == ["b", "c"]
+
+
+def test_a_file_that_another_process_sweeps_as_it_is_made_is_made_once_more(tmp_path, monkeypatch):
+    made = []
+
+    def swept_at_first(*arguments):
+        made.append(mkstemp(*arguments))
+        if len(made) == 1:
+            os.unlink(made[0][1])
+        return made[-1]
+
+    mkstemp = tempfile.mkstemp
+    monkeypatch.setattr(tempfile, "mkstemp", swept_at_first)
+    assert text_written(tmp_path / "t.txt", "text").read_text() == "text"
+    assert len(made) == 2
+    assert os.listdir(tmp_path) == ["t.txt"]
 
 
 def test_a_pipe_and_a_fifo_are_written_into(tmp_path):
