@@ -105,10 +105,11 @@ def read_by_others(path):
         scale, offset = np.array(struct.unpack("<6d", content[131:179])).reshape(2, 3)
         rows = [struct.unpack_from("<3i", content, first + k * size) for k in range(count)]
         return scale * rows + offset
-    words = re.split(rb"DATA ascii\n|blue\n", content)[-1].replace(b",", b" ")
-    rows = [line.partition(b"#")[0].split() for line in words.splitlines()]
-    rows = np.array([row for row in rows if row], dtype=float)
-    rows = rows[:, 1:4] if path.suffix == ".pcd" else rows[:, :3]
+    lines = re.split(rb"DATA ascii\n|x,y,z,.*\n", content)[-1].splitlines()
+    lines = [line.partition(b"#")[0].strip() for line in lines]
+    rows = [line.split(b"," if b"," in line else None) for line in lines if line]
+    first = 1 if path.suffix == ".pcd" else 0
+    rows = np.array([[cell or b"nan" for cell in row[first : first + 3]] for row in rows], float)
     return rows[~np.isnan(rows).any(axis=1)]
 
 
