@@ -153,19 +153,19 @@ def bodies(start: Start) -> Iterator[Body]:
     extents = np.array([side.shape.extent for side in start.sides])
     for first in np.unique(label):
         at = n_a + np.flatnonzero(label == first)
-        own = tuple(joint for joint in joints if joint.v.start in at)
-        free = len(own) == 1 and own[0].free
+        of_body = tuple(joint for joint in joints if joint.v.start in at)
+        free = len(of_body) == 1 and of_body[0].free
         links: Mask = np.asarray(np.any(start.moves[:, at], axis=1), dtype=np.bool_)
         of_sides = links[of]
         of_pairs = of_sides[::2] | of_sides[1::2]
         size = extents[of_sides & (of > 0) & (extents < np.inf)].max(initial=0.0) or FARTHEST
         yield Body(
-            own[0].name.removesuffix("/base"),
+            of_body[0].name.removesuffix("/base"),
             at,
             free,
             float(system.masses[links].sum()) or 1.0,
             np.asarray(of_pairs[start.pair_of]),
             float(size),
             np.array([coordinates[i - n_a].unit == "m" for i in at]),
-            own,
+            of_body,
         )

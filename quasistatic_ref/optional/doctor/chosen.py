@@ -60,7 +60,7 @@ def _of_bodies(run: Run) -> list[Asked]:
     near = run.presses | (run["phi"] <= TOUCHES * run.sizes)
     ways = np.linalg.norm(run.slips[..., :2], axis=-1)
     ways = np.where(run.presses & (ways > slowly.STICKS), ways, 0.0)
-    found = []
+    steps_asked = []
     moves = run.targets_move & (np.arange(run.steps) > 0)
     for body in run.bodies_of:
         drags = run.drags[body] / run.loads[body]
@@ -79,8 +79,8 @@ def _of_bodies(run: Run) -> list[Asked]:
                 of_set.setdefault(sets[k].tobytes(), []).append(k)
             for each in of_set.values():
                 k = _first(score[each])
-                found.append(Asked(float(score[each[k]]), body.name, each[k]))
-    return found
+                steps_asked.append(Asked(float(score[each[k]]), body.name, each[k]))
+    return steps_asked
 
 
 def _first(scores: Array) -> int:
@@ -90,7 +90,7 @@ def _first(scores: Array) -> int:
 
 def _of_pairs(run: Run) -> list[Asked]:
     """Where the layer may add the largest share, and the largest force; where corners take most."""
-    found = []
+    steps_asked = []
     s = np.where(run.presses, slip_norm(run.scaled_slips, run.simulator.cone), 0.0)
     gives = run.noted("gives")
     f_n = run["wrench"][:, :, 2]
@@ -108,12 +108,12 @@ def _of_pairs(run: Run) -> list[Asked]:
         size = float(f_n[:, of_pair].max(initial=0.0))
         where = share > RISES
         if convex and where.any():
-            found.append(Asked(float(share.max()), pair.name, _first(share)))
+            steps_asked.append(Asked(float(share.max()), pair.name, _first(share)))
             most = np.where(where, most, 0.0)
-            found.append(Asked(float(most.max()) / size, pair.name, _first(most)))
+            steps_asked.append(Asked(float(most.max()) / size, pair.name, _first(most)))
         corner = stays * (lost * f_n)[:, of_pair].max(axis=1, initial=0.0) / (size or 1.0)
         if corner.max(initial=0.0) > RISES:
-            found.append(Asked(float(corner.max()), pair.name, _first(corner), True))
+            steps_asked.append(Asked(float(corner.max()), pair.name, _first(corner), True))
     if convex:
         for body in run.bodies_of:  # what slides below lifts against the spring above
             c = gives[:, body.contacts]
@@ -122,8 +122,8 @@ def _of_pairs(run: Run) -> list[Asked]:
             adds_up = s[:, body.contacts].max(axis=1, initial=0.0) * stiff
             share = np.divide(adds_up, loads, out=np.zeros_like(loads), where=loads > 0)
             if share.max(initial=0.0) > RISES:
-                found.append(Asked(float(share.max()), body.name, _first(share)))
-    return found
+                steps_asked.append(Asked(float(share.max()), body.name, _first(share)))
+    return steps_asked
 
 
 def _lost(run: Run, s: Array) -> Array:

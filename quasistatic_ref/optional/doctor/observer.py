@@ -79,16 +79,16 @@ class Doctor(Observer):
     def end(self, recorder: Recording, trajectory: Trajectory, interrupted: bool) -> Trajectory:
         """The trajectory with its findings; an error costs the findings, and not the run."""
         try:
-            found, skipped = _found(recorder, trajectory)
+            every, skipped = _looked_for(recorder, trajectory)
         except (MemoryError, QuasistaticError) as error:
-            found = []
+            every = []
             skipped = f"findings: {type(error).__name__} {error}".rstrip()
         header = replace(
             trajectory.header,
             scene=scene_notes(recorder),
             quasi_dynamic_number=largest(recorder.noted("Pi")),
             largest_boundary_layer=largest(recorder.noted("layer")) or 0.0,
-            findings=tuple(found),
+            findings=tuple(every),
             not_looked_at=skipped,
         )
         trajectory = replace(trajectory, header=header)
@@ -105,7 +105,7 @@ def _momentum(step: StepData, delta_q: Array) -> Array:
     return np.asarray((step.M_u @ delta_q[..., step.n_a :, None])[..., 0])
 
 
-def _found(recorder: Recording, trajectory: Trajectory) -> tuple[list[Finding], str]:
+def _looked_for(recorder: Recording, trajectory: Trajectory) -> tuple[list[Finding], str]:
     """The findings, and what was not looked at."""
     of = Start(recorder.simulator, recorder.start)
     checks: tuple[Check, ...] = OF_SCENE
@@ -114,8 +114,8 @@ def _found(recorder: Recording, trajectory: Trajectory) -> tuple[list[Finding], 
         checks += OF_RUN
     elif not trajectory.failed:
         checks += NO_STEPS
-    found = findings(checks, of)
+    every = findings(checks, of)
     skipped = [not_looked_at(checks, of)]
     if isinstance(of, Run) and of.statics is not None:
         skipped.append(of.statics.not_looked_at)
-    return found, "; ".join(filter(None, skipped))
+    return every, "; ".join(filter(None, skipped))

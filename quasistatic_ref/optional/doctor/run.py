@@ -90,11 +90,11 @@ class Run(Start):
     @cached_property
     def near(self) -> dict[str, list[Body]]:
         """The bodies of each pair, by its name."""
-        found: dict[str, list[Body]] = {pair.name: [] for pair in self.pairs}
+        of_pair: dict[str, list[Body]] = {pair.name: [] for pair in self.pairs}
         for body in self.bodies_of:
             for i in np.unique(self.pair_of[body.contacts]).tolist():
-                found[self.pairs[i].name].append(body)
-        return found
+                of_pair[self.pairs[i].name].append(body)
+        return of_pair
 
     @cached_property
     def presses(self) -> Mask:
@@ -138,13 +138,13 @@ class Run(Start):
         0 where float64 has no number for it, as with an h of 1e-308 s.
         """
         n_a = self.system.n_a
-        found = {}
+        of_bodies = {}
         for body in self.bodies_of:
             with np.errstate(all="ignore"):
                 r = self.noted("momentum")[:, body.coordinates - n_a] / self.h / self.h
                 drags = body.amount(body.inertia(self.M_u, n_a), r)
-            found[body] = np.where(np.isfinite(drags), drags, 0.0)
-        return found
+            of_bodies[body] = np.where(np.isfinite(drags), drags, 0.0)
+        return of_bodies
 
     @cached_property
     def loads(self) -> dict[Body, Array]:
@@ -152,13 +152,13 @@ class Run(Start):
 
         It is what gravity and other loads are, or the largest force on it in the run.
         """
-        found = {}
+        of_bodies = {}
         for body in self.bodies_of:
             M = body.inertia(self.M_u, self.system.n_a)
             tau = body.amount(M, self.noted("tau")[:, body.coordinates])
             pressed = float(self["wrench"][:, body.contacts, 2].max(initial=0.0))
-            found[body] = np.maximum(tau, pressed or (0.0 if tau.any() else 1.0))
-        return found
+            of_bodies[body] = np.maximum(tau, pressed or (0.0 if tau.any() else 1.0))
+        return of_bodies
 
     def delta_q_of(self, k: int, n_v: int) -> Array:
         """delta_q of step k, with private rises that do not rise, shape (n_v,) [m, rad]."""

@@ -226,7 +226,7 @@ class Slow:
         spin). Those along the axes stay, others while they press.
         """
         contacts = step.contacts
-        own = len(step.extra.names)
+        of_user = len(step.extra.names)
         at, u = self._tangents
         for _ in range(CUTS):
             extra = with_fields(
@@ -242,7 +242,7 @@ class Slow:
             slip = self._slips @ delta_q
             norm = np.linalg.norm(slip, axis=1)
             gap = contacts.phi + self._J_n @ delta_q
-            pushes = lam[contacts.n_c + own :] / step.h
+            pushes = lam[contacts.n_c + of_user :] / step.h
             pressed = at, u
             new = np.flatnonzero((norm > 0) & (norm - gap > ROUND * norm.max(initial=0.0)))
             kept = (pushes > 0) | (np.arange(len(at)) < self._axes)
@@ -290,8 +290,8 @@ class Slow:
             converged = creeps or bool(residual <= limit)
             return Iterate(s, slip, residual, converged, answer._replace(creeps=creeps))
 
-        found, _ = fixed_point(at, start, most or MOST[kind], leaps=True)
-        return found
+        last, _ = fixed_point(at, start, most or MOST[kind], leaps=True)
+        return last
 
     def rung(self, T: float, start: Array, *, sure: bool = True) -> Rung | None:
         """The step by Coulomb's law at T [s], from floats; None where no fixed point is found.
@@ -345,19 +345,19 @@ class Slow:
         lost = first is None
         while end > T:
             T = min(3 * T, end)
-            found = self.rung(T, _ahead(kept, nothing), sure=False)
-            if found is None:
+            reached = self.rung(T, _ahead(kept, nothing), sure=False)
+            if reached is None:
                 lost = bool(kept)
                 if lost:
                     break
                 continue
             lost = False
-            if found.moves > straight and kept:
-                T = _until(kept[-1], found, straight)
-                found = self.rung(T, kept[-1].s, sure=False) if T > 1.2 * kept[-1].T else None
-                kept += [] if found is None else [found]
+            if reached.moves > straight and kept:
+                T = _until(kept[-1], reached, straight)
+                reached = self.rung(T, kept[-1].s, sure=False) if T > 1.2 * kept[-1].T else None
+                kept += [] if reached is None else [reached]
                 break
-            kept.append(found)
+            kept.append(reached)
         return self._confirmed(kept, lost)
 
     def _confirmed(self, kept: list[Rung], lost: bool) -> Climb:
@@ -391,8 +391,8 @@ class Slow:
         """The same T in the round cone; open where one of them has no fixed point there."""
         slow = Slow(with_fields(self.step, cone=ELLIPSOID), self.solvers, self.sizes)
         rungs = [slow.rung(one.T, one.s) for one in self.climbed.rungs]
-        found = [one for one in rungs if one is not None]
-        return Climb(found, len(found) < len(rungs))
+        confirmed = [one for one in rungs if one is not None]
+        return Climb(confirmed, len(confirmed) < len(rungs))
 
 
 def with_fields(data: Data, **changes: Any) -> Data:

@@ -181,11 +181,11 @@ class Start:
     @cached_property
     def pairs_of(self) -> dict[str, list[tuple[ContactPair, slice]]]:
         """The pairs of each body, and where their contacts are among all."""
-        found: dict[str, list[tuple[ContactPair, slice]]] = {}
+        of_bodies: dict[str, list[tuple[ContactPair, slice]]] = {}
         for pair, at in slices(self.pairs):
             for name in self.bodies(pair):
-                found.setdefault(name, []).append((pair, at))
-        return found
+                of_bodies.setdefault(name, []).append((pair, at))
+        return of_bodies
 
     def of_body(self, name: str) -> Mask:
         """Which contacts are of a body, shape (n_c,)."""

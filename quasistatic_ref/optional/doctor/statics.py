@@ -105,10 +105,10 @@ def out_of_balance(run: Run) -> Iterator[Finding]:
     every = statics(run)
     falling = falls(run)
     for body in run.bodies_of:
-        found = every.lacks(body.name)
-        if not found or _in_corners(found, body):
+        lacking = every.lacks(body.name)
+        if not lacking or _in_corners(lacking, body):
             continue
-        look, missing = max(found, key=lambda x: x[1].amount)
+        look, missing = max(lacking, key=lambda x: x[1].amount)
         weight = body.mass * run.g
         if body.name in falling and missing.force >= (1 - COUNTS) * weight:
             continue
@@ -138,9 +138,9 @@ def out_of_balance(run: Run) -> Iterator[Finding]:
         )
 
 
-def _in_corners(found: list[tuple[Look, Missing]], body: Body) -> bool:
+def _in_corners(lacking: list[tuple[Look, Missing]], body: Body) -> bool:
     """Whether nothing is missing of a body in the round cone, wherever it is in the run's."""
-    return all(ROUND in look.laws and body.name not in look.missing[ROUND] for look, _ in found)
+    return all(ROUND in look.laws and body.name not in look.missing[ROUND] for look, _ in lacking)
 
 
 def corners(run: Run) -> Iterator[Finding]:
@@ -153,10 +153,10 @@ def corners(run: Run) -> Iterator[Finding]:
     held: dict[str, int] = {}
     other: list[tuple[float, str, int, Missing, Missing]] = []
     for body in run.bodies_of:
-        found = every.lacks(body.name)
-        if found and _in_corners(found, body) and not every.settles(body):
-            held[body.name] = found[0][0].k
-        for look, here in found:
+        lacking = every.lacks(body.name)
+        if lacking and _in_corners(lacking, body) and not every.settles(body):
+            held[body.name] = lacking[0][0].k
+        for look, here in lacking:
             if ROUND in look.laws and body.name in look.missing[ROUND]:
                 there = look.missing[ROUND][body.name]
                 off = float(np.linalg.norm(here.r - there.r))

@@ -149,5 +149,5 @@ def _at(scenario: Scenario, t: float) -> Kinematics:
 
 def _moved(before: Kinematics, after: Kinematics, link: int, x: Array) -> Array:
     """How far the point of a link that is at x after a step moves in it, shape (3,) [m]."""
-    own = (x - after.t[link]) @ after.R[link]
-    return np.asarray(x - before.R[link] @ own - before.t[link])
+    in_link = (x - after.t[link]) @ after.R[link]
+    return np.asarray(x - before.R[link] @ in_link - before.t[link])
