@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.mass import whole
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
 from quasistatic_ref.simulate.record import LARGEST
@@ -14,7 +15,7 @@ from quasistatic_ref.step.contacts import Contacts, spread
 from quasistatic_ref.step.data import StepData, hessian
 
 
-class Joined:
+class Joined(Plain):
     """Data of which some fields are formed when they are read.
 
     Attributes
@@ -38,8 +39,8 @@ class Joined:
     @classmethod
     def kept(cls) -> tuple[str, ...]:
         """As of that class, without what is formed."""
-        every: tuple[str, ...] = super().kept()  # type: ignore[misc]
-        return *(name for name in every if name not in cls.formed), *cls.kept_instead
+        every = (name for name in super().kept() if name not in cls.formed)
+        return *every, *cls.kept_instead
 
 
 class JoinedContacts(Joined, Contacts):
