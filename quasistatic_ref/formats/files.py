@@ -74,7 +74,7 @@ def _replaced(target: Path, write: Callable[[IO[bytes]], object]) -> None:
     _swept(target.parent)
     descriptor, temporary = tempfile.mkstemp(PARTIAL, f".{target.name}.", target.parent)
     is_locked = _locked(descriptor, wait=True)
-    if not os.fstat(descriptor).st_nlink:  # another process has swept it before it was locked
+    if not os.path.exists(temporary):  # another process has swept it before it was locked
         os.close(descriptor)
         return _replaced(target, write)
     try:
