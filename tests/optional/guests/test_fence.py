@@ -51,7 +51,7 @@ REFUSED = {
         "replicate.count: makes 1003 bodies, more than 1000",
     ),
     "a height field": (
-        '<asset><hfield name="f" nrow="20000" ncol="20000" size="1 1 1 1"/></asset>',
+        '<asset><hfield name="f" nrow="40000" ncol="40000" size="1 1 1 1"/></asset>',
         "hfield[f].ncol: needs more than ",
     ),
     "a mesh": (
