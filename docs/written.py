@@ -74,8 +74,13 @@ def of_ratios():
 
 
 def of_clouds():
-    """Clouds without holes, of 992 points, in the scene as it is."""
+    """Clouds of 992 points in the scene as it is."""
     scene = {"count": 992, "change": "none"}
+
+    def held_of(sampling, mu_omega):
+        kind = scene | {"sampling": sampling, "mu_omega": mu_omega}
+        return f"{sum(is_held(row) for row in rows() if kind.items() <= row.items())}"
+
     whole = [row for row in rows() if scene.items() <= row.items() and row["sampling"] != "scan"]
     turns = [row["rotation"] for row in whole if row["mu_omega"] == 0]
     held = [is_held(row) for row in whole if row["mu_omega"] > 0]
@@ -84,6 +89,10 @@ def of_clouds():
         "clouds-held": f"{sum(held)}",
         "cloud-least-deg": f"{min(turns):.1f}",
         "cloud-largest-deg": f"{max(turns):.1f}",
+        "random-held-with": held_of("random", 0.003),
+        "random-held-without": held_of("random", 0.0),
+        "scan-held-with": held_of("scan", 0.003),
+        "scan-held-without": held_of("scan", 0.0),
     }
 
 

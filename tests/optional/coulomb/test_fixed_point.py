@@ -20,7 +20,7 @@ from quasistatic_ref import (
     solve_step,
     verify_answer,
 )
-from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.coulomb.fixed_point import slip_norms
 from quasistatic_ref.step.friction import frame_jacobian
@@ -119,6 +119,17 @@ def test_a_step_whose_convex_step_has_no_solution_needs_a_start():
     at_end = coulomb_step(step, start=[1e-3 * np.sin(1.0)] * 2)
     assert at_end.converged
     assert at_end.delta_q == pytest.approx([0.0, 1e-3, 0.0], abs=1e-12)
+
+
+@pytest.mark.parametrize("s", [0.0, 1e-4, 1e-2])
+def test_a_guide_without_clearance_lets_a_point_slip_as_far_as_the_first_guess_says(s):
+    """Walls at +-y bear as much as the guess asks for: the slip is min(s / mu_v, h^2 F / m)."""
+    mu, force = 0.5, 6.0
+    x, y, z = np.eye(3)
+    walls = contacts_of([0.0, 0.0], [[x, -z, y], [x, z, -y]], [np.eye(4, 3)] * 2, mu)
+    guide = free_step(M * np.eye(3), [force, 0.0, 0.0], walls, H)
+    slip = coulomb_step(guide, start=[s, s]).delta_q[0]
+    assert slip == pytest.approx(min(s / mu, H**2 * force / M), abs=1e-12)
 
 
 def test_what_is_not_usable_is_refused_in_a_sentence():
