@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Body, Sphere, System
-from quasistatic_ref.model.joints import BASES, JOINTS
-from quasistatic_ref.optional.derivatives.model.tangent import (
-    difference_rates,
-    entry_rates,
-    sum_rates,
-)
+from quasistatic_ref.optional.derivatives.model.tangent import difference_rates, sum_rates
 from tests.closeness import assert_within
 from tests.tolerances import DIFFERENCE
 
@@ -38,19 +33,3 @@ def test_r30_sums_and_differences_change_as_written(seed, base):
     last = rate(lambda t: system.difference(q, system.integrate(other, t)))
     rates = np.stack([by_q, by_x, by_start, by_end]) @ (e / 1e-6)
     assert_within(rates, [moved, changed, first, last], DIFFERENCE)
-
-
-@pytest.mark.parametrize("kind", {**BASES, **JOINTS}.values())
-def test_entries_of_q_change_as_differences_say(kind):
-    joint = kind("a/b", False, slice(0, 0), slice(0, 0))
-    n = len(joint.coordinates)
-    joint = kind("a/b", False, slice(0, len(joint.positions)), slice(0, n))
-    q = np.random.default_rng(1).normal(size=joint.q.stop)
-    if joint.unit:
-        q[joint.unit_part] /= np.linalg.norm(q[joint.unit_part])
-
-    def moved(e):
-        return np.array(joint.moved(q.tolist(), e.tolist()))
-
-    rates = [(moved(e) - moved(-e)) / 2e-6 for e in 1e-6 * np.eye(n)]
-    assert_within(entry_rates([joint], q).T, rates, DIFFERENCE)
