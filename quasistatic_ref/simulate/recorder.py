@@ -33,9 +33,10 @@ from quasistatic_ref.simulate.record import (
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.target import JointTrack
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import contact_wrenches
-from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.step.friction import contact_wrenches, friction_rows, row_constants
+from quasistatic_ref.step.standard_form import linear_term
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
@@ -373,14 +374,34 @@ def programs(steps: Sequence[StepData]) -> StepArrays:
     arrays: StepArrays = {name: _of_all(steps, name) for name in LOADS}
     matrices = [step.recorded for step in steps]
     arrays |= {name: np.array([each[name] for each in matrices]) for name in matrices[0]}
-    if "H" in arrays:
-        forms = [standard_form(step) for step in steps]
-        arrays |= {name: _of_all(forms, name) for name in ("g", "A", "b")}
     extra = [step.extra for step in steps]
+    if "H" in arrays:
+        arrays["g"] = np.array([linear_term(step) for step in steps])
+        arrays["A"], arrays["b"] = _inequalities(steps)
     of_extra = ("A", "b") if extra[0].names else ()
     if extra[0].cost is not None:
         of_extra = (*of_extra, "H", "g")
     return arrays | {f"extra_{name}": _of_all(extra, name) for name in of_extra}
+
+
+def _inequalities(steps: Sequence[StepData]) -> tuple[Array, Array]:
+    """A, shape (steps, m, n_v), and b, (steps, m), of some steps of a simulator, at once."""
+    first = steps[0]
+    each = [step.contacts for step in steps]
+    constant = {name: np.tile(getattr(first.contacts, name), len(steps)) for name in CONSTANT}
+    varying = ("phi", "n", "d1", "d2", "J")
+    stacked = Contacts.unchecked(
+        **constant, **{name: np.concatenate([getattr(c, name) for c in each]) for name in varying}
+    )
+    rows = friction_rows(stacked, first.cone)
+    rows_of_steps = rows.reshape(len(steps), first.contacts.n_c, *rows.shape[1:])
+    constants = row_constants(stacked, first.cone).reshape(rows_of_steps.shape[:3])
+    A = rows_of_steps[:, first.mask]
+    b = -constants[:, first.mask]
+    if first.extra.names:
+        A = np.concatenate([A, _of_all([step.extra for step in steps], "A")], axis=1)
+        b = np.concatenate([b, _of_all([step.extra for step in steps], "b")], axis=1)
+    return A, b
 
 
 def _checked_note(name: str, note: ArrayLike, steps: int, before: Array | None) -> Array:

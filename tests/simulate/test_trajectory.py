@@ -5,7 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, load_scenario, load_trajectory, save_trajectory
+from quasistatic_ref import (
+    InputError,
+    load_scenario,
+    load_trajectory,
+    save_trajectory,
+    standard_form,
+)
 from quasistatic_ref.certify import solution
 from quasistatic_ref.cli.run import worst_residual
 from quasistatic_ref.optional.fast import joined
@@ -57,6 +63,19 @@ def test_a_recorded_step_is_the_one_that_was_solved(scenario, run):
         solved = simulator.step(q, targets(t), force(t, q))
         assert run.step_data(k) == solved.step
         np.testing.assert_array_equal(run["delta_q"][k], solved.solution.delta_q)
+
+
+@pytest.mark.parametrize("changes", [["cone=ellipsoid"], ["cone=facets-6"], []])
+@pytest.mark.parametrize("name", ["bunny_grasp", "arm_push"])
+def test_a_recorded_program_is_the_standard_form_of_its_step(name, changes):
+    limits = ["bodies.arm.joint_limits=urdf"] if name == "arm_push" else []
+    run = load_scenario(name, ["solver.certify=off", *limits, *changes], steps=3).run(
+        progress=False
+    )
+    for k in range(3):
+        form = standard_form(run.step_data(k))
+        for matrix, recorded in zip(form, ("H", "g", "A", "b"), strict=True):
+            assert (run[recorded][k] + 0.0).tobytes() == (matrix + 0.0).tobytes()
 
 
 @pytest.mark.extra("fast")
