@@ -67,7 +67,8 @@ def rollout(
         Whether to show a progress bar on standard error, where that is a terminal.
     findings : bool
         Whether to print there, at the end of a run, its findings
-        (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.findings`).
+        (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.findings`). Findings that are not
+        printed are looked for when they are first read, saved or pickled.
     observers : sequence of Observer
         What else watches the run: before each step, after it, and at the end.
 

@@ -3,6 +3,8 @@
 They are measured of several steps of a simulator at once, along the first axis.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -100,11 +102,20 @@ def boundary_layer(gap: Array, wrench: Array) -> Array:
     return np.asarray(gap.max(axis=1, where=pressing(wrench[:, :, 2]), initial=0.0))
 
 
-def gives(step: StepData) -> Array:
-    """How far springs let each contact give way along its normal, shape (n_c,) [m/N]."""
-    n_a = step.n_a
-    contacts = step.contacts
+def gives(steps: Sequence[StepData]) -> Array:
+    """How far springs let contacts give way along their normals, shape (steps, n_c) [m/N].
+
+    Parameters
+    ----------
+    steps : sequence of StepData
+        Of one simulator.
+    """
+    first = steps[0]
+    n_a = first.n_a
     if not n_a:
-        return np.zeros(contacts.n_c)
-    J_n = np.einsum("ci,civ->cv", contacts.n, contacts.J[:, :3, :n_a])
-    return np.asarray(np.vecdot(J_n, np.linalg.solve(step.K_q, J_n.T).T))
+        return np.zeros((len(steps), first.contacts.n_c))
+    n = np.array([step.contacts.n for step in steps])
+    J_a = np.array([step.contacts.J[:, :3, :n_a] for step in steps])
+    J_n = np.einsum("scx,scxv->scv", n, J_a)
+    yields = np.linalg.solve(first.K_q, J_n.reshape(-1, n_a).T).T.reshape(J_n.shape)
+    return np.asarray(np.vecdot(J_n, yields))

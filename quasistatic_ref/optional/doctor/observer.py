@@ -3,10 +3,14 @@
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.account import scene_notes
 from quasistatic_ref.optional.doctor.artifacts import (
@@ -26,6 +30,7 @@ from quasistatic_ref.optional.doctor.checks import (
 from quasistatic_ref.optional.doctor.run import Run, largest
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.observer import Observer, Recording
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -73,31 +78,93 @@ class Doctor(Observer):
             "Pi": quasi_dynamic_number(system, results[0].step, arrays["delta_q"], g),
             "layer": boundary_layer(gap, arrays["wrench"]),
             "momentum": momentum,
-            "gives": np.array([gives(result.step) for result in results]),
+            "gives": gives([result.step for result in results]),
         }
 
     def end(self, recorder: Recording, trajectory: Trajectory, interrupted: bool) -> Trajectory:
-        """The trajectory with its findings; an error costs the findings, and not the run."""
-        try:
-            every, skipped = _looked_for(recorder, trajectory)
-        except (MemoryError, QuasistaticError) as error:
-            every = []
-            skipped = f"findings: {type(error).__name__} {error}".rstrip()
-        header = replace(
-            trajectory.header,
-            scene=scene_notes(recorder),
-            quasi_dynamic_number=largest(recorder.noted("Pi")),
-            largest_boundary_layer=largest(recorder.noted("layer")) or 0.0,
-            findings=tuple(every),
-            not_looked_at=skipped,
-        )
-        trajectory = replace(trajectory, header=header)
-        if self.printed:
-            for finding in trajectory.findings:
-                print(f"quasistatic-ref: {finding}", file=sys.stderr)
-            if skipped:
-                print(f"quasistatic-ref: not looked at: {skipped}", file=sys.stderr)
+        """The trajectory with its findings: unless they are printed, they are looked for late."""
+        known = field_values(trajectory.header) | {
+            "scene": scene_notes(recorder),
+            "quasi_dynamic_number": largest(recorder.noted("Pi")),
+            "largest_boundary_layer": largest(recorder.noted("layer")) or 0.0,
+        }
+        del known["findings"], known["not_looked_at"]
+        late = LateHeader.unchecked(**known, run=(Notes(recorder, self.notes), trajectory))
+        if not self.printed:
+            return replace(trajectory, header=late)
+        trajectory = replace(trajectory, header=Header(**field_values(late)))
+        for finding in trajectory.findings:
+            print(f"quasistatic-ref: {finding}", file=sys.stderr)
+        if late.not_looked_at:
+            print(f"quasistatic-ref: not looked at: {late.not_looked_at}", file=sys.stderr)
         return trajectory
+
+
+class Notes:
+    """What a run's findings ask of its recorder, which may go.
+
+    Parameters
+    ----------
+    recorder : Recording
+    names : sequence of str
+        Of what its observers keep.
+    """
+
+    def __init__(self, recorder: Recording, names: Sequence[str]) -> None:
+        self.simulator = recorder.simulator
+        self.system = recorder.system
+        self.start = recorder.start
+        self.q = recorder.q
+        self.steps = recorder.steps
+        self.tracks = recorder.tracks
+        self.idle_columns = recorder.idle_columns
+        self._arrays = {name: recorder.noted(name) for name in ("tau", *names)}
+
+    def noted(self, name: str) -> NDArray[Any]:
+        """What an observer kept of each step, shape (steps, ...) [any unit]."""
+        return self._arrays[name]
+
+
+class LateHeader(Header):
+    """A header whose findings are looked for when they are first read, or copied.
+
+    Attributes
+    ----------
+    run : tuple of Notes and Trajectory
+        What is looked at.
+    """
+
+    run: tuple[Notes, Trajectory]
+
+    @classmethod
+    def compared_as(cls) -> type:
+        """As any header."""
+        return Header
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _header, (field_values(self),)
+
+    @cached_property
+    def _diagnosis(self) -> tuple[tuple[Finding, ...], str]:
+        """Findings, and what was not looked at: an error costs the findings, and not the run."""
+        try:
+            return _looked_for(*self.run)
+        except (MemoryError, QuasistaticError) as error:
+            return (), f"findings: {type(error).__name__} {error}".rstrip()
+
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """As of a header."""
+        return self._diagnosis[0]
+
+    @cached_property
+    def not_looked_at(self) -> str:
+        """As of a header."""
+        return self._diagnosis[1]
+
+
+def _header(values: dict[str, Any]) -> Header:
+    return Header(**values)
 
 
 def _momentum(step: StepData, delta_q: Array) -> Array:
@@ -105,7 +172,7 @@ def _momentum(step: StepData, delta_q: Array) -> Array:
     return np.asarray((step.M_u @ delta_q[..., step.n_a :, None])[..., 0])
 
 
-def _looked_for(recorder: Recording, trajectory: Trajectory) -> tuple[list[Finding], str]:
+def _looked_for(recorder: Recording, trajectory: Trajectory) -> tuple[tuple[Finding, ...], str]:
     """The findings, and what was not looked at."""
     of = Start(recorder.simulator, recorder.start)
     checks: tuple[Check, ...] = OF_SCENE
@@ -118,4 +185,4 @@ def _looked_for(recorder: Recording, trajectory: Trajectory) -> tuple[list[Findi
     skipped = [not_looked_at(checks, of)]
     if isinstance(of, Run) and of.statics is not None:
         skipped.append(of.statics.not_looked_at)
-    return every, "; ".join(filter(None, skipped))
+    return tuple(every), "; ".join(filter(None, skipped))

@@ -267,10 +267,11 @@ class Slow:
 
         The iteration starts at start, shape (n_c,) [m], and has at most as many iterates.
         """
-        J = np.abs(self.step.contacts.J)
-        mu = self.step.contacts.mu
+        contacts = self.step.contacts
+        J = np.abs(contacts.J)
+        mu = contacts.mu
         kind = ("proved" if proved else "floats") if self._polyhedral else "round"
-        soft = gives(self.step)
+        (soft,) = gives([self.step])
         stiffness = (1 / soft[soft > 0]).max(initial=0.0)
         before = np.inf
 

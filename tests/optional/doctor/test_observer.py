@@ -1,6 +1,8 @@
 """Findings of runs: too few contacts end to end, the command line, scenarios that come along."""
 
+import copy
 import json
+import pickle
 
 import numpy as np
 import pytest
@@ -9,7 +11,7 @@ import quasistatic_ref as qr
 from quasistatic_ref import load_scenario, load_trajectory
 from quasistatic_ref.formats.npz import json_array
 from quasistatic_ref.lab.bench.scenes import boxes
-from quasistatic_ref.optional.doctor import chosen, looks, slowly, start
+from quasistatic_ref.optional.doctor import chosen, looks, observer, slowly, start
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.header import header_table
 from tests.extras import SCENARIOS_TO_RUN
@@ -236,3 +238,31 @@ def test_an_error_in_the_findings_costs_the_findings_and_not_the_run(monkeypatch
     run = load_scenario("block_push", steps=2).run(progress=False)
     assert (len(run), run.findings) == (2, ())
     assert run.header.not_looked_at == "findings: MemoryError no room for (200, 600, 600)"
+
+
+def test_findings_that_are_not_printed_are_looked_for_when_they_are_first_read(
+    tmp_path, monkeypatch
+):
+    """Then, in a pickle and in a file they are those of a run that prints them."""
+    looks_taken = []
+    looked_for = observer._looked_for
+    scenario = load_scenario("two_finger_pinch", steps=10, fast=True)
+    printed = scenario.run(progress=False)
+    assert printed.findings
+    monkeypatch.setattr(
+        observer, "_looked_for", lambda *run: looks_taken.append(1) or looked_for(*run)
+    )
+    for read in (
+        lambda run: run.findings,
+        lambda run: pickle.loads(pickle.dumps(run)).findings,
+        lambda run: copy.copy(run.header).findings,
+        lambda run: load_trajectory(qr.save_trajectory(tmp_path / "run.npz", run)).findings,
+    ):
+        run = scenario.run(progress=False, findings=False)
+        assert run.step_data(3) == printed.step_data(3)
+        assert run.header.quasi_dynamic_number == printed.header.quasi_dynamic_number
+        assert not looks_taken
+        assert read(run) == printed.findings
+        assert run == printed
+        assert looks_taken == [1]
+        looks_taken.clear()
