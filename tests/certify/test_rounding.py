@@ -7,7 +7,6 @@ import pytest
 from flint import arb
 
 from quasistatic_ref.certify.rounding import nearest
-from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.gap import nearest_in
 
@@ -47,18 +46,3 @@ def test_ball_is_rounded_only_where_all_its_numbers_agree():
         assert nearest_in(half_way + third - third) is None
         assert nearest_in(arb.nan()) is None
         assert nearest_in(arb(1) / arb(0)) is None
-
-
-@pytest.mark.parametrize(
-    ("exact", "text"),
-    [
-        (F(99996, 10000), "1.000e+01"),
-        (F(10005, 10), "1.000e+03"),  # half-way, even
-        (F(10015, 10), "1.002e+03"),
-        (F(1, 1000), "1.000e-03"),
-        (F(-12), "-1.200e+01"),
-        (F(0), "0.000e+00"),
-    ],
-)
-def test_decimal_strings_round_half_to_even(exact, text):
-    assert decimal_string(exact, 4) == text
