@@ -58,21 +58,6 @@ def test_stiffness_may_be_given_by_joint_or_by_body(load, line, expected):
     np.testing.assert_array_equal(load((K_Q, line)).K_q, expected)
 
 
-BASE = 'base = "floating"\nactuated = "all"\nK_q = { base = %s }'
-BASES = {
-    "a number": ("7", 7 * np.eye(6)),
-    "a list": ("[1, 2, 3, 4, 5, 6]", np.diag([1, 2, 3, 4, 5, 6])),
-}
-
-
-@pytest.mark.parametrize(("value", "expected"), BASES.values(), ids=BASES)
-def test_an_actuated_base_has_a_stiffness_too(load, value, expected):
-    K_q = load(('base = "floating"', BASE % value)).K_q
-    np.testing.assert_array_equal(K_q[2:, 2:], expected)
-    np.testing.assert_array_equal(K_q[:2, :2], [[500, 0], [0, 2.5]])
-    np.testing.assert_array_equal(K_q[:2, 2:], np.zeros((2, 6)))
-
-
 def test_stiffness_is_filled_in_by_joint_in_any_order_of_bodies(tmp_path):
     # In pinocchio's order "b" comes first; each body's matrix belongs to its own joints.
     text = robot(link("a"), link("b"), joint("j", "a", "b"), link("c"), joint("i", "b", "c"))
