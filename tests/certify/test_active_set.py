@@ -1,9 +1,9 @@
-"""The walk: which row leaves, exact ties included, and that it ends."""
+"""The walk: which row enters, which leaves, exact ties included, and that it ends."""
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.active_set import dual_active_set
+from quasistatic_ref.certify.active_set import dual_active_set, least_index, most_violated
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 
@@ -38,3 +38,14 @@ def test_exactly_tied_duplicated_and_dependent_rows_end(seed):
     assert isinstance(end, Minimiser)
     assert end.fractions.point == [10, 10, 10, 10, 0]
     assert 0 < end.walks <= form.m
+
+
+def test_a_row_that_balls_show_to_be_violated_enters_before_any_zero_is_decided():
+    """x_0 >= 1 is held; 2 x_0 >= 2 follows from it, and (1 - 2^-53) x_0 >= 1 misses by 2^-53."""
+    minimiser = Minimiser(program([[1, 0], [2, 0], [1 - 2.0**-53, 0]], [1, 2, 1]), (0,))
+    assert minimiser.open_rows == [1, 2]
+    assert not minimiser.lowest_shown
+    assert most_violated(minimiser) == least_index(minimiser) == 2
+    fresh = minimiser.on((0,))
+    assert most_violated(fresh) == 2
+    assert "null_space" not in vars(fresh)

@@ -7,21 +7,16 @@ import numpy as np
 import pytest
 from flint import arb_mat
 
-from quasistatic_ref import Extra, StepInfeasible
+from quasistatic_ref import Extra
 from quasistatic_ref.certify.dependence import implied, independent_rows
-from quasistatic_ref.certify.exact import step_optimum
-from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.form import EXACT, StepForm, exact_matrix
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.working_set import NearSets, ball_solution
 from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.numbers.precision import working_precision
-from tests.oracles.random_steps import any_step, mixed_step
-from tests.oracles.rational_kkt import proved_optimum
-from tests.oracles.solution_truth import program
+from tests.oracles.random_steps import any_step
 
 LEAST = 5e-324
 
@@ -72,32 +67,6 @@ def test_slacks_of_float64_are_off_by_no_more_than_their_bounds(cone, power):
     assert claims
 
 
-def rounded(values):
-    """Fractions in float64, each rounded correctly."""
-    return np.array([float(v) for v in values]) + 0.0
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_every_number_is_that_of_the_optimum_in_fractions(seed):
-    """By Python's integers, which nothing of the package forms."""
-    step = mixed_step(seed) if seed % 2 else grasp_step(np.random.default_rng(seed))
-    if seed == 11:
-        with pytest.raises(StepInfeasible) as failure:
-            step_optimum(step)
-        assert farkas_refutation(step, failure.value.farkas.exact) is None
-        return
-    found = step_optimum(step)
-    of = program(step)
-    x, lam, slack = proved_optimum(of, found.working_set)
-    assert found.delta_q.tobytes() == rounded(x).tobytes()
-    assert found.lam[list(found.working_set)].tobytes() == rounded(lam).tobytes()
-    assert found.net.tobytes() == rounded(of[0] @ x - of[1]).tobytes()
-    assert found.slack.tobytes() == rounded(slack).tobytes()
-    again = step_optimum(step, found.working_set)
-    assert again.slack.tobytes() == found.slack.tobytes()
-    assert again.walks == 0
-
-
 def pressed(mass_ratio=1.0):
     """A block that sticks: rows of rank three among many, at three contacts of one frame."""
     each = (3, 1, 1)
@@ -119,28 +88,6 @@ def test_rows_that_a_cone_implies_are_those_that_elimination_finds(cone):
             right = [i for i, is_implied in zip(of_contact, shown, strict=True) if is_implied]
             assert form.implied_by_cone(working, of_contact) == right
             assert Minimiser(form, working).implied(of_contact) == right
-
-
-def test_rows_are_implied_across_contacts_by_elimination_alone():
-    """The three contacts are equal: a row of one of them is the same row of another."""
-    form = StepForm(pressed())
-    assert form.implied_by_cone([0], [6, 12]) == []
-    assert Minimiser(form, (0,)).implied([6, 7, 12]) == [6, 12]
-    assert Minimiser(form, ()).implied([6]) == []
-    guessed = Minimiser(form, (0,))
-    assert guessed.implied([6, 12]) == [6, 12]
-    assert "null_space" not in vars(guessed)  # a guess in halves, which is proved
-
-
-def test_row_that_differs_in_the_last_bit_is_not_implied():
-    step = pressed()
-    J = step.contacts.J.copy()
-    J[1, 2, 0] = 2.0**-60
-    form = StepForm(step.replace(contacts=type(step.contacts)(
-        step.contacts.name, step.contacts.phi, step.contacts.n, step.contacts.d1,
-        step.contacts.d2, J, step.contacts.mu_v, step.contacts.mu_omega, step.contacts.rows,
-    )))  # fmt: skip
-    assert Minimiser(form, (0,)).implied([6, 12]) == [12]
 
 
 def test_balls_that_hide_x_are_formed_again():
