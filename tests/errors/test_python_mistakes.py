@@ -3,8 +3,6 @@
 Each line is a kind of mistake: what is called, and words of the answer.
 """
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -27,10 +25,6 @@ SCENE = {
 LOADS = r"system.load\(q, \"BODY\", force="
 
 
-def ball(**more):
-    return qr.Body.of_shape("ball", qr.Sphere(0.1), **({"mass": 1.0} | more))
-
-
 def pair(**more):
     given = {"name": "f", "alpha": FLOOR, "beta": SYSTEM.shapes[1]}
     return qr.ContactPair(**(given | {"mu_v": 0.3, "mu_omega": 0.0, "rows": 4, "k": 4} | more))
@@ -42,7 +36,6 @@ def simulator(**more):
 
 SIMULATOR = simulator()
 FAST = qr.FastSimulator(SIMULATOR)
-RUN = qr.rollout(SIMULATOR, Q, Q_A, 2, progress=False)
 
 
 def step(q=Q, q_bar_a=Q_A, **more):
@@ -105,18 +98,6 @@ MISTAKES = {
         (lambda: pair(mu_v=-1.0), "f.mu_v: must be at least 0"),
         (lambda: qr.PointCloud(np.zeros((3, 2))), r"points: must have shape \(3, 3\)"),
         (lambda: qr.Box(), "half_extents: must be given, or size, twice as long, and not both"),
-    ],
-    "bodies": [
-        (lambda: qr.System([ball(actuated=["joint1"])]), "has no such joint; known: base"),
-        (lambda: SYSTEM.of(RUN.delta_q, "block"), "the last axis must have 7 or 14 entries"),
-    ],
-    "runs and files": [
-        (
-            lambda: qr.save_trajectory(Path(__file__).parent, RUN),
-            "cannot be written: Is a directory",
-        ),
-        (lambda: RUN["qpos"], "qpos: is not an array of this trajectory"),
-        (lambda: RUN.forces_on("blok"), "did you mean 'block'"),
     ],
 }
 
