@@ -31,7 +31,7 @@ from quasistatic_ref.simulate.record import (
     PROGRAM,
 )
 from quasistatic_ref.simulate.result import StepArrays, StepResult
-from quasistatic_ref.simulate.target import JointTrack
+from quasistatic_ref.simulate.target import Drives, JointTrack, Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
@@ -40,6 +40,7 @@ from quasistatic_ref.step.standard_form import linear_term
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
+    from quasistatic_ref.simulate.user_functions import Target
 
 PACKED = 100
 """Steps that are kept one by one before they become arrays, all at once."""
@@ -63,6 +64,9 @@ class Recorder:
         of single contacts in their place.
     observers : sequence of Observer, optional
         What watches the run; by default the doctor, if it is there.
+    target : callable, ndarray or mapping, optional
+        What the targets follow, as :func:`~quasistatic_ref.simulate.rollout.rollout` takes it: the
+        findings ask for its waypoints.
 
     Attributes
     ----------
@@ -96,6 +100,7 @@ class Recorder:
         q: ArrayLike,
         record: str = "full",
         observers: Sequence[Observer] | None = None,
+        target: Target | None = None,
     ) -> None:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
@@ -112,8 +117,8 @@ class Recorder:
         self.start = self.system.checked(q)
         self.q = self.start
         self.steps = 0
-        self.tracks: Sequence[JointTrack] = ()
-        self.idle_columns: Sequence[str] = ()
+        self.tracks: Sequence[JointTrack] = target.tracks if isinstance(target, Targets) else ()
+        self.idle_columns: Sequence[str] = target.idle if isinstance(target, Drives) else ()
         self.extra: tuple[str, ...] = ()
         self.with_cost: bool | None = None
         self.alone = True

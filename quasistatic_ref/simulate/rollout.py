@@ -95,9 +95,8 @@ def rollout(
     """
     if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
         raise InputError("must be a whole number, 0 or more", field="steps", value=steps)
-    recorder = Recorder(simulator, q, record, [*doctors(printed=findings), *observers])
-    recorder.tracks = getattr(target, "tracks", ())
-    recorder.idle_columns = getattr(target, "idle", ())
+    watch = [*doctors(printed=findings), *observers]
+    recorder = Recorder(simulator, q, record, watch, target)
     q_bar_a_at = target_function(simulator.system, simulator.h, target, steps)
     force_at = force_function(simulator.system, force)
     simulator.start_cold()

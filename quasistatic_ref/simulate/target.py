@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -90,6 +91,19 @@ class JointTrack(Plain):
     def _ways(self) -> list[list[float]]:
         """The displacement from each waypoint to the next, n_v numbers of the joint."""
         return [self.joint.change(*ends) for ends in pairwise(self.values.tolist())]
+
+
+@runtime_checkable
+class Drives(Protocol):
+    """Targets by columns of a table, some of which may drive nothing.
+
+    Attributes
+    ----------
+    idle : tuple of str
+        Names of those columns.
+    """
+
+    idle: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False)

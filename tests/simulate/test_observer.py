@@ -167,3 +167,12 @@ def test_rows_of_an_extension_that_change_are_refused(scenario):
     with pytest.raises(InputError, match=says):
         recorder.add(np.zeros(0), other)
     assert len(recorder.trajectory()) == 1
+
+
+def test_a_recorder_of_one_s_own_knows_the_waypoints_of_its_targets():
+    scenario = load_scenario("two_finger_pinch", steps=1)
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    recorder = Recorder(simulator, q, target=scenario.targets)
+    assert recorder.tracks == scenario.targets.tracks
+    for target in (q, scenario.targets.over, {"near": 0.0}, None):
+        assert Recorder(simulator, q, target=target).tracks == recorder.idle_columns == ()
