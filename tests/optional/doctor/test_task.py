@@ -7,7 +7,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.simulate.target import JointTrack, Targets
 from tests.model.urdf.urdf_texts import collision, link, robot
-from tests.optional.doctor.words import TIP, block, driven, free, joint, scene, slides
+from tests.optional.doctor.words import TIP, block, driven, fingers, free, joint, scene, slides
 
 
 def grasp(kind="prismatic", axis="0 -1 0", at=0.0):
@@ -93,19 +93,20 @@ def test_a_mujoco_scene_may_be_run_without_targets():
     assert "contacts." not in found.sentence
 
 
+def on_springs(urdf, K, targets, xyz=(0, 0, 0), base="floating"):
+    """Table of a body whose base has springs."""
+    return driven(urdf, xyz, {"base": K}, targets) | {"base": base}
+
+
 @pytest.mark.parametrize(("K", "far"), [(1000.0, True), (2100.0, False)])
 def test_a_base_on_springs_that_ends_far_from_its_target_is_named(K, far):
     """A palm that lifts 1 kg by 50 mm ends 9.81 N / K lower; a tenth of its way is 1962 N/m."""
-    palm = qr.Body.of_shape(
-        "p", qr.Box((0.1, 0.1, 0.01)), 0.1, xyz=(0, 0, -0.01), actuated=["base"]
-    )
     way = [(0, -0.01), (0.5, -0.01), (2, 0.04), (2.5, 0.04)]
     targets = [{"t": t, "base": {"xyz": [0, 0, z]}} for t, z in way]
-    box = qr.Body.of_shape("b", qr.Box((0.05, 0.05, 0.05)), 1.0, xyz=(0, 0, 0.05))
-    bodies = {"p": {"urdf": palm, "K_q": {"base": [K] * 6}, "targets": targets}, "b": box}
-    contacts = {"c": {"alpha": "p", "beta": "b", "mu_v": 0.5, "rows": 4, "k": 4}}
-    scene = {"h": 0.02, "steps": 130, "fast": True, "bodies": bodies, "contacts": contacts}
-    found = qr.load_scenario(scene).run(progress=False).findings
+    palm = on_springs(block(0.1, (0.2, 0.2, 0.02)), [K] * 6, targets, (0, 0, -0.01))
+    bodies = {"p": palm, "b": free(block(1.0, (0.1, 0.1, 0.1)), (0, 0, 0.05))}
+    made = scene(bodies, {"c": ("p", "b", 0.5, 4)}, 130, h=0.02, fast=True)
+    found = made.run(progress=False).findings
     said = [one for one in found if one.name == "far from target"]
     assert [one.remedy for one in said] == ["raise K_q of p/base to 2e+03 or more"] * far
     assert all(one.numbers["error_m"] == pytest.approx(9.81 / K, rel=1e-3) for one in said)
@@ -127,22 +128,14 @@ def test_forces_on_a_base_that_cancel_do_not_stop_it(load):
 
     The fingers press with 2.5 N each; the load is that of the base's spring at 50 mm.
     """
-    tip = collision('<box size="0.02 0.02 0.02"/>')
-    hand = robot(
-        link("hand", inertial=""),
-        link("l", tip, inertial=""),
-        link("r", tip, inertial=""),
-        joint("left", "hand", "l", "0 -1 0", "prismatic", (0, 0.05, 0)),
-        joint("right", "hand", "r", "0 1 0", "prismatic", (0, -0.05, 0)),
-    )
+    hand = robot(link("hand", inertial=""), *fingers("hand", 0, 0.05))
     rest = {"t": 0.0, "left": 0.0, "right": 0.0}
     closed = {"t": 0.5, "left": 0.015, "right": 0.015 * load}
-    box = qr.Body.of_shape("b", qr.Box((0.03, 0.03, 0.03)), 0.1, actuated=["base"])
     way = [{"t": t, "base": {"xyz": [0, y, 0]}} for t, y in [(0, 0), (0.5, 0.05), (0.8, 0.05)]]
-    loads = [{"t": t, "force": [0, f, 0]} for t, f in [(0, 0), (0.5, -load)]]
-    body = {"urdf": box, "K_q": {"base": [20.0] * 6}, "targets": way, "wrenches": loads}
+    body = on_springs(block(0.1, (0.06, 0.06, 0.06)), [20.0] * 6, way)
+    body["wrenches"] = [{"t": t, "force": [0, f, 0]} for t, f in [(0, 0), (0.5, -load)]]
     gripper = driven(hand, (0, 0, 0), {"left": 500.0, "right": 500.0}, [rest, closed])
-    grip = (["gripper/l", "gripper/r"], "b", 0.5, 4)
+    grip = ("gripper/*", "b", 0.5, 1)
     made = scene({"gripper": gripper, "b": body}, {"grip": grip}, 45, h=0.02, fast=True)
     found = made.run(progress=False).findings
     said = [one for one in found if one.name == "far from target"]
@@ -152,12 +145,10 @@ def test_forces_on_a_base_that_cancel_do_not_stop_it(load):
 
 def test_an_angle_of_a_planar_base_is_no_length():
     """A torque of 0.5 N m turns a spring of 1 N m/rad by 0.5 rad; x ends at its target."""
-    plate = qr.Body.of_shape("p", qr.Box((0.1, 0.1, 0.01)), 0.1, base="planar", actuated=["base"])
     way = [(0.0, 0.0), (0.5, 0.05), (0.8, 0.05)]
     targets = [{"t": t, "base": {"xyz": [x, 0, 0]}} for t, x in way]
-    torque = [{"t": 0.0, "force": [0, 0, 0], "torque": [0, 0, 0.5]}]
-    body = {"urdf": plate, "K_q": {"base": [1e3, 1e3, 1.0]}, "targets": targets, "wrenches": torque}
-    scene = {"h": 0.02, "steps": 45, "fast": True, "bodies": {"p": body}, "contacts": {}}
-    run = qr.load_scenario(scene).run(progress=False)
+    body = on_springs(block(0.1, (0.2, 0.2, 0.02)), [1e3, 1e3, 1.0], targets, base="planar")
+    body["wrenches"] = [{"t": 0.0, "force": [0, 0, 0], "torque": [0, 0, 0.5]}]
+    run = scene({"p": body}, {}, 45, h=0.02, fast=True).run(progress=False)
     assert run["q"][-1] == pytest.approx([0.05, 0.0, np.cos(0.5), np.sin(0.5)])
     assert run.findings == ()
