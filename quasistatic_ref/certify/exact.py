@@ -3,15 +3,14 @@
 Numbers are computed as balls (a midpoint with a rigorous bound of its error) and, only where a ball
 leaves a sign or a rounding open, as fractions.
 
-delta_q, A'lam and the slacks are unique, and correct rounding leaves no choice: they have the
-same bits whatever the warm start was. lam and the working set are one of several possible
-choices where the multipliers are not unique.
+delta_q and A'lam are unique, and correct rounding leaves no choice: they have the same bits
+whatever the warm start was. lam and the working set are one of several possible choices where the
+multipliers are not unique.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -57,8 +56,6 @@ class ExactOptimum:
         Basic multipliers [N s]: positive on the working set, zero elsewhere.
     net : ndarray, shape (n_v,)
         A'lam [N s, N m s].
-    slacks : callable
-        Forms `slack`, which few steps read.
     working_set : tuple of int
         Rows in increasing order, independent, with positive multipliers.
     multipliers_unique : bool
@@ -76,18 +73,12 @@ class ExactOptimum:
     delta_q: Array
     lam: Array
     net: Array
-    slacks: Callable[[], Array]
     working_set: tuple[int, ...]
     multipliers_unique: bool
     differentiable: bool
     smallest_inactive_slack: float | None
     smallest_active_multiplier: float | None
     walks: int
-
-    @cached_property
-    def slack(self) -> Array:
-        """A delta_q - b, shape (m,) [m]."""
-        return self.slacks()
 
 
 def form_optimum(
@@ -124,7 +115,6 @@ def _rounded(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
         delta_q=minimiser.rounded(lambda m: m.x),
         lam=lam,
         net=minimiser.rounded(lambda m: m.net.entries(), form.h),
-        slacks=minimiser.rounded_slacks,
         working_set=tuple(sorted(working)),
         multipliers_unique=unique,
         differentiable=smooth,
@@ -202,12 +192,6 @@ def optimum_by_groups(
         lam[group.rows] = optimum.lam
         working += group.rows[list(optimum.working_set)].tolist()
 
-    def joined_slacks() -> Array:
-        slack = np.zeros(step.m)
-        for group, optimum in optima:
-            slack[group.rows] = optimum.slack
-        return slack
-
     # A row is strictly active, or implied by others, within its group.
     each = [optimum for _, optimum in optima]
     slacks = [optimum.smallest_inactive_slack for optimum in each]
@@ -216,7 +200,6 @@ def optimum_by_groups(
         delta_q=delta_q,
         lam=lam,
         net=net,
-        slacks=joined_slacks,
         working_set=tuple(sorted(working)),
         multipliers_unique=all(optimum.multipliers_unique for optimum in each),
         differentiable=all(optimum.differentiable for optimum in each),

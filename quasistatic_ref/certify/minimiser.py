@@ -384,12 +384,6 @@ class Minimiser:
             below = exact.denominator if unit is None else exact.denominator * unit
             return rounded_quotients(numbers(exact), below)
 
-    def rounded_slacks(self) -> Array:
-        """All slacks, shape (m,) [m]."""
-        slack = np.zeros(self.form.m)
-        slack[self.inactive] = self._slacks_of(self.inactive)
-        return slack
-
     def smallest_slack(self) -> float | None:
         """The smallest slack that is not zero, rounded [m]; None if there is none.
 
@@ -399,11 +393,8 @@ class Minimiser:
         if not self.inactive.size:
             return None
         slack, error = (numbers[self.inactive] for numbers in self.float_slacks)
-        near = self.inactive[~(slack - error > (slack + error).min())]
-        return float(self._slacks_of(near).min())
-
-    def _slacks_of(self, rows: Indices) -> Array:
-        return self.rounded(lambda m: self.form.slacks(rows.tolist(), m.z))
+        near = self.inactive[~(slack - error > (slack + error).min())].tolist()
+        return float(self.rounded(lambda m: self.form.slacks(near, m.z)).min())
 
 
 def rounded_quotients(numerators: Iterable[arb], denominator: arb) -> Array:

@@ -14,7 +14,6 @@ from tests.oracles.random_steps import mixed_step
 SAME = (
     "delta_q",
     "net",
-    "slack",
     "multipliers_unique",
     "differentiable",
     "smallest_inactive_slack",

@@ -6,9 +6,11 @@ import numpy as np
 
 from quasistatic_ref.certify.exact import optimum_by_groups
 from quasistatic_ref.certify.failures import StepInfeasible
+from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.lab.scenes.rigid import program_step
 from quasistatic_ref.lab.study.problems.problem import EXACT, Answer
+from quasistatic_ref.lab.vectors.exact.forms import exact_slack
 from quasistatic_ref.step.standard_form import StandardForm
 
 NONE = np.zeros(0)
@@ -34,5 +36,8 @@ def exact_answer(form: StandardForm, warm: Sequence[int] = ()) -> Answer:
     except StepInfeasible as none:
         farkas = {i: y for i, y in enumerate(none.farkas.exact) if y != "0"}
         return Answer(EXACT, 0.0, NONE, NONE, NONE, NONE, farkas)
-    return Answer(EXACT, 0.0, optimum.delta_q, optimum.net, optimum.slack, optimum.lam, {},
+    slack = np.zeros(step.m)
+    for group, part in parts:
+        slack[group.rows] = exact_slack(StepForm(part), group.within(optimum.working_set))
+    return Answer(EXACT, 0.0, optimum.delta_q, optimum.net, slack, optimum.lam, {},
                   optimum.walks, optimum.multipliers_unique, optimum.differentiable)  # fmt: skip

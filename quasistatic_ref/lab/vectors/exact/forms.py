@@ -1,9 +1,12 @@
-"""A quadratic program of float64 numbers without rounding."""
+"""A quadratic program of float64 numbers without rounding, and the slacks of its rows."""
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.certify.form import MatrixForm, exact_matrix
+from quasistatic_ref.certify.form import ExactForm, MatrixForm, exact_matrix
+from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.pivots import exact_factor
@@ -41,3 +44,19 @@ def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> MatrixForm:
         raise StepDataError("must be positive definite without rounding", field="H")
     column = np.asarray(g, dtype=np.float64)[:, None]
     return MatrixForm(*map(exact_matrix, (H, column, np.column_stack([A, -b]))))
+
+
+def exact_slack(form: ExactForm, working_set: Sequence[int]) -> Array:
+    """A x - b at the minimiser on a working set, each entry rounded correctly, shape (m,) [m].
+
+    Parameters
+    ----------
+    form : ExactForm
+    working_set : sequence of int
+        Independent rows.
+    """
+    minimiser = Minimiser(form, tuple(working_set))
+    inactive = minimiser.inactive
+    slack = np.zeros(form.m)
+    slack[inactive] = minimiser.rounded(lambda m: form.slacks(inactive.tolist(), m.z))
+    return slack

@@ -23,7 +23,7 @@ from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
 from quasistatic_ref.lab.vectors.exact.conditioning import Bounds, bounds
 from quasistatic_ref.lab.vectors.exact.enclosed import enclosed_optimum
 from quasistatic_ref.lab.vectors.exact.entered import exact_case
-from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of, exact_slack
 from quasistatic_ref.lab.vectors.exact.precision import rounded_results, short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
@@ -49,17 +49,18 @@ def expected(case_input: Json) -> Expected:
     if isinstance(optimum, Farkas):
         return _infeasible(form, optimum)
     exact = _checked_optimum(case_input, form, optimum.working_set)
+    slack = exact_slack(form, optimum.working_set)
     bound = bounds(form, optimum.working_set)
     return Expected(
         output={
             "delta_q": optimum.delta_q.tolist(),
             "lam": optimum.lam.tolist(),
             "A_lam": optimum.net.tolist(),
-            "slack": optimum.slack.tolist(),
+            "slack": slack.tolist(),
             "certificate": _certificate(optimum),
         },
         digits=short(rounded_results(lambda: exact)[1]),
-        flags=flags_of(optimum, bound),
+        flags=flags_of(optimum, slack, bound),
         tolerance=tolerances(bound),
     )
 
@@ -162,13 +163,13 @@ def _certificate(optimum: ExactOptimum) -> Json:
     return {"kind": "exact", "working_set": working_set, **facts, "error_bound": 0.0}
 
 
-def flags_of(optimum: ExactOptimum, bound: Bounds) -> dict[str, bool]:
+def flags_of(optimum: ExactOptimum, slack: Array, bound: Bounds) -> dict[str, bool]:
     """What may be compared, and what is delicate about an optimum.
 
     Ties between rows that float64 data split in the last place count as ties: a solver cannot see
     the difference.
     """
-    idle = np.delete(optimum.slack, list(optimum.working_set))
+    idle = np.delete(slack, list(optimum.working_set))
     pressed = optimum.lam[list(optimum.working_set)]
     weak = bool((pressed <= float(bound.lam)).any())
     tied = bool((idle <= float(bound.slack)).any())
