@@ -29,7 +29,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.parts import ellipsoid_cone
@@ -197,21 +197,6 @@ def cone(name: str) -> FrictionCone:
             return PolyhedralCone(name, tuple(f"side {k}" for k in range(K)) + spin, K, facets(K))
     problem = f"must be one of {', '.join(CONES)}, with K even and 4 to {MOST_FACETS}"
     raise StepDataError(f"{problem}{nearest_name(str(name), CONES)}", field="cone", value=name)
-
-
-def cone_matrix(name: str) -> Array:
-    """The ``matrix`` of a polyhedral cone, (R, 4) [-].
-
-    Raises
-    ------
-    StepDataError
-        If there is no such cone.
-    InputError
-        If it is no polyhedron: it has no rows.
-    """
-    if not cone(name).polyhedral:
-        raise InputError("has no rows", field="cone", value=name)
-    return cone(name).matrix
 
 
 def direction(k: int, K: int) -> tuple[float, float]:

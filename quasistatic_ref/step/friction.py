@@ -31,11 +31,6 @@ def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, A
     return J_n, J_1, J_2, J[:, 3]
 
 
-def scaled_by(contacts: Contacts) -> Array:
-    """(1, mu_v, mu_v, mu_omega), by which cones multiply gap, slips and spin, (n_c, 4) [-, m]."""
-    return np.concatenate([np.ones((contacts.n_c, 1)), contacts.mu], axis=1)
-
-
 def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
     """The rows [J'(n~ + d~_i)]' of Eq. :eq:`eq-4`, for each contact all that the cone has.
 
@@ -127,20 +122,3 @@ def wrenches(of_rows: Any, matrix: Any, mu: Any) -> Any:
     wrench[..., :2] *= mu[:, :2]
     wrench[..., 3] *= mu[:, 2]
     return wrench
-
-
-def slip_norm(scaled: Array, name: str) -> Array:
-    """The norm of slips in a cone, shape (...) [m].
-
-    Parameters
-    ----------
-    scaled : ndarray, shape (..., 3)
-        Slips along d1 and d2, and spin, times mu of contacts [m].
-    name : str
-        The cone.
-    """
-    kind = cone(name)
-    if not kind.polyhedral:
-        return np.asarray(np.linalg.norm(scaled, axis=-1))
-    # The largest of the rows without the gap: of the pyramid, |mu_v slip_1|, ..., |mu_omega spin|.
-    return np.asarray((scaled @ kind.matrix[:, 1:].T).max(axis=-1, initial=0.0))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import StepDataError, standard_form
-from quasistatic_ref.step.cones import cone, cone_matrix, direction
+from quasistatic_ref.step.cones import cone, direction
 from quasistatic_ref.step.friction import contact_wrenches
 from tests.closeness import assert_close, assert_within
 from tests.helpers import random_step
@@ -65,7 +65,7 @@ def coefficients(name):
 @pytest.mark.parametrize("name", POLYHEDRAL)
 def test_a_cone_function_combines_the_gap_and_the_motions(name):
     expected = np.array([(1.0, *t) for t in coefficients(name)])
-    matrix = cone_matrix(name)
+    matrix = cone(name).matrix
     assert len(matrix) == len(cone(name).row_names)
     # np.cos rounds its argument, the cone's own cosines are right to an ulp.
     tolerance = 1e-15 if name.startswith("facets-") else EXACT

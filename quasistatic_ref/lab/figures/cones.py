@@ -10,9 +10,10 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.friction import cone_matrix
 from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.style import panels, scaled
-from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone_matrix
+from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 
 SHOWN = (PYRAMID, ELLIPSOID, "product")
 SURFACE: dict[str, Any] = {"alpha": 0.5, "edgecolor": "k"}

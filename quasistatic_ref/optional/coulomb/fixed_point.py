@@ -41,12 +41,13 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, finite, read_only
 from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
+from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import frame_jacobian, slip_norm
+from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import ACCURACY
 
 COULOMB_RESIDUAL: Final = 1e-12

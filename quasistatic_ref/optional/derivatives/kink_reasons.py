@@ -13,8 +13,9 @@ from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.reason import Obstacle
 from quasistatic_ref.optional.derivatives.step.touching import Touching
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
+from quasistatic_ref.optional.friction import cone_matrix
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.cones import cone, cone_matrix
+from quasistatic_ref.step.cones import cone
 
 FIELDS = ("dq_dq",)
 

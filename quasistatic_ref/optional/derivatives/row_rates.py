@@ -17,8 +17,8 @@ from quasistatic_ref.numbers.ordered import crossed
 from quasistatic_ref.optional.derivatives.contact.closest_point_rates import Rates
 from quasistatic_ref.optional.derivatives.contact.contact_rates import tangent_rates
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
+from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.data import Contacts
-from quasistatic_ref.step.friction import scaled_by
 
 
 class RowRates:

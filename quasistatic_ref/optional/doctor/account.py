@@ -35,12 +35,12 @@ from quasistatic_ref.optional.doctor.telling import (
     stop_numbers,
 )
 from quasistatic_ref.optional.doctor.tolerances import NEAR
+from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.friction import slip_norm
 
 TOUCHES: Final = 1e-9
 """Slack of a row of a contact that touches, at most [m]: certified steps leave rounding, 1e-16, and

@@ -9,9 +9,9 @@ import numpy as np
 from quasistatic_ref.optional.doctor import slowly
 from quasistatic_ref.optional.doctor.looks import TOUCHES
 from quasistatic_ref.optional.doctor.start import slices
+from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.friction import slip_norm
 
 if TYPE_CHECKING:
     from quasistatic_ref.numbers.arrays import Array, Mask

@@ -17,10 +17,11 @@ import numpy as np
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import frame_jacobian, scaled_by
+from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import SAME_NORMAL
 
 AROUND = 72

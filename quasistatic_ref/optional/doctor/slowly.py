@@ -30,6 +30,7 @@ from quasistatic_ref.formats.plain import Plain, field_values
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only, without_warnings
 from quasistatic_ref.optional.doctor.artifacts import gives
 from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
+from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.parts import is_there
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
@@ -37,7 +38,7 @@ from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import StepInBothUnits, Units, in_si
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian, slip_norm
+from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian
 from quasistatic_ref.tolerances import ACCURACY
 
 Data = TypeVar("Data", bound=Plain)

@@ -14,8 +14,9 @@ from quasistatic_ref.optional.fast.closest import Closest
 from quasistatic_ref.optional.fast.joined import JoinedContacts, JoinedStep, Masses
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
+from quasistatic_ref.optional.friction import cone_matrix
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.cones import cone, cone_matrix
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import friction_coefficients
 from quasistatic_ref.step.data import no_rows, row_layout
 

@@ -19,8 +19,8 @@ from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.forces.faces import Rows, face, nearest_face
+from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import scaled_by
 
 PROOFS: Final = 30
 """Newton iterations in exact numbers, at most."""

@@ -19,8 +19,9 @@ from scipy.optimize import nnls
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.forces.faces import Rows, face, rows_of
+from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import frame_jacobian, scaled_by
+from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.step.standard_form import linear_term
 
 ROUNDING: Final = 2.0**-44

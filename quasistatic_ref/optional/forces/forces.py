@@ -52,8 +52,9 @@ from quasistatic_ref.optional.forces.eliminated import eliminated_optimum
 from quasistatic_ref.optional.forces.face_guess import guessed_faces
 from quasistatic_ref.optional.forces.faces import cone_rows
 from quasistatic_ref.optional.forces.of_group import NOTHING_MOVES, group_compliance
+from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian, scaled_by
+from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian
 
 WRENCH: Final = [1, 2, 0, 3]
 """Where (f_d1, f_d2, f_n, tau_n) stand in p."""

@@ -25,7 +25,7 @@ from quasistatic_ref.optional.ellipsoid import forces as of_forces
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.ellipsoid.interior import interior_point
 from quasistatic_ref.optional.ellipsoid.tolerances import ENCLOSED
-from quasistatic_ref.step.cones import cone_matrix
+from quasistatic_ref.optional.friction import cone_matrix
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import (

@@ -18,7 +18,8 @@ from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of, repeated
 from quasistatic_ref.lab.scenes.loads import loaded_pile
 from quasistatic_ref.lab.scenes.rigid import free_step, rigid_step
 from quasistatic_ref.optional.forces.of_group import COMPLIANCE, HARDLY_MOVES, group_compliance
-from quasistatic_ref.step.friction import contact_wrenches, scaled_by
+from quasistatic_ref.optional.friction import scaled_by
+from quasistatic_ref.step.friction import contact_wrenches
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.certify.test_groups import two_bodies
 from tests.closeness import assert_relative, assert_within

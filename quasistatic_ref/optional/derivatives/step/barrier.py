@@ -21,7 +21,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
-from quasistatic_ref.step.cones import cone_matrix
+from quasistatic_ref.optional.friction import cone_matrix
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import impulses
 from quasistatic_ref.step.standard_form import standard_form

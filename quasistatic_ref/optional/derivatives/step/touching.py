@@ -15,8 +15,8 @@ from scipy.optimize import nnls
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.derivatives.tolerances import DEPENDENT, SPLIT
-from quasistatic_ref.step.cones import cone_matrix
-from quasistatic_ref.step.friction import frame_jacobian, impulses, scaled_by
+from quasistatic_ref.optional.friction import cone_matrix, scaled_by
+from quasistatic_ref.step.friction import frame_jacobian, impulses
 from quasistatic_ref.step.standard_form import linear_term
 from quasistatic_ref.tolerances import FILLED
 

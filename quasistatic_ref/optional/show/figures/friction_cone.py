@@ -12,6 +12,7 @@ from scipy.spatial import ConvexHull
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.friction import cone_matrix
 from quasistatic_ref.optional.show.figures.looks import (
     CONE_EDGE,
     CONE_FACE,
@@ -20,7 +21,7 @@ from quasistatic_ref.optional.show.figures.looks import (
     force_arrow,
 )
 from quasistatic_ref.optional.show.figures.style import legend_above
-from quasistatic_ref.step.cones import cone, cone_matrix
+from quasistatic_ref.step.cones import cone
 
 FAINT: Final = 0.5
 """Opacity of a cone, in which a load is seen [-]."""
