@@ -5,7 +5,7 @@ import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Body, Capsule, ModelError, Sphere, System
+from quasistatic_ref import Body, ModelError, System
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import (
@@ -20,20 +20,6 @@ from tests.model.urdf.urdf_texts import (
 )
 from tests.oracles.coal_solids import coal_solid
 from tests.tolerances import ROUNDING
-
-
-def test_a_chain_is_loaded_as_written(tmp_path):
-    urdf = loaded_urdf(urdf_of_text(tmp_path, CHAIN), base="floating")
-    assert urdf.links == ("base_link", "upper", "lower", "slider", "follower", "tool")
-    assert [shape.name for shape in urdf.shapes] == ["base_link#0", "upper#0", "tool#0"]
-    assert [shape.link for shape in urdf.shapes] == [0, 1, 5]
-    assert urdf.shapes[1].shape == Sphere(0.1)
-    assert urdf.shapes[1].t == pytest.approx([0, 0.1, 0.2], abs=ROUNDING)
-    turned = Rotation.from_euler("xyz", [0.2, 0, 0]).as_matrix()
-    assert np.abs(urdf.shapes[1].R - turned).max() < ROUNDING
-    # The tool is welded on: its shape is still placed in its own frame.
-    assert urdf.shapes[2].shape == Capsule(0.02, 0.05)
-    assert urdf.shapes[2].t == pytest.approx([0, 0, 0], abs=ROUNDING)
 
 
 def test_a_path_with_any_letters_is_read(tmp_path):
