@@ -54,7 +54,7 @@ LIMITS = {
 @pytest.mark.parametrize(("kind", "said", "limits"), LIMITS.values(), ids=LIMITS)
 def test_a_joint_has_the_limits_that_its_file_gives_it(kind, said, limits):
     hinge = joint("j", "a", "b", kind)
-    written = hinge.replace('lower="-1" upper="1"', said)
+    written = hinge.replace('lower="-1" upper="1" effort="1"', f'{said} effort="3"')
     assert written != hinge
-    system = System([Body("one", robot(link("a"), link("b"), written))])
-    assert system.joint("one/j").limits == limits
+    found = System([Body("one", robot(link("a"), link("b"), written))]).joint("one/j")
+    assert (found.limits, found.effort) == (limits, 3.0)

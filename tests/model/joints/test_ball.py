@@ -136,17 +136,3 @@ def test_a_file_may_have_balls_and_mimics():
     assert_within(R["arm/b"], R["arm/a"], ROUNDING)
     assert_within(R["arm/b"][0, 0], np.cos(0.3), ROUNDING)
     assert_within(R["arm/bob"], np.eye(3), ROUNDING)
-
-
-@pytest.mark.parametrize("more", ["", "ball before", "ball behind"])
-@pytest.mark.parametrize("kind", ["revolute", "prismatic", "continuous"])
-def test_effort_limits_of_other_joints_stay(kind, more):
-    limit = '<limit lower="-1" upper="1" effort="3" velocity="1"/>'
-    first = joint("first", "hook", "a", kind).replace(
-        '<limit lower="-1" upper="1" effort="1" velocity="1"/>', limit
-    )
-    ball = joint("hip", "hook" if more == "ball before" else "a", "bob", "ball") if more else ""
-    links = [link("hook"), link("a"), *([BOB] if more else [])]
-    system = System([Body("arm", robot(*links, first, ball))])
-    (effort,) = (one.effort for one in system.joints if one.name == "arm/first")
-    assert effort == 3.0
