@@ -27,10 +27,15 @@ TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 
 DENTED = TETRAHEDRON.replace("f 2 3 4", "v 0.2 0.2 0.2\nf 2 3 5\nf 3 4 5\nf 4 2 5")
 
 
+def urdf_of_mesh(folder, name, more=""):
+    """A link whose shape is a mesh next to its file."""
+    mesh = collision(f'<mesh filename="{name}"{more}/>')
+    return loaded_urdf(urdf_of_text(folder, robot(link("a", mesh))))
+
+
 def test_a_mesh_of_a_urdf_is_loaded_scaled_and_noted(tmp_path):
     urdf_of_text(tmp_path, DENTED, "a.obj")
-    mesh = '<mesh filename="a.obj" scale="2 2 2"/>'
-    urdf = loaded_urdf(urdf_of_text(tmp_path, robot(link("a", collision(mesh)))))
+    urdf = urdf_of_mesh(tmp_path, "a.obj", ' scale="2 2 2"')
     shape = urdf.shapes[0].shape
     assert isinstance(shape, ConvexMesh)
     assert_within(shape.volume, 8 / 6, 1e-6)
@@ -134,9 +139,8 @@ def test_a_mesh_that_is_not_where_it_may_be_is_refused(tmp_path, address, words)
 def test_a_mesh_that_is_too_large_is_refused(tmp_path):
     (tmp_path / "a.stl").touch()
     os.truncate(tmp_path / "a.stl", 17 * 2**20)
-    meshes = collision('<mesh filename="a.stl"/>')
     with pytest.raises(ModelError, match="is larger than 16 MiB") as caught:
-        loaded_urdf(urdf_of_text(tmp_path, robot(link("a", meshes))))
+        urdf_of_mesh(tmp_path, "a.stl")
     assert caught.value.field == "link[a].collision[0].mesh.filename"
 
 
@@ -234,8 +238,7 @@ POINTS = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.1 0.1 0.1\n"
 
 def test_an_obj_of_points_alone_is_their_hull_and_noted(tmp_path):
     urdf_of_text(tmp_path, POINTS, "a.obj")
-    text = robot(link("a", collision('<mesh filename="a.obj"/>')))
-    urdf = loaded_urdf(urdf_of_text(tmp_path, text))
+    urdf = urdf_of_mesh(tmp_path, "a.obj")
     assert_within(urdf.shapes[0].shape.volume, 1 / 6, CLOSED_FORM)
     note = "a#0: a mesh of points alone, whose convex hull is taken, 4 corners"
     assert urdf.notes == (note,)
@@ -243,8 +246,7 @@ def test_an_obj_of_points_alone_is_their_hull_and_noted(tmp_path):
 
 def test_an_empty_mesh_is_left_out_of_a_urdf_and_noted(tmp_path):
     urdf_of_text(tmp_path, "solid\nendsolid\n", "a.stl")
-    text = robot(link("a", collision('<mesh filename="a.stl"/>')))
-    urdf = loaded_urdf(urdf_of_text(tmp_path, text))
+    urdf = urdf_of_mesh(tmp_path, "a.stl")
     assert urdf.shapes == ()
     assert urdf.notes == ("a#0: left out, since a.stl is empty",)
     with pytest.raises(ModelError, match=r"a\.stl: vertices: is empty: the mesh has no vertices"):
@@ -265,18 +267,15 @@ def _bytes(content):
 
 
 def test_a_mesh_that_is_named_five_times_is_read_once_and_has_one_hull(tmp_path, monkeypatch):
-    (tmp_path / "m.obj").write_text(TETRAHEDRON)
-    mesh = (
-        '<collision><geometry><mesh filename="m.obj" scale="{0} {0} {0}"/></geometry></collision>'
-    )
-    scales = (1, 1, 1, 1, 1, 2)
-    shapes = "".join(map(mesh.format, scales))
-    (tmp_path / "m.urdf").write_text(f'<robot name="r"><link name="a">{shapes}</link></robot>')
+    urdf_of_text(tmp_path, TETRAHEDRON, "m.obj")
+    mesh = collision('<mesh filename="m.obj" scale="{0} {0} {0}"/>')
+    shapes = "".join(map(mesh.format, (1, 1, 1, 1, 1, 2)))
+    path = urdf_of_text(tmp_path, robot(link("a", shapes)))
     counts = []
     monkeypatch.setattr(
         urdf_shapes, "loaded_mesh", lambda path: counts.append(path) or loaded_mesh(path)
     )
-    *same, larger = System([Body("b", tmp_path / "m.urdf")]).shapes
+    *same, larger = System([Body("b", path)]).shapes
     assert len(counts) == 1
     assert len({id(placed.shape) for placed in same}) == 1
     assert np.ptp(larger.shape.vertices, axis=0).tolist() == [2, 2, 2]
@@ -439,13 +438,11 @@ def test_a_vertex_that_no_triangle_uses_is_in_no_hull(tmp_path):
     """Nor one of a line, nor in glTF; and the y axis of glTF is said to be up."""
     for stray in ("v 0 0 9\n", "v 0 0 9\nl 1 5\n"):
         path = urdf_of_text(tmp_path, TETRAHEDRON + stray, "a.obj")
-        urdf_of_text(tmp_path, robot(link("a", collision('<mesh filename="a.obj"/>'))), "r.urdf")
         assert_within(mesh_hull(path, np.ones(3)).volume, 1 / 6, CLOSED_FORM)
-        (note,) = loaded_urdf(tmp_path / "r.urdf").notes
+        (note,) = urdf_of_mesh(tmp_path, "a.obj").notes
         assert note.endswith("4 corners; vertices that no triangle uses are left out: 1")
     (tmp_path / "a.gltf").write_bytes(plain_gltf())
-    urdf_of_text(tmp_path, robot(link("a", collision('<mesh filename="a.gltf"/>'))), "r.urdf")
-    (note,) = loaded_urdf(tmp_path / "r.urdf").notes
+    (note,) = urdf_of_mesh(tmp_path, "a.gltf").notes
     assert "its y axis is up; it is not turned, rpy = [1.5708, 0, 0]" in note
 
 
