@@ -217,6 +217,11 @@ found = findings([box()], lies(k=5), cloud={"box": FACE})
 # %% too few points: a cylinder on its end
 found = findings([TIN], lies("tin", k=2))
 
+# %% too few points: the table is named on which it lies, not the wall beside it, which comes first
+wall = ("wall", Box(size=(0.1, 0.1, 0.1)), (0.15, 0, 0.05))
+found = findings([box()], [("wall", "box", 0.5, 1), ("floor", "box", 0.5, 3)], [wall])
+assert [x.remedy for x in found] == ["raise k of contacts.floor_box to 4"]
+
 # %% flush shapes: a crate stops at the next table, which bears 1 N along and 1 N up
 found = over_a_joint(TABLE, (0.25, 0, -0.025))
 (joint_of_two,) = (x for x in found if x.name == "flush shapes")
@@ -304,6 +309,10 @@ rod = Body.of_shape("rod", Cylinder(0.01, 0.1), 0.2, xyz=(0, 0, 0.01), rpy=(0, n
 found = findings([rod], lies("rod", k=1), push={"rod": (0, 0.05, 0)}, steps=20)
 remedy = "take a smaller h or move slower, or raise k of contacts.floor_rod"
 assert remedy in [x.remedy for x in found]
+
+# %% starts in the air, free fall: a box far above a floor does not lie on one point of it
+found = findings([box(xyz=(0, 0, 1))], lies(k=1))
+assert len(found) == 2
 
 # %% free fall: a floor whose normal points down
 found = findings(

@@ -44,32 +44,6 @@ def test_each_finding_of_the_page_has_a_scene():
     assert {name for one in mistakes() for name in one["finding"]} >= set(OF_TASK)
 
 
-def test_the_table_is_named_on_whose_points_a_body_lies(words):
-    """Not that of a wall next to it, which comes first."""
-    wall = ("wall", words["Box"](size=(0.1, 0.1, 0.1)), (0.15, 0, 0.05))
-    tables = [("wall", "box", 0.5, 1), ("floor", "box", 0.5, 3)]
-    (found,) = words["findings"]([words["box"]()], tables, stands=[wall])
-    assert (found.name, found.remedy) == ("too few points", "raise k of contacts.floor_box to 4")
-
-
-def test_forces_are_not_uncertain_because_a_contact_ends_without_a_load(words):
-    """What a finger pushes stops within its contact: the drag, its load, goes to 1e-13 N.
-
-    A step leaves m/h^2 / (K_q + m/h^2) = 1/6 of the distance to the target.
-    """
-    slider = words["Body"]("slider", words["joint"]("prismatic", "1 0 0", mass=0.01))
-    finger = words["Body"]("finger", words["joint"]("prismatic", "1 0 0"), actuated="all",
-                           xyz=(-0.1, 0, 0))  # fmt: skip
-    pushed = [("finger", "slider", 0.0, 4)]
-    found = words["findings"]([slider, finger], pushed, target=[[0.01]] * 20, steps=20)
-    assert "uncertain forces" not in [one.name for one in found]
-
-
-def test_a_body_far_above_a_floor_does_not_lie_on_it(words):
-    found = words["findings"]([words["box"](xyz=(0, 0, 1))], [("floor", "box", 0.5, 1)])
-    assert [one.name for one in found] == ["starts in the air", "free fall"]
-
-
 @pytest.mark.parametrize(
     ("solve", "proof", "certify"), [(2.0, 7.9, "full"), (3.0, 9.0, "full"), (1.0, 11.0, "off")]
 )
