@@ -25,10 +25,14 @@ ROPE = """<tendon><spatial name="rope" limited="true" range="0 0.25"><site site=
 <site site="eye"/></spatial></tendon>"""
 
 
+def of_mjcf(text, steps=1):
+    """A scenario of a MuJoCo scene."""
+    return qr.mujoco_scenario(mujoco.MjModel.from_xml_string(text), h=0.01, steps=steps)
+
+
 def in_the_air(ties, hook=0.6):
     """Names of the bodies that are said to start in the air, with their distances [mm]."""
-    model = mujoco.MjModel.from_xml_string(LAMP.format(hook=hook, ties=ties))
-    run = qr.mujoco_scenario(model, h=0.01, settings=("steps=1",)).run(progress=False)
+    run = of_mjcf(LAMP.format(hook=hook, ties=ties)).run(progress=False)
     said = [one for one in run.findings if one.name == "starts in the air"]
     return {one.remedy.split()[1]: one.numbers["gap_mm"] for one in said}
 
@@ -65,13 +69,12 @@ GUIDED = {
 def test_a_guide_of_a_mujoco_scene_is_mended_in_the_words_of_that(remedy, joints):
     """A box on a floor, and the free one under a ceiling that it touches."""
     z = 0.15 if "free" in joints else 2
-    model = mujoco.MjModel.from_xml_string(
+    scenario = of_mjcf(
         f"""<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>
         <geom name="ceiling" type="box" size="1 1 .05" pos="0 0 {z}"/>
         <body name="b" pos="0 0 0.05">{joints}<geom name="b" type="box" size=".05 .05 .05"/></body>
         </worldbody></mujoco>"""
     )
-    scenario = qr.mujoco_scenario(model, h=0.01, settings=("steps=1",))
     assert remedy in [one.remedy for one in scenario.findings()]
 
 
@@ -81,10 +84,8 @@ def test_rails_inside_of_what_they_should_guide_are_penetration():
     cart = '<body pos="0 0 1"><joint type="slide" axis="1 0 0"/>'
     cart += '<geom type="box" size="0.2 0.15 0.1" mass="1"/></body>'
     rails = rail.format("one", 0.07) + rail.format("two", -0.07)
-    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{rails}{cart}</worldbody></mujoco>")
-    scenario = qr.mujoco_scenario(model, h=0.01, settings=("steps=1",))
     with pytest.raises(qr.RunFailed) as failed:
-        scenario.run(progress=False)
+        of_mjcf(f"<mujoco><worldbody>{rails}{cart}</worldbody></mujoco>").run(progress=False)
     deep = [one for one in failed.value.trajectory.findings if "deep at the start" in one.cause]
     assert len(deep) == 2
 
@@ -110,14 +111,15 @@ FALLS = {"starts in the air", "free fall", "unsupported body"}
 @pytest.mark.parametrize("touches", [True, False], ids=["", "no pairs"])
 def test_what_a_lamp_is_welded_to_bears_it_or_falls_with_it(other, name, servo, falling, touches):
     bits = "" if touches else 'contype="0" conaffinity="0"'
-    model = mujoco.MjModel.from_xml_string(
+    scenario = of_mjcf(
         f"""<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>{other}
         <body name="lamp" pos="0.3 0 0.3"><freejoint/>
         <geom name="lamp" type="sphere" size="0.05" mass="0.2" {bits}/></body></worldbody>
-        <equality><weld body1="lamp" body2="{name}"/></equality>{servo}</mujoco>"""
+        <equality><weld body1="lamp" body2="{name}"/></equality>{servo}</mujoco>""",
+        steps=3,
     )
-    run = qr.mujoco_scenario(model, h=0.01, settings=("steps=3",)).run(progress=False)
-    said = " ".join(one.sentence for one in run.findings if one.name in FALLS)
+    found = scenario.run(progress=False).findings
+    said = " ".join(one.sentence for one in found if one.name in FALLS)
     assert {body for body in ("lamp", "box") if body in said} == {*falling}
 
 
@@ -125,10 +127,8 @@ def test_what_a_lamp_is_welded_to_bears_it_or_falls_with_it(other, name, servo, 
     ("at", "distance"), [(0.3, None), (0.05, pytest.approx(0.0, abs=1e-9))], ids=["far", "touching"]
 )
 def test_a_filler_is_no_distance(at, distance):
-    model = mujoco.MjModel.from_xml_string(
-        LAMP.format(hook=0.6, ties="").replace("0 0 0.3", f"0 0 {at}")
-    )
-    run = qr.mujoco_scenario(model, h=0.01, settings=("steps=1",)).run(progress=False)
+    lamp = LAMP.format(hook=0.6, ties="").replace("0 0 0.3", f"0 0 {at}")
+    run = of_mjcf(lamp).run(progress=False)
     (numbers,) = [
         each for name, each in account_of(run).numbers["pairs"].items() if "floor, lamp" in name
     ]
@@ -221,8 +221,8 @@ def test_a_density_is_that_of_the_volume_by_which_mujoco_makes_the_mass():
         f'<geom type="{kind}" size="{size}" density="3"/></body>'
         for i, (kind, size) in enumerate(SIZES.items())
     )
-    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
-    said = [one for one in qr.mujoco_scenario(model).findings() if one.name == "density"]
+    scenario = of_mjcf(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
+    said = [one for one in scenario.findings() if one.name == "density"]
     assert [one.numbers["density_kg_per_m3"] for one in said] == pytest.approx([3.0] * len(SIZES))
 
 
