@@ -1,7 +1,6 @@
 """Contact Jacobians, Eqs. :eq:`eq-2`-:eq:`eq-3`, and the contacts of a step."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
@@ -126,18 +125,3 @@ def tangents(n: Array) -> tuple[Array, Array]:
     along = dot(n, axis)[:, None]
     length = np.sqrt(1 - along * along)  # of axis - along n, and of n x axis
     return (axis - along * n) / length, crossed(n, axis) / length + 0.0  # zero is 0.0
-
-
-def contact_jacobian(
-    kinematics: Kinematics,
-    link_alpha: NDArray[np.int64],
-    link_beta: NDArray[np.int64],
-    alpha: Array,
-    beta: Array,
-    n: Array,
-) -> Array:
-    """J of Eq. :eq:`eq-3` between any links: `link_alpha`, `link_beta` in arrays (n_c,)."""
-    nothing = np.zeros(len(n))
-    layout = ContactLayout((), link_alpha, link_beta, nothing, nothing, link_alpha)
-    geometry = ContactGeometry(layout, kinematics.column_map)
-    return geometry.jacobian(kinematics.columns, alpha, beta, n)

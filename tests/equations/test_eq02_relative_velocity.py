@@ -1,13 +1,13 @@
 """Eq. (2), f = [nu_beta - nu_alpha; n'(omega_beta - omega_alpha)]: motions of material points.
 
-Under test: contact.jacobian.contact_jacobian.
+Under test: contact.jacobian.ContactGeometry.
 """
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.jacobian import contact_jacobian
+from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
 from tests.closeness import assert_close, assert_relative
 from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP, ROUNDING
 

@@ -1,8 +1,8 @@
-"""Eq. (3), J = df/dv, column by column. Under test: contact.jacobian.contact_jacobian."""
+"""Eq. (3), J = df/dv, column by column. Under test: contact.jacobian.ContactGeometry."""
 
 import numpy as np
 
-from quasistatic_ref.contact.jacobian import contact_jacobian
+from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
 from tests.equations.test_eq02_relative_velocity import LINKS, relative_velocity
 from tests.tolerances import DIFFERENCE
 

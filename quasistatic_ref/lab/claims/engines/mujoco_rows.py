@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.jacobian import contact_jacobian
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.claims.engines.mujoco_scenes import Heap, heap
 from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import pyramid

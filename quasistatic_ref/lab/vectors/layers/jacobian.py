@@ -41,7 +41,7 @@ def _tolerance(case: Json, contacts: Json) -> Tolerance:
 
 def own(case_input: Json) -> Json:
     """The package's J."""
-    from quasistatic_ref.contact.jacobian import contact_jacobian
+    from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
     from quasistatic_ref.lab.vectors.own.system import own_system
 
     contacts = case_input["contacts"]
