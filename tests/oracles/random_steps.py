@@ -13,6 +13,8 @@ from quasistatic_ref.lab.scenes.contacts import contacts_of, repeated
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
 
+CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
+
 
 def any_step(rng, n_a, n_u, n_c, mass_ratio=1.0):
     """Anything that a step may be: duplicated contacts, penetration, mu = 0, light on heavy.
@@ -141,7 +143,7 @@ def resting_step(rng):
 
 
 def designed_step(seed):
-    """A small step of one of four families, with loads and gaps of sizes from 2^-300 to 2^300.
+    """A small step of one of four families and five cones; loads and gaps from 2^-300 to 2^300.
 
     The families are :func:`any_step`, :func:`equal_groups`, :func:`resting_step`, and any step
     that is divided into groups, with rows of a user's own in each.
@@ -179,4 +181,5 @@ def designed_step(seed):
         delta_q_bar_a=factor * step.delta_q_bar_a,
         contacts=replace(contacts, phi=factor * contacts.phi),
         extra=Extra(extra.names, extra.A, factor * extra.b),
+        cone=CONES[seed % len(CONES)],
     )
