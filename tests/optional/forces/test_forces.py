@@ -195,18 +195,6 @@ def test_r42_noise_and_the_norm_of_forces_at_random():
         assert np.linalg.norm(p_c) <= SLIGHT * np.linalg.norm(p)
 
 
-def test_r42_the_limit_is_the_shortest_at_random():
-    """Of boxes on four corners, whose optimal p differ by what the corners' pattern bears."""
-    rng = np.random.default_rng(42)
-    pattern = np.array([1.0, -1.0, -1.0, 1.0])
-    for _ in range(10):
-        push, share = rng.uniform(-4.0, 4.0), rng.uniform(-0.2, 0.2)
-        found = scaled_forces(block(), contact_forces(block(push=push), 1e-13).wrench)
-        assert abs(pattern @ found[:, 0]) < 1e-6 * M * G
-        other = found + share * np.outer(pattern, [1.0, 0.0, 0.0, 0.0])
-        assert np.linalg.norm(other) > np.linalg.norm(found)
-
-
 def test_r43_the_loss_at_random():
     """||x_c - x||_H^2 <= h c p_c'(p - p_c) <= h c ||p||^2 / 4, for any optimal p.
 
