@@ -9,8 +9,6 @@ from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of, exact_slack
 
-ULP = 2.0**-52
-
 
 def resting_point(
     tau_x=0.0, weight=2.0, phi=0.0, mu_v=0.5, mu_omega=0.25, contacts=1, mass=1.0, h=0.5
@@ -21,26 +19,6 @@ def resting_point(
         phi, np.tile(np.eye(3), each), np.tile(np.eye(4), each), mu_v, mu_omega, rows=6
     )
     return free_step(mass * np.eye(4), [tau_x, 0.0, -weight, 0.0], at, h)
-
-
-def chain(b, H=None):
-    """Rows that force x = (1 + b, 1): x_2 >= 1 and x_1 - x_2 >= b, both pressing."""
-    A = np.array([[0.0, 1.0], [1.0, -1.0]])
-    return exact_form_of(np.eye(2) if H is None else H, np.zeros(2), A, np.array([1.0, b]))
-
-
-@pytest.mark.parametrize(
-    ("b", "rounded"),
-    [
-        (ULP / 2, 1.0),  # half-way between 1 and 1 + ULP: even
-        (3 * ULP / 2, 1 + 2 * ULP),
-        (np.nextafter(ULP / 2, 1), 1 + ULP),
-        (np.nextafter(ULP / 2, 0), 1.0),
-    ],
-)
-def test_half_way_values_round_to_even(b, rounded):
-    optimum = form_optimum(chain(b))
-    assert optimum.delta_q.tolist() == [rounded, 1.0]
 
 
 def test_matrix_beyond_the_precision_of_the_balls_is_solved():
