@@ -12,15 +12,14 @@ from quasistatic_ref import (
     rollout,
 )
 from tests.closeness import assert_close, assert_relative
-from tests.scenes import written_scenario
 from tests.tolerances import ROUNDING
 
 GRAVITY = 9.81
 
 
 @pytest.fixture
-def scenario(tmp_path):
-    return load_scenario(written_scenario(tmp_path), fast=True)
+def scenario(load):
+    return load()
 
 
 @pytest.mark.parametrize("fast", [False, True])

@@ -5,15 +5,14 @@ from functools import partial
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, Recorder, load_scenario, rollout
-from tests.scenes import written_scenario
+from quasistatic_ref import InputError, Recorder, rollout
 
 STEPS = 4
 
 
 @pytest.fixture
-def scenario(tmp_path):
-    return load_scenario(written_scenario(tmp_path), fast=True)
+def scenario(load):
+    return load()
 
 
 @pytest.fixture
