@@ -19,7 +19,6 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.parts import is_there, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.scenario.scenario_table import URDF
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.step.cones import cone
 
@@ -92,8 +91,7 @@ def body_name(path: Path) -> str:
 
 def scenario_record(scenario: Scenario) -> dict[str, Any]:
     """What a scenario holds, as plain data."""
-    rubbed = [name for name, body in scenario.bodies.items() if body.joint_friction == URDF]
-    stopped = [name for name, body in scenario.bodies.items() if body.joint_limits == URDF]
+    rubbed, stopped = ((), ()) if scenario.of_bodies is None else scenario.of_bodies.of_urdf
     record = system_record(scenario.system, rubbed, stopped)
     for i, coordinate in enumerate(record["coordinates"]):
         if coordinate["actuated"]:

@@ -16,12 +16,11 @@ from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.formats.together import together
-from quasistatic_ref.model.system import System
+from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array, freeze_copies
 from quasistatic_ref.numbers.ordered import total
 from quasistatic_ref.parts import extended_bodies, fast_backend, fast_simulator
 from quasistatic_ref.scenario.bodies import (
-    BodyEntry,
     body_entry,
     joint_tracks,
     stiffness,
@@ -73,8 +72,8 @@ class Scenario(Settings, Plain, Shown):
         What its trajectory holds.
     fast : bool
         Whether a :class:`~quasistatic_ref.optional.fast.simulator.FastSimulator` takes its steps.
-    bodies : mapping of str to BodyEntry
-        What the tables of its bodies say.
+    bodies : mapping of str to Body
+        Those of its system, by their names.
     of_bodies : callable, optional
         What tables of bodies add to each step: friction of joints and of supports, joint limits.
     settings
@@ -93,7 +92,7 @@ class Scenario(Settings, Plain, Shown):
     wrenches: tuple[Wrenches, ...] = ()
     record: str = "full"
     fast: bool = False
-    bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
+    bodies: Mapping[str, Body] = field(default_factory=dict)
     of_bodies: OfBodies | None = None
 
     def __post_init__(self) -> None:
@@ -299,7 +298,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
             record=value(top, TOP, "record"),
             cone=named,
             limits=limits,
-            bodies=entries,
+            bodies={name: entry.body for name, entry in entries.items()},
             fast=fast,
             of_bodies=of_bodies,
             law=law,

@@ -144,6 +144,10 @@ ExtensionOfQ = Callable[[Array], Extension]
 class OfBodies(Protocol):
     """What the tables of a scenario's bodies add to each step."""
 
+    @property
+    def of_urdf(self) -> tuple[Sequence[str], Sequence[str]]:
+        """The bodies whose friction of joints, and those whose limits, are those of their URDF."""
+
     def __call__(self, q: Array) -> Extension:
         """The extension at q, shape (n_q,)."""
 

@@ -1,6 +1,6 @@
 """What tables of bodies add to each step: ``joint_friction``, ``support`` and ``joint_limits``."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from quasistatic_ref.contact.pairs import ContactPair
@@ -28,12 +28,15 @@ class OfScenario(Plain):
     rises : Rises
         Friction of joints and of supports, (R40).
     limits : JointLimits
+    of_urdf : tuple of sequence of str
+        The bodies whose friction of joints, and those whose limits, are those of their URDF.
     users : callable, optional
         A function of q, without rises and rows.
     """
 
     rises: Rises
     limits: JointLimits
+    of_urdf: tuple[Sequence[str], Sequence[str]]
     users: ExtensionOfQ | None = None
 
     @property
@@ -80,7 +83,9 @@ def of_scenario(
     InputError
         Naming the field.
     """
-    ends = urdf_limits(system, [name for name, e in entries.items() if e.joint_limits == URDF])
+    rubbed = tuple(name for name, e in entries.items() if e.joint_friction == URDF)
+    stopped = tuple(name for name, e in entries.items() if e.joint_limits == URDF)
+    ends = urdf_limits(system, stopped)
     for entry in entries.values():
         ends |= joint_limits(system, entry)
     limits = stops_of(system, ends)
@@ -92,7 +97,7 @@ def of_scenario(
     pairs, rises = private_rises(
         system, pairs, h=h, K_q=K_q, gravity=gravity, friction=friction, support=support
     )
-    return pairs, OfScenario(rises, limits)
+    return pairs, OfScenario(rises, limits, (rubbed, stopped))
 
 
 def joint_limits(system: System, entry: BodyEntry) -> dict[str, tuple[float, float]]:
