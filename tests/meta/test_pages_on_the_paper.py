@@ -54,6 +54,12 @@ def test_every_row_ends_with_a_test_or_a_claim():
     assert [row for row in found if not evidence(row.rstrip("| ").rpartition(" | ")[2])] == []
 
 
+def test_every_test_that_the_page_names_is_in_the_file_before_it():
+    named = [name for name in NAMED.findall(PAGE) if name.startswith("test_")]
+    words = "docs/theory/errata.md names {}, which is not in the file before it: name a test of it"
+    assert_among(named, evidence(PAGE), words)
+
+
 def test_every_erratum_that_a_test_shows_is_in_the_errata():
     shown = {t for path in TESTS.rglob("test_eq*.py") for t in functions_of(path)}
     errata = [name for name in shown if name.startswith("test_erratum_")]
