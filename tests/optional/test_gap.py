@@ -21,13 +21,16 @@ from quasistatic_ref.optional.gap import (
     free_energy,
     nearest_above,
 )
-from tests.certify.test_form import fraction
 from tests.oracles.random_steps import any_step, mixed_step
 from tests.oracles.rational_kkt import exact, proved_optimum, solution
 from tests.oracles.solution_truth import program
 
 SEEDS = (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13)
 """Of mixed steps that have a solution."""
+
+
+def fraction(q):
+    return Fraction(int(q.p), int(q.q))
 
 
 def steps():
