@@ -18,9 +18,9 @@ from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import QUATERNION, Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.rotation import rotation
+from quasistatic_ref.model.urdf.file import UrdfFile
+from quasistatic_ref.model.urdf.tree import visiting_order
 from quasistatic_ref.model.urdf.urdf import BASE, Urdf, loaded_urdf, urdf_model
-from quasistatic_ref.model.urdf.urdf_file import UrdfFile
-from quasistatic_ref.model.urdf.urdf_tree import visiting_order
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 

@@ -14,10 +14,10 @@ import pinocchio as pin
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.joints import BASES, JOINTS
-from quasistatic_ref.model.urdf.urdf_file import FileLink, UrdfFile, urdf_file
-from quasistatic_ref.model.urdf.urdf_inertia import checked_inertias, link_inertia
-from quasistatic_ref.model.urdf.urdf_shapes import placed_shapes
-from quasistatic_ref.model.urdf.urdf_tree import visiting_order
+from quasistatic_ref.model.urdf.file import FileLink, UrdfFile, urdf_file
+from quasistatic_ref.model.urdf.inertia import checked_inertias, link_inertia
+from quasistatic_ref.model.urdf.shapes import placed_shapes
+from quasistatic_ref.model.urdf.tree import visiting_order
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 BASE = "base"

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from quasistatic_ref.model.readers.xml_text import xml_root
 from quasistatic_ref.model.system import System
-from quasistatic_ref.model.urdf.urdf_xml import Tag
+from quasistatic_ref.model.urdf.xml import Tag
 
 
 class UrdfJoint(NamedTuple):

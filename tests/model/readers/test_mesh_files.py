@@ -15,7 +15,7 @@ import trimesh
 from quasistatic_ref import Body, ModelError, System, load_scenario
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_hull, mesh_path
-from quasistatic_ref.model.urdf import urdf_shapes
+from quasistatic_ref.model.urdf import shapes as urdf_shapes
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from quasistatic_ref.optional.readers import files, placed_meshes
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh

@@ -14,7 +14,7 @@ from collections.abc import Collection, Mapping, Sequence
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.urdf.urdf_file import (
+from quasistatic_ref.model.urdf.file import (
     NO_INERTIA,
     Defect,
     FileLink,

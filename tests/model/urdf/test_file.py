@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import ModelError
-from quasistatic_ref.model.urdf import urdf_file as urdf_file_module
+from quasistatic_ref.model.urdf import file
+from quasistatic_ref.model.urdf.file import inertia_defect, urdf_file
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
-from quasistatic_ref.model.urdf.urdf_file import inertia_defect, urdf_file
 from tests.model.urdf.urdf_texts import inertial, joint, link, robot
 
 
 def test_a_file_holds_as_many_links_as_are_allowed(monkeypatch):
-    monkeypatch.setattr(urdf_file_module, "MOST_LINKS", 2)
+    monkeypatch.setattr(file, "MOST_LINKS", 2)
     arms = joint("j", "a", "b"), joint("k", "b", "c")
     assert len(urdf_file(robot(link("a"), link("b"), arms[0])).links) == 2
     with pytest.raises(ModelError, match=r"robot: holds more than 2 links \(got 3\)"):
@@ -20,7 +20,7 @@ def test_a_file_holds_as_many_links_as_are_allowed(monkeypatch):
 
 def test_a_file_has_as_many_coordinates_as_are_allowed(monkeypatch):
     """Pinocchio takes memory with the cube of their number: 300 hinges took 1.2 GiB."""
-    monkeypatch.setattr(urdf_file_module, "MOST_COORDINATES", 3)
+    monkeypatch.setattr(file, "MOST_COORDINATES", 3)
     balls = joint("j", "a", "b", "ball"), joint("k", "b", "c", "ball")
     fixed = joint("f", "b", "c", "fixed")
     urdf_file(robot(link("a"), link("b"), link("c"), balls[0], fixed))

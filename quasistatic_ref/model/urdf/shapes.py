@@ -13,7 +13,7 @@ from quasistatic_ref.model.readers.mesh_files import (
     hull_of_loaded,
     loaded_mesh,
 )
-from quasistatic_ref.model.urdf.urdf_file import FileMesh, UrdfFile
+from quasistatic_ref.model.urdf.file import FileMesh, UrdfFile
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 

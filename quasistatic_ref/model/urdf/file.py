@@ -15,8 +15,8 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.model.readers.mesh_files import mesh_path
 from quasistatic_ref.model.readers.xml_text import xml_root
-from quasistatic_ref.model.urdf.urdf_tree import FileJoint, Mimic, checked_tree
-from quasistatic_ref.model.urdf.urdf_xml import Tag
+from quasistatic_ref.model.urdf.tree import FileJoint, Mimic, checked_tree
+from quasistatic_ref.model.urdf.xml import Tag
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import length, product
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
