@@ -145,9 +145,9 @@ def test_a_missing_part_is_one_sentence_and_a_mistaken_name_is_no_missing_part(w
 
 def test_a_run_without_doctor_is_recorded_and_written(without, tmp_path, cli):
     scenario = load_scenario("sphere_spin", steps=2)
-    whole = scenario.run(progress=False)
+    whole = scenario.run()
     without("optional/doctor")
-    run = scenario.run(progress=False)
+    run = scenario.run()
     unknown = ("quasi_dynamic_number", "largest_boundary_layer")
     nothing = {**dict.fromkeys(unknown), "findings": (), "scene": None}
     assert run.header == replace(whole.header, **nothing)
@@ -162,7 +162,7 @@ def test_without_pages_data_show_their_fields(without):
     assert repr(STEP).startswith("StepData(h=0.01, K_q=array(")
     assert "phi=array(" in repr(STEP.contacts)
     assert repr(scenario.simulator()).startswith("<Simulator of <System of pusher, block: n_a = 1")
-    run = scenario.run(progress=False)
+    run = scenario.run()
     assert repr(run).startswith("Trajectory(header=Header(h=0.01, ")
     assert run._repr_html_() is None
     with pytest.raises(InputError, match=r"^to_pandas needs quasistatic_ref/optional/show$"):

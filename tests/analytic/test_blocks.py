@@ -16,7 +16,7 @@ def test_a_pushed_block_makes_its_pusher_lag_by_friction_and_drag():
     m = 0.5
     v = 0.01
     K_q = 1000.0
-    trajectory = load_scenario("block_push", fast=True, steps=220).run(progress=False)
+    trajectory = load_scenario("block_push", fast=True, steps=220).run()
     lag = trajectory["q_bar_a"][:, 0] - trajectory["q"][1:, 0]
     expected = (mu_v * m * G + m * v / H) / K_q
     assert_relative(lag[200:], expected, SCENARIO)
@@ -26,7 +26,7 @@ def test_a_pushed_block_makes_its_pusher_lag_by_friction_and_drag():
 
 def test_on_a_slope_the_rough_block_holds_and_the_smooth_one_slides():
     scenario = load_scenario("block_incline", fast=True)
-    q = scenario.run(progress=False)["q"]
+    q = scenario.run()["q"]
     rough, smooth = (scenario.system.joint(f"{name}/base").q for name in ("rough", "smooth"))
     assert_within(q[-1, rough], q[0, rough], SCENARIO)
     a = np.radians(25)
@@ -36,7 +36,7 @@ def test_on_a_slope_the_rough_block_holds_and_the_smooth_one_slides():
 
 
 def test_a_stack_stands_and_each_contact_carries_what_is_above():
-    trajectory = load_scenario("stack", fast=True, steps=20).run(progress=False)
+    trajectory = load_scenario("stack", fast=True, steps=20).run()
     q = trajectory["q"]
     n_z = trajectory["wrench"][-1][:, 2]
     assert_within(q[-1], q[0], SCENARIO)

@@ -27,7 +27,7 @@ def test_of_two_pinched_bars_one_is_held_and_one_pivots_and_slips():
         / (m * (a + offset) ** 2 + inertia + 2 * K_q * mu_omega**2 * H**2)
     )
     scenario = load_scenario("two_finger_pinch", fast=True)
-    trajectory = scenario.run(progress=False)
+    trajectory = scenario.run()
     assert certified(trajectory) == "100 of 100 steps exact"
     q = trajectory["q"]
     held, pivoting = (scenario.system.joint(f"{name}/base") for name in ("held", "pivoting"))
@@ -47,7 +47,7 @@ def test_a_door_follows_the_tip_that_pushes_it_and_stops_with_it():
     r = 0.6
     w = 0.045
     scenario = load_scenario("door", fast=True)
-    trajectory = scenario.run(progress=False)
+    trajectory = scenario.run()
     assert certified(trajectory) == "500 of 500 steps exact"
     M_u = scenario.system.M_u(scenario.system.q_start)
     assert_relative(M_u, [[inertia]], SCENARIO)

@@ -35,7 +35,7 @@ def scenario():
 
 @pytest.fixture(scope="module")
 def run(scenario):
-    return scenario.run(progress=False)
+    return scenario.run()
 
 
 def test_the_scenario_is_the_one_of_the_formula(scenario):

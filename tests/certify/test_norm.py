@@ -81,7 +81,7 @@ def test_a_limit_that_is_far_away_lends_no_digits():
 
 @pytest.mark.parametrize("scene", ["block_push", "two_finger_pinch", "stack"])
 def test_driven_steps_are_measured_by_the_unconstrained_step(scene):
-    run = qr.load_scenario(scene, record="full", steps=4).run(progress=False)
+    run = qr.load_scenario(scene, record="full", steps=4).run()
     for k, delta_q in enumerate(run["delta_q"]):
         step = run.step_data(k)
         norm = energy_norm(step.H)

@@ -186,7 +186,7 @@ def test_numbers_at_the_ends_of_the_range_run_or_are_refused_in_a_sentence(here,
     scene = ROUND if field.startswith(OF_SHAPES) else PLAIN
     for number in AT_THE_ENDS:
         try:
-            load_scenario(changed(scene, (field, number)), steps=1, fast=fast).run(progress=False)
+            load_scenario(changed(scene, (field, number)), steps=1, fast=fast).run()
         except QuasistaticError as error:
             sentence = str(error)
             assert sentence.isprintable()
@@ -194,7 +194,7 @@ def test_numbers_at_the_ends_of_the_range_run_or_are_refused_in_a_sentence(here,
 
 def test_a_step_of_the_smallest_time_is_proved():
     """1 / h is near the largest float64."""
-    run = load_scenario("block_push", ["h=1e-308", "steps=1"]).run(progress=False)
+    run = load_scenario("block_push", ["h=1e-308", "steps=1"]).run()
     assert certified(run) == "1 of 1 steps exact"
 
 

@@ -28,7 +28,7 @@ def run(tmp_path_factory):
     """The bytes of a good trajectory of three steps."""
     folder = tmp_path_factory.mktemp("run")
     scenario = load_scenario(scene_written(folder))
-    return save_trajectory(folder / "run.npz", scenario.run(progress=False)).read_bytes()
+    return save_trajectory(folder / "run.npz", scenario.run()).read_bytes()
 
 
 def npy(array, shape=None, pickled=False):

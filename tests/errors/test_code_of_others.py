@@ -84,8 +84,8 @@ def test_code_is_named_by_the_user_alone(folder, refused, cli):
         cli("run", path, *option, "--quiet", "--out", folder / "out")
         (folder / "it_ran").unlink()
         sys.modules.pop("helper", None)
-    load_scenario(path, {"solver.backend": "helper.py:solve"}, steps=1).run(progress=False)
-    load_scenario(changed(SCENE, ("solver/backend", "helper:solve"))).run(progress=False)
+    load_scenario(path, {"solver.backend": "helper.py:solve"}, steps=1).run()
+    load_scenario(changed(SCENE, ("solver/backend", "helper:solve"))).run()
     (folder / "it_ran").unlink()
 
 
@@ -94,7 +94,7 @@ def test_a_module_beside_a_function_takes_no_installed_ones_place(folder):
     (folder / "helper.py").write_text("import scipy.optimize, colorsys\n" + HELPER)
     (folder / "colorsys.py").write_text("raise SystemExit('taken')")
     scene = changed(SCENE, ("solver/backend", "helper.py:solve"))
-    load_scenario(scene, steps=1).run(progress=False)
+    load_scenario(scene, steps=1).run()
     (folder / "it_ran").unlink()
 
 

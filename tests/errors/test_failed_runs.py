@@ -64,7 +64,7 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(tmp_path, cli
     # It is the step that starts where the trajectory ends.
     scenario = load_scenario(path, fast=True)
     with pytest.raises(RunFailed) as caught:
-        scenario.run(progress=False)
+        scenario.run()
     assert caught.value.step == failed
     assert sorted(os.listdir(out)) == ["scene.npz", "scene_failed_step.json"]
     if steps:
@@ -87,9 +87,9 @@ def test_the_depth_that_is_allowed_is_the_scenario_s(tmp_path, depth, fails):
     scenario = load_scenario(scene_written(tmp_path, scene), fast=True)
     if fails:
         with pytest.raises(RunFailed, match=r"is 0\.08 m deep"):
-            scenario.run(progress=False)
+            scenario.run()
     else:
-        trajectory = scenario.run(progress=False)
+        trajectory = scenario.run()
         # Pushed out in one step: the sphere's lowest point is on the floor.
         assert_relative(trajectory["q"][1, 3], 0.05, ROUNDING)
 
@@ -136,7 +136,7 @@ def test_somebody_else_s_handler_is_left_alone():
 def test_a_run_in_another_thread_needs_no_signals(tmp_path):
     scenario = load_scenario(scene_written(tmp_path), fast=True)
     runs = []
-    thread = threading.Thread(target=lambda: runs.append(scenario.run(progress=False)))
+    thread = threading.Thread(target=lambda: runs.append(scenario.run()))
     thread.start()
     thread.join()
     assert runs[0].steps == 3

@@ -50,7 +50,7 @@ def step(q=Q, q_bar_a=Q_A, **more):
 
 
 def run(**more):
-    return qr.rollout(SIMULATOR, **({"q": Q, "target": Q_A, "steps": 2, "progress": False} | more))
+    return qr.rollout(SIMULATOR, **({"q": Q, "target": Q_A, "steps": 2} | more))
 
 
 def scene(**more):

@@ -40,7 +40,7 @@ def test_bad_input_and_an_unsolved_step_are_two_families():
     ],
 )
 def test_bad_input_is_an_error_of_python_s_too_and_says_its_plain_sentence(kind, wrong):
-    run = load_scenario("sphere_spin", steps=1).run(progress=False)
+    run = load_scenario("sphere_spin", steps=1).run()
     with pytest.raises(kind) as caught:
         wrong(run)
     assert isinstance(caught.value, InputError)

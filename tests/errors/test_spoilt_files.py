@@ -121,15 +121,13 @@ def step_solved(path):
 def good_files(folder):
     """Name -> content and reader, for each format."""
     scene_written(folder)
-    step = load_scenario("sphere_spin", ["steps=1"]).run(progress=False).step_data(0)
+    step = load_scenario("sphere_spin", ["steps=1"]).run().step_data(0)
     for name, save in (("c.npy", np.save), ("c.npz", np.savez)):
         save(folder / name, POINTS)
     las = laspy.LasData(laspy.LasHeader(point_format=0, version="1.2"))
     las.x, las.y, las.z = POINTS.T
     las.write(folder / "c.las")
-    run = save_trajectory(
-        folder / "run.npz", load_scenario("sphere_spin", ["steps=1"]).run(progress=False)
-    )
+    run = save_trajectory(folder / "run.npz", load_scenario("sphere_spin", ["steps=1"]).run())
     ply = f"{PLY}property float z\nend_header\n0 0 0\n1 0 0\n"
     answers = answers_written(folder, "rows", "mine", {"one": {"A": [[1.0]], "b": [1.0]}})
     return {

@@ -54,6 +54,6 @@ def test_a_step_makes_few_calls_and_few_kinds_of_objects(steps, apart, most, mon
             sys.setprofile(None)
 
     monkeypatch.setattr(Simulator, "step", traced)
-    load_scenario("bunny_grasp", steps=steps).run(progress=False)
+    load_scenario("bunny_grasp", steps=steps).run()
     assert statistics.median(filter(None, calls)) <= CALLS
     assert len(kinds) <= most, sorted(kind.__name__ for kind in kinds)

@@ -46,7 +46,7 @@ def callers_of():
     before = sys.getprofile()
     sys.setprofile(note)
     try:
-        load_scenario("bunny_grasp", steps=1).run(progress=False)
+        load_scenario("bunny_grasp", steps=1).run()
     finally:
         sys.setprofile(before)
     return callers

@@ -30,7 +30,7 @@ WITHOUT = {
 def hashes():
     """SHA-256 of q of some runs."""
     settings = ["record=light", f"steps={STEPS}"]
-    runs = [load_scenario(name, settings, fast=True).run(progress=False) for name in NAMES]
+    runs = [load_scenario(name, settings, fast=True).run() for name in NAMES]
     return [hashlib.sha256(run["q"].tobytes()).hexdigest() for run in runs]
 
 

@@ -136,14 +136,14 @@ def test_a_name_with_a_space_moves_its_own_joint():
     stiffness = {"arm/left": 100.0, "arm/left knee": 200.0}
     simulator = qr.Simulator(system, [], h=0.01, K_q=stiffness)
     np.testing.assert_array_equal(simulator.K_q, np.diag([100.0, 200.0]))
-    run = qr.rollout(simulator, system.q_start, {"arm/left": 0.5}, 3, progress=False)
+    run = qr.rollout(simulator, system.q_start, {"arm/left": 0.5}, 3)
     np.testing.assert_allclose(run.q[-1], [0.5, 0.2], atol=1e-15)
     assert [system.of(system.q_start, name) for name in stiffness] == [0.1, 0.2]
     assert [drive.of.name for drive in run.account().drives] == ["arm/left", "arm/left knee"]
     wheel = qr.System([qr.Body("arm", arm("left [knee]", kind="continuous"), actuated="all")])
     assert wheel.of(wheel.q_start, "arm/left [knee].cos") == 1.0
     turned = qr.Simulator(wheel, [], h=0.01, K_q=100.0)
-    run = qr.rollout(turned, wheel.q_start, {"arm/left [knee]": 0.5}, 2, progress=False)
+    run = qr.rollout(turned, wheel.q_start, {"arm/left [knee]": 0.5}, 2)
     assert run.account().drives[0].of.name == "arm/left [knee]"
 
 

@@ -18,9 +18,7 @@ def test_the_tables_of_a_file_are_the_same_scene(monkeypatch, name):
     path = scenario_path(name).resolve()
     monkeypatch.chdir(path.parent)
     tables = tomllib.loads(path.read_text())
-    runs = [
-        qr.load_scenario(scene, fast=True, steps=1).run(progress=False) for scene in (tables, path)
-    ]
+    runs = [qr.load_scenario(scene, fast=True, steps=1).run() for scene in (tables, path)]
     assert runs[0] == runs[1]
 
 
@@ -61,7 +59,7 @@ def in_tables():
 
 def test_objects_and_tables_say_the_same():
     objects, tables = (qr.load_scenario(scene) for scene in (with_objects(), in_tables()))
-    assert objects.run(progress=False) == tables.run(progress=False)
+    assert objects.run() == tables.run()
     assert [pair.name for pair in objects.pairs] == [pair.name for pair in tables.pairs]
     assert objects.system.of(objects.system.q_start, "hand/slide") == -0.1
 
@@ -150,5 +148,5 @@ def test_fingers_that_mimic_share_the_force_of_one_spring(wrong):
         with pytest.raises(InputError, match=rf"bodies.gripper.{re.escape(wrong)}.*: {SHARED}"):
             qr.load_scenario(scene)
         return
-    forces = qr.load_scenario(scene).run(progress=False).pair_forces().values()
+    forces = qr.load_scenario(scene).run().pair_forces().values()
     assert [force[-1, 0] for force in forces] == pytest.approx([-5.0, 5.0])

@@ -111,7 +111,7 @@ def test_what_it_has_not_said_is_refused_in_a_sentence():
 
 def test_a_ball_comes_to_rest_on_it_in_a_scenario(scene):
     scenario = load_scenario(scene)
-    run = scenario.run(progress=False)
+    run = scenario.run()
     # The wrench of the scene is along y and about z: in contact the load is the weight, m g.
     np.testing.assert_allclose(run["phi"][0, 0], 0.0, atol=ROUNDING)
     assert_relative(run["wrench"][0, 0, 2], 0.3 * 9.81, SCENARIO)
@@ -119,7 +119,7 @@ def test_a_ball_comes_to_rest_on_it_in_a_scenario(scene):
 
 def test_it_is_drawn_and_inspected(scene, cli):
     scenario = load_scenario(scene)
-    run = scenario.run(progress=False)
+    run = scenario.run()
     page, (axes,) = panels(4.6, 4.0)
     draw_scene(axes, moment(scenario, run, 0))
     reached = np.concatenate([patch.get_xy() for patch in axes.patches])

@@ -51,13 +51,13 @@ class Witness(Observer):
 def run_with(scenario, witness):
     return rollout(
         scenario.simulator(), scenario.system.q_start, scenario.targets, STEPS,
-        force=scenario.force, progress=False, observers=[witness],
+        force=scenario.force, observers=[witness],
     )  # fmt: skip
 
 
 def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario):
     witness = Witness()
-    plain = scenario.run(progress=False)
+    plain = scenario.run()
     run = run_with(scenario, witness)
     steps = [each for k in range(STEPS) for each in (("before", k), ("after", k + 1))]
     assert witness.asked == [*steps, ("end", STEPS, None, False)]
@@ -72,14 +72,14 @@ def test_a_run_whose_steps_are_packed_one_by_one_is_the_same(name, monkeypatch):
     """In all arrays, notes and findings."""
     scene = load_scenario(name, steps=16, record="full", fast=True)
     of_whole = Witness(every_step=False)
-    whole = scene.run(progress=False, observers=[of_whole])
+    whole = scene.run(observers=[of_whole])
     witness = Witness(every_step=True)
-    single = scene.run(progress=False, observers=[witness])
+    single = scene.run(observers=[witness])
     assert len(witness.asked) == 2 * len(whole) + 1
     assert witness.noted == of_whole.noted
     monkeypatch.setattr(recorder_module, "PACKED", 7)
     witness = Witness(every_step=False)
-    some = scene.run(progress=False, observers=[witness])
+    some = scene.run(observers=[witness])
     assert len(witness.asked) == len(whole) + math.ceil(len(whole) / 7) + 1
     assert witness.noted == of_whole.noted
     for run in (single, some):
@@ -145,11 +145,11 @@ def test_an_observer_that_fails_in_a_block_leaves_all_steps(note, says, monkeypa
     scene = load_scenario("sphere_spin", steps=steps)
     observer = Failing(note)
     with pytest.raises(RunFailed, match=f"^step {taken - 1}: {says}") as caught:
-        scene.run(progress=False, observers=[observer])
+        scene.run(observers=[observer])
     assert observer.found == [(7, 0), (taken, 7)]
     kept = caught.value.trajectory
     monkeypatch.undo()
-    whole = load_scenario("sphere_spin", steps=taken).run(progress=False)
+    whole = load_scenario("sphere_spin", steps=taken).run()
     assert kept.header == replace(whole.header, failed=str(caught.value))
     for key, array in whole.arrays.items():
         assert kept[key].tobytes() == array.tobytes()

@@ -48,7 +48,7 @@ def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(scenario):
     steps = 20
     table = np.stack([np.linspace(0, -0.1, steps), np.ones(steps), np.zeros(steps)], axis=1)
     q = scenario.system.q_start
-    run = rollout(scenario.simulator(), q, table, steps, record="light", progress=False)
+    run = rollout(scenario.simulator(), q, table, steps, record="light")
     np.testing.assert_array_equal(run["q_bar_a"], table)
 
 
@@ -56,11 +56,11 @@ def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(scenario):
 def test_the_parts_of_a_run_add_up_to_its_wall_time(fast):
     scenario = load_scenario("sphere_spin", steps=20, fast=fast)
     simulator = scenario.simulator()
-    scenario.run(progress=False)  # which imports what a run needs
+    scenario.run()  # which imports what a run needs
     shares = []
     for _ in range(3):  # another process may take its turn between two parts, but not each time
         begin = time.perf_counter()
-        run = rollout(simulator, scenario.system.q_start, scenario.targets, 20, progress=False)
+        run = rollout(simulator, scenario.system.q_start, scenario.targets, 20)
         wall = time.perf_counter() - begin
         shares.append(sum(float(part.sum()) for part in run.seconds.values()) / wall)
     assert 0.95 <= max(shares) <= 1
@@ -74,7 +74,7 @@ def test_targets_and_forces_are_asked_for_at_the_end_of_the_step(scenario):
         return np.arange(8.0)
 
     q = scenario.system.q_start
-    run = rollout(scenario.simulator(), q, scenario.targets, 3, force=force, progress=False)
+    run = rollout(scenario.simulator(), q, scenario.targets, 3, force=force)
     np.testing.assert_array_equal([t for t, _ in calls], [0.01, 0.02, 0.03])
     np.testing.assert_array_equal([q for _, q in calls], run["q"][:3])
     expected = [scenario.targets(t) for t in (0.01, 0.02, 0.03)]
@@ -91,6 +91,6 @@ def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario):
 
     q = scenario.system.q_start
     with pytest.raises(RunFailed, match=r"^step 1: tau_a: must contain finite") as caught:
-        rollout(scenario.simulator(), q, scenario.targets, 3, force=force, progress=False)
+        rollout(scenario.simulator(), q, scenario.targets, 3, force=force)
     assert caught.value.trajectory.steps == 1
     assert isinstance(caught.value.__cause__, StepDataError)

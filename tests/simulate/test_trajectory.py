@@ -44,7 +44,7 @@ def scenario(folder):
 
 @pytest.fixture(scope="module")
 def run(scenario):
-    return scenario.run(progress=False)
+    return scenario.run()
 
 
 def test_the_first_axis_is_the_step_and_q_has_the_start_as_well(scenario, run):
@@ -69,9 +69,7 @@ def test_a_recorded_step_is_the_one_that_was_solved(scenario, run):
 @pytest.mark.parametrize("name", ["bunny_grasp", "arm_push"])
 def test_a_recorded_program_is_the_standard_form_of_its_step(name, changes):
     limits = ["bodies.arm.joint_limits=urdf"] if name == "arm_push" else []
-    run = load_scenario(name, ["solver.certify=off", *limits, *changes], steps=3).run(
-        progress=False
-    )
+    run = load_scenario(name, ["solver.certify=off", *limits, *changes], steps=3).run()
     for k in range(3):
         form = standard_form(run.step_data(k))
         for matrix, recorded in zip(form, ("H", "g", "A", "b"), strict=True):
@@ -82,9 +80,9 @@ def test_a_recorded_program_is_the_standard_form_of_its_step(name, changes):
 @pytest.mark.parametrize("name", ["block_push", "stack", "door"])
 def test_a_recorded_step_of_many_bodies_is_the_one_that_was_solved(name, tmp_path, monkeypatch):
     scenario = load_scenario(name, ["record=full"], steps=3, fast=True)
-    every = scenario.run(progress=False)
+    every = scenario.run()
     monkeypatch.setattr(joined, "LARGEST", 0)
-    run = scenario.run(progress=False)
+    run = scenario.run()
     assert {*every} - {*run} == {"H", "g", "A", "b"}
     assert run["J"].size == 4 * run["column"].size <= every["J"].size
     moved = run.account(forces=False).numbers
@@ -155,7 +153,7 @@ def test_it_is_a_mapping_of_its_arrays(run):
 
 
 def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
-    light = load_scenario(folder / "scene.toml", ["record=light"], fast=True).run(progress=False)
+    light = load_scenario(folder / "scene.toml", ["record=light"], fast=True).run()
     assert set(light.arrays) == SHAPES.keys() - PROGRAMS
     back = load_trajectory(save_trajectory(tmp_path / "run.npz", light))
     np.testing.assert_array_equal(back["q"], run["q"])
@@ -164,7 +162,7 @@ def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
 
 
 def test_a_run_of_no_steps_is_a_trajectory(tmp_path, folder):
-    empty = load_scenario(folder / "scene.toml", ["steps=0"], fast=True).run(progress=False)
+    empty = load_scenario(folder / "scene.toml", ["steps=0"], fast=True).run()
     back = load_trajectory(save_trajectory(tmp_path / "run.npz", empty))
     assert (back.steps, back.failed, back["q"].shape) == (0, None, (1, 10))
     assert worst_residual(back) is None
@@ -179,10 +177,10 @@ def test_a_record_of_forces_is_kept_where_those_of_one_step_are_not_found(tmp_pa
             raise ZeroDivisionError
         return found(step, near)
 
-    torque = load_scenario("sphere_spin", steps=4).run(progress=False)["tau_u"][2, 5]
+    torque = load_scenario("sphere_spin", steps=4).run()["tau_u"][2, 5]
     monkeypatch.setattr(solution, "contact_forces", fails)
     scene = load_scenario("sphere_spin", {"record": "forces"}, steps=4)
-    run = load_trajectory(save_trajectory(tmp_path / "run.npz", scene.run(progress=False)))
+    run = load_trajectory(save_trajectory(tmp_path / "run.npz", scene.run()))
     assert np.isnan(run.forces).any(axis=(1, 2)).tolist() == [False, False, True, False]
     assert np.isnan(run.imbalance).tolist() == [False, False, True, False]
     assert "the forces are not known in 1 steps, first in 2" in run.account(forces=True).missing

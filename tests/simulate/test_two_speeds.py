@@ -18,9 +18,7 @@ SAME = ("q", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "H", "g", "A", "
 @pytest.mark.parametrize("name", SCENARIOS_TO_RUN)
 def test_certified_runs_have_the_same_bits_at_both_speeds(name):
     steps = STEPS.get(name, 6)
-    plain, fast = (
-        load_scenario(name, steps=steps, fast=speed).run(progress=False) for speed in (False, True)
-    )
+    plain, fast = (load_scenario(name, steps=steps, fast=speed).run() for speed in (False, True))
     assert (plain.header.backend, fast.header.backend) == ("clarabel", "daqp")
     assert {*plain["certificate"], *fast["certificate"]} == {"exact"}
     for key in SAME:
@@ -29,7 +27,7 @@ def test_certified_runs_have_the_same_bits_at_both_speeds(name):
 
 PLAIN = """
 import sys, quasistatic_ref as qr
-qr.load_scenario("sphere_spin", steps=1).run(progress=False)
+qr.load_scenario("sphere_spin", steps=1).run()
 print(*(name for name in sys.modules if name.startswith("quasistatic_ref.optional")))
 """
 
@@ -43,7 +41,7 @@ def test_the_plain_path_asks_for_nothing_of_fast():
 
 FAST = """
 import sys, quasistatic_ref as qr
-run = qr.load_scenario("bunny_grasp", steps=2, fast=True).run(progress=False)
+run = qr.load_scenario("bunny_grasp", steps=2, fast=True).run()
 assert run.header.backend == "daqp"
 large = ("cvxpy", "jax", "matplotlib", "pandas", "trimesh")
 print(*(name for name in large if name in sys.modules))

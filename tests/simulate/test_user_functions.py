@@ -21,7 +21,7 @@ def run(scenario):
 
     def done(target, **options):
         q = scenario.system.q_start
-        return rollout(scenario.simulator(), q, target, STEPS, progress=False, **options)
+        return rollout(scenario.simulator(), q, target, STEPS, **options)
 
     return done
 
@@ -81,7 +81,7 @@ def test_an_error_of_the_callers_own_is_left_alone(run):
 def test_a_loop_by_hand_ends_in_the_trajectory_of_rollout(scenario):
     simulator = scenario.simulator()
     q = scenario.system.q_start
-    expected = rollout(scenario.simulator(), q, goal, STEPS, progress=False)
+    expected = rollout(scenario.simulator(), q, goal, STEPS)
     recorder = Recorder(simulator, q, "full")
     for _ in range(STEPS):
         result = simulator.step(q, goal(recorder.t))

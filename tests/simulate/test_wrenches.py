@@ -22,7 +22,7 @@ def scenario(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def run(scenario):
-    done = scenario.run(progress=False)
+    done = scenario.run()
     push = done["wrench"][:, 1]
     assert (np.abs(push[:, 2]) > 0).any()  # the plate does reach the ball
     return done
@@ -32,7 +32,7 @@ def run(scenario):
 def pinch():
     """Two fingers on a bar: a body of three links, whose fingers are alpha."""
     scenario = load_scenario("two_finger_pinch", steps=10, fast=True)
-    return scenario, scenario.run(progress=False)
+    return scenario, scenario.run()
 
 
 def row_forces(run, k):
@@ -64,7 +64,7 @@ def test_forces_of_pairs_add_up_to_those_of_the_body(scenario, run):
 
 
 def test_a_record_of_forces_has_those_of_the_steps(scenario, run, tmp_path):
-    kept = load_scenario(scenario.path, steps=40, fast=True, record="forces").run(progress=False)
+    kept = load_scenario(scenario.path, steps=40, fast=True, record="forces").run()
     np.testing.assert_array_equal(kept["forces"], run.forces)
     read = load_trajectory(save_trajectory(tmp_path / "forces.npz", kept))
     np.testing.assert_array_equal(read.forces, kept.forces)
@@ -76,7 +76,7 @@ def test_a_record_of_forces_has_those_of_the_steps(scenario, run, tmp_path):
 
 @pytest.mark.parametrize("fast", [False, True])
 def test_a_full_record_holds_no_forces_and_files_that_do_are_read(scenario, run, tmp_path, fast):
-    full = load_scenario(scenario.path, steps=40, fast=fast).run(progress=False)
+    full = load_scenario(scenario.path, steps=40, fast=fast).run()
     assert "forces" not in full.arrays
     np.testing.assert_array_equal(full.forces, run.forces)
     stored = replace(full, arrays={**full.arrays, "forces": full.forces + 1.0})
@@ -85,7 +85,7 @@ def test_a_full_record_holds_no_forces_and_files_that_do_are_read(scenario, run,
 
 
 def test_a_light_record_holds_no_forces(scenario):
-    light = load_scenario(scenario.path, steps=2, fast=True, record="light").run(progress=False)
+    light = load_scenario(scenario.path, steps=2, fast=True, record="light").run()
     with pytest.raises(InputError, match="a light record holds no forces; run again with record"):
         light.pair_forces()
 

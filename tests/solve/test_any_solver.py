@@ -78,7 +78,7 @@ def test_a_function_solves_steps_as_a_backend_does():
 def test_a_function_has_a_name_on_the_command_line(name, mine, cli):
     qr.save_step(mine / "step.json", STEP)
     assert "correct digits" in cli("solve", "step.json", "--backend", name, "-o", "s.json").err
-    run = qr.load_scenario("sphere_spin", {"solver.backend": name}, steps=2).run(progress=False)
+    run = qr.load_scenario("sphere_spin", {"solver.backend": name}, steps=2).run()
     assert set(run.certificate) == {"exact"}
 
 

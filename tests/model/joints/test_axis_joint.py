@@ -34,7 +34,7 @@ def test_a_sum_of_its_own_is_not_that_of_compiled_code(monkeypatch, parent):
         "targets": [{"t": 0.0, "turn": 3.0}, {"t": 0.1, "turn": 3.3}],
     }  # fmt: skip
     scenario = qr.load_scenario({"h": 0.01, "steps": 12, "bodies": {"arm": arm}})
-    plain = scenario.run(progress=False)
-    fast = replace(scenario, fast=True).run(progress=False)
+    plain = scenario.run()
+    fast = replace(scenario, fast=True).run()
     assert plain.q[-1, 0] == pytest.approx(3.3 - 2 * math.pi)
     assert (plain.q == fast.q).all()

@@ -82,10 +82,10 @@ def scene(base, **more):
 @pytest.mark.parametrize("base", [True, False])
 @pytest.mark.extra("fast")
 def test_runs_are_exact_and_have_the_same_bits_at_both_speeds(base):
-    plain = scene(base).run(progress=False)
+    plain = scene(base).run()
     fast = replace(scene(base), fast=True)
     simulator = fast.simulator()
-    run = fast.run(progress=False)
+    run = fast.run()
     assert (plain["certificate"] == "exact").all()
     assert plain["q"].tobytes() == run["q"].tobytes()
     assert np.abs(np.linalg.norm(run["q"], axis=1) - 1).max() < 4 * ROUNDING
