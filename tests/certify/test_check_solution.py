@@ -8,6 +8,7 @@ import pytest
 from quasistatic_ref import Extra, StepInfeasible, solve_step
 from quasistatic_ref.certify.solution_files import infeasible_text, solution_text
 from quasistatic_ref.step.files import step_sha256, step_text
+from tests.cases import cases
 from tests.helpers import verify_refusal
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import good_file
@@ -123,7 +124,7 @@ NO_FILE = {
 """What each is: the file, the field, what stands there, and what the checker says."""
 
 
-@pytest.mark.parametrize(("file", "where", "value", "words"), NO_FILE.values(), ids=NO_FILE)
+@cases("file, where, value, words", NO_FILE)
 def test_what_is_no_file_of_its_format_is_refused_here_and_by_verify(
     outcome, tmp_path, file, where, value, words
 ):

@@ -8,6 +8,7 @@ from quasistatic_ref import StepDataError
 from quasistatic_ref.certify.form import exact_matrix, inverse, whole_numbers
 from quasistatic_ref.certify.form import fraction as exact
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
+from tests.cases import cases
 
 
 def test_a_ball_with_a_radius_is_no_exact_number():
@@ -27,7 +28,7 @@ NO_PROGRAM = {
 """H, the entries of g, and what is said."""
 
 
-@pytest.mark.parametrize(("H", "g", "words"), NO_PROGRAM.values(), ids=NO_PROGRAM)
+@cases("H, g, words", NO_PROGRAM)
 def test_a_program_without_an_exact_optimum_is_refused(H, g, words):
     with pytest.raises(StepDataError, match=words):
         exact_form_of(np.array(H), np.full(2, g), np.zeros((0, 2)), np.zeros(0))

@@ -15,6 +15,7 @@ from quasistatic_ref.certify.solution_files import (
 from quasistatic_ref.step.files import (
     step_text,
 )
+from tests.cases import cases
 from tests.closeness import assert_within
 from tests.errors.scene import changed
 from tests.helpers import point_on_floor, random_step
@@ -55,7 +56,7 @@ SOLUTION_REFUSED = {
 }
 
 
-@pytest.mark.parametrize(("path", "value", "says"), SOLUTION_REFUSED.values(), ids=SOLUTION_REFUSED)
+@cases("path, value, says", SOLUTION_REFUSED)
 def test_a_solution_with_a_wrong_field_is_refused(tmp_path, path, value, says):
     record = json.loads(solution_text(solve_step(PLAIN)))
     file = tmp_path / "solution.json"

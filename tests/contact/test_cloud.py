@@ -15,6 +15,7 @@ from quasistatic_ref import (
     Sphere,
 )
 from quasistatic_ref.contact.ranks import closest
+from tests.cases import cases
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import (
     CLOSED_FORM,
@@ -68,7 +69,7 @@ DEGENERATE = {
 }
 
 
-@pytest.mark.parametrize(("shape", "point", "phi", "n"), DEGENERATE.values(), ids=DEGENERATE)
+@cases("shape, point, phi, n", DEGENERATE)
 def test_where_the_normal_is_not_unique_the_first_one_wins(shape, point, phi, n):
     found_phi, found_n = shape.signed_distance(np.array([point], dtype=np.float64))
     assert_within(found_phi, [phi], SIGNED_DISTANCE)

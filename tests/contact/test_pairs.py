@@ -19,6 +19,7 @@ from quasistatic_ref import (
     convex_hull,
 )
 from quasistatic_ref.contact.pairs import ContactLayout
+from tests.cases import cases
 from tests.contact.still import placed_shape
 
 CLOUD = PointCloud(np.eye(3))
@@ -40,7 +41,7 @@ REFUSALS = {
 }
 
 
-@pytest.mark.parametrize(("shapes", "more", "says"), REFUSALS.values(), ids=REFUSALS)
+@cases("shapes, more, says", REFUSALS)
 def test_a_pair_is_refused(shapes, more, says):
     with pytest.raises(ContactError) as caught:
         pair(*shapes, **more)

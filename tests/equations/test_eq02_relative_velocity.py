@@ -4,10 +4,10 @@ Under test: contact.jacobian.ContactGeometry.
 """
 
 import numpy as np
-import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
+from tests.cases import cases
 from tests.closeness import assert_close, assert_relative
 from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP, ROUNDING
 
@@ -39,7 +39,7 @@ def relative_velocity(scene, q, v, link_alpha, link_beta, alpha, beta, n):
     return [*(nu_b - nu_a), n @ (omega_b - omega_a)]
 
 
-@pytest.mark.parametrize(("alpha_link", "beta_link"), LINKS.values(), ids=LINKS)
+@cases("alpha_link, beta_link", LINKS)
 def test_the_jacobian_times_a_velocity_is_the_relative_velocity(scene, rng, alpha_link, beta_link):
     a = scene.link(alpha_link)
     b = scene.link(beta_link)

@@ -14,6 +14,7 @@ from quasistatic_ref import InputError, load_trajectory
 from quasistatic_ref.formats.files import json_read, json_text, text_of, text_written, toml_read
 from quasistatic_ref.formats.files import written_whole as whole
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
+from tests.cases import cases
 
 
 def test_a_text_is_written_in_utf_8_and_folders_are_made(tmp_path):
@@ -148,8 +149,8 @@ SPOILERS = {
 }
 
 
-@pytest.mark.parametrize("read", READERS.values(), ids=READERS)
-@pytest.mark.parametrize(("spoil", "words"), SPOILERS.values(), ids=SPOILERS)
+@cases("read", READERS)
+@cases("spoil, words", SPOILERS)
 def test_what_is_no_file_is_refused(tmp_path, read, spoil, words):
     path = tmp_path / "input"
     spoil(path)
@@ -177,7 +178,7 @@ CONTENTS = {
 }
 
 
-@pytest.mark.parametrize(("read", "content", "words"), CONTENTS.values(), ids=CONTENTS)
+@cases("read, content, words", CONTENTS)
 def test_a_file_that_is_something_else_is_refused(tmp_path, read, content, words):
     path = tmp_path / "input"
     path.write_bytes(content)

@@ -5,6 +5,7 @@ import pytest
 
 from quasistatic_ref import InputError, ScenarioError
 from quasistatic_ref.formats.table_reader import TableReader
+from tests.cases import cases
 
 READS = {
     "number NaN": ({"x": float("nan")}, lambda f: f.number("x"), "t.x: must be a finite"),
@@ -26,7 +27,7 @@ READS = {
 }
 
 
-@pytest.mark.parametrize(("table", "read", "says"), READS.values(), ids=READS)
+@cases("table, read, says", READS)
 def test_a_field_is_refused_by_its_full_name(table, read, says):
     with pytest.raises(ScenarioError) as caught:
         read(TableReader(table, "t", ScenarioError))

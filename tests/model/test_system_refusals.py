@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Body, ModelError, System
+from tests.cases import cases
 from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot, urdf_of_text
 
 
@@ -65,7 +66,7 @@ BAD_BODY = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("changes", "words"), BAD_BODY.values(), ids=BAD_BODY)
+@cases("changes, words", BAD_BODY)
 def test_a_body_that_cannot_be_is_refused(tmp_path, changes, words):
     good = {"name": "c", "urdf": urdf_of_text(tmp_path, CHAIN)}
     System([Body(**good)])

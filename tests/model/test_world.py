@@ -5,6 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Body, Sphere, System
+from tests.cases import cases
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import joint, link, robot
 from tests.tolerances import ROUNDING
@@ -51,7 +52,7 @@ LIMITS = {
 }
 
 
-@pytest.mark.parametrize(("kind", "said", "limits"), LIMITS.values(), ids=LIMITS)
+@cases("kind, said, limits", LIMITS)
 def test_a_joint_has_the_limits_that_its_file_gives_it(kind, said, limits):
     hinge = joint("j", "a", "b", kind)
     written = hinge.replace('lower="-1" upper="1" effort="1"', f'{said} effort="3"')

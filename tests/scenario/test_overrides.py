@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, load_scenario
+from tests.cases import cases
 from tests.model.urdf.urdf_texts import urdf_of_text
 from tests.scenes import BALL, written_scenario
 
@@ -90,7 +91,7 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize(("settings", "named", "says"), REFUSED.values(), ids=REFUSED)
+@cases("settings, named, says", REFUSED)
 def test_changes_that_cannot_be_made_are_one_sentence(path, settings, named, says):
     with pytest.raises(InputError) as caught:
         load_scenario(path, settings, **named)

@@ -11,6 +11,7 @@ from quasistatic_ref import (
     PointCloud,
     load_scenario,
 )
+from tests.cases import cases
 from tests.closeness import assert_close, assert_relative, assert_within
 from tests.model.urdf.urdf_texts import joint, link, robot, urdf_of_text
 from tests.scenes import PUSH
@@ -53,7 +54,7 @@ STIFFNESS = {
 }
 
 
-@pytest.mark.parametrize(("line", "expected"), STIFFNESS.values(), ids=STIFFNESS)
+@cases("line, expected", STIFFNESS)
 def test_stiffness_may_be_given_by_joint_or_by_body(load, line, expected):
     np.testing.assert_array_equal(load((K_Q, line)).K_q, expected)
 
@@ -138,7 +139,7 @@ WORLD = {
 }
 
 
-@pytest.mark.parametrize(("line", "expected"), WORLD.values(), ids=WORLD)
+@cases("line, expected", WORLD)
 def test_shapes_of_the_world_have_the_sizes_that_are_written(load, line, expected):
     pose = "\npose = { xyz = [1, 2, 3], rpy = [0, 0, 1.5707963267948966] }"
     scenario = load(("halfspace = { normal = [0, 0, 1], offset = 0 }", line + pose))

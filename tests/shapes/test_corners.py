@@ -13,6 +13,7 @@ from quasistatic_ref import (
     PointCloud,
     convex_hull,
 )
+from tests.cases import cases
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import CLOSED_FORM, ROUNDING
 
@@ -33,7 +34,7 @@ CORNERS = {
 }
 
 
-@pytest.mark.parametrize(("shape", "points", "radius"), CORNERS.values(), ids=CORNERS)
+@cases("shape, points, radius", CORNERS)
 @pytest.mark.parametrize("towards", [TOWARDS, TILTED], ids=["level", "tilted"])
 def test_corners_are_vertices_ends_and_quarters_of_rims(shape, points, radius, towards):
     found, ball = shape.corners(towards)
@@ -57,6 +58,6 @@ EXTENTS = {
 }
 
 
-@pytest.mark.parametrize(("shape", "longest"), EXTENTS.values(), ids=EXTENTS)
+@cases("shape, longest", EXTENTS)
 def test_the_extent_is_the_longest_edge_of_the_box_about_a_shape(shape, longest):
     assert_relative(shape.extent, longest, ROUNDING)

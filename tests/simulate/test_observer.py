@@ -9,6 +9,7 @@ import pytest
 from quasistatic_ref import Extra, InputError, Recorder, RunFailed, load_scenario, rollout
 from quasistatic_ref.simulate import recorder as recorder_module
 from quasistatic_ref.simulate.observer import Observer
+from tests.cases import cases
 
 STEPS = 3
 
@@ -137,7 +138,7 @@ FAILS = {
 }
 
 
-@pytest.mark.parametrize(("note", "says"), FAILS.values(), ids=FAILS)
+@cases("note, says", FAILS)
 def test_an_observer_that_fails_in_a_block_leaves_all_steps(note, says, monkeypatch):
     """Also in the last block of the run, which is shorter."""
     taken = steps = 12

@@ -9,6 +9,7 @@ from quasistatic_ref import InputError, ScenarioError, load_scenario
 from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.simulate.target import JointTrack, Targets
 from quasistatic_ref.simulate.user_functions import target_function
+from tests.cases import cases
 from tests.closeness import assert_close
 from tests.tolerances import DIFFERENCE, ROUNDING
 
@@ -121,7 +122,7 @@ TURNS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("changes", "says", "refused"), TURNS.values(), ids=TURNS)
+@cases("changes, says, refused", TURNS)
 def test_more_than_half_a_turn_at_once_is_refused(load, tmp_path, changes, says, refused):
     load()
     if "turn" not in str(changes):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, Recorder, rollout
+from tests.cases import cases
 
 STEPS = 4
 
@@ -50,7 +51,7 @@ OF_TIME = {
 }
 
 
-@pytest.mark.parametrize("target", OF_TIME.values(), ids=OF_TIME)
+@cases("target", OF_TIME)
 def test_a_function_of_time_may_be_written_in_any_way(run, target):
     times = [0.01 * (k + 1) for k in range(STEPS)]
     expected = np.array([goal(t) for t in times])
@@ -65,7 +66,7 @@ OTHER = {
 }
 
 
-@pytest.mark.parametrize("function", OTHER.values(), ids=OTHER)
+@cases("function", OTHER)
 @pytest.mark.parametrize("name", ["target", "force"])
 def test_other_arguments_are_refused_before_the_first_step(run, name, function):
     given = {"target": goal} | {name: function}

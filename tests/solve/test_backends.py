@@ -15,6 +15,7 @@ from quasistatic_ref.solve.backends import (
 )
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from tests.cases import cases
 from tests.closeness import assert_within
 from tests.helpers import (
     INTERFACES,
@@ -109,7 +110,7 @@ LIES = {
 }
 
 
-@pytest.mark.parametrize("spoil", LIES.values(), ids=LIES)
+@cases("spoil", LIES)
 def test_an_optimal_status_is_not_evidence(spoil, monkeypatch, rng):
     step, _, _ = planted_step(rng)
     make_backend_lie(monkeypatch, spoil)

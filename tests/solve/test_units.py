@@ -14,6 +14,7 @@ from quasistatic_ref.solve.units import (
     natural_step,
     within_reach,
 )
+from tests.cases import cases
 from tests.closeness import assert_relative
 from tests.helpers import (
     free_displacement,
@@ -38,7 +39,7 @@ STEPS = {
     "sphere": sphere_on_floor(wrench=(0, 0, -3, 0, 0, 0.1), phi=-1e-4),
     "pinch": pinch(),
 }
-every_step = pytest.mark.parametrize("step", STEPS.values(), ids=STEPS)
+every_step = cases("step", STEPS)
 
 
 @every_step

@@ -7,6 +7,7 @@ from quasistatic_ref import Contacts, Extra, StepDataError
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.numbers.pivots import SYMMETRIC
 from quasistatic_ref.tolerances import ORTHONORMAL
+from tests.cases import cases
 from tests.helpers import changed, random_step
 
 STEP = random_step(np.random.default_rng(7), n_a=2, n_u=3, rows=(6, 4))
@@ -45,14 +46,14 @@ CONTACT_REFUSALS = {
 }
 
 
-@pytest.mark.parametrize(("changes", "says"), STEP_REFUSALS.values(), ids=STEP_REFUSALS)
+@cases("changes, says", STEP_REFUSALS)
 def test_a_step_refuses(changes, says):
     with pytest.raises(StepDataError) as caught:
         STEP.replace(**changes)
     assert str(caught.value).startswith(says)
 
 
-@pytest.mark.parametrize(("changes", "says"), CONTACT_REFUSALS.values(), ids=CONTACT_REFUSALS)
+@cases("changes, says", CONTACT_REFUSALS)
 def test_contacts_refuse(changes, says):
     with pytest.raises(StepDataError) as caught:
         changed(CONTACTS, **changes)
@@ -68,7 +69,7 @@ LEAKS = {
 }
 
 
-@pytest.mark.parametrize("build", LEAKS.values(), ids=LEAKS)
+@cases("build", LEAKS)
 def test_nothing_but_the_package_s_own_error_comes_out(build):
     with pytest.raises(StepDataError):
         build()

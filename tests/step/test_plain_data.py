@@ -6,10 +6,10 @@ import shutil
 from dataclasses import dataclass, replace
 
 import numpy as np
-import pytest
 
 from quasistatic_ref import Box, Cone, Cylinder, Extra, Simulator, Sphere, load_scenario
 from quasistatic_ref.formats.plain import Plain, bits
+from tests.cases import cases
 from tests.scenes import written_scenario
 from tests.step.public_data import contradiction_error
 
@@ -22,7 +22,7 @@ ROUND_TRIPS = {
 NAN = np.nan
 
 
-every_trip = pytest.mark.parametrize("trip", ROUND_TRIPS.values(), ids=ROUND_TRIPS)
+every_trip = cases("trip", ROUND_TRIPS)
 
 
 @every_trip
@@ -113,13 +113,13 @@ UNLIKE = {
 }
 
 
-@pytest.mark.parametrize(("one", "two"), ALIKE.values(), ids=ALIKE)
+@cases("one, two", ALIKE)
 def test_alike(one, two):
     assert Some(one) == Some(two)
     assert hash(Some(one)) == hash(Some(two))
 
 
-@pytest.mark.parametrize(("one", "two"), UNLIKE.values(), ids=UNLIKE)
+@cases("one, two", UNLIKE)
 def test_unlike(one, two):
     assert Some(one) != Some(two)
 

@@ -9,6 +9,7 @@ import pytest
 from quasistatic_ref import Extra, InputError, StepDataError, load_step, save_step
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.step.files import step_from_record, step_sha256, step_text
+from tests.cases import cases
 from tests.errors.scene import changed
 from tests.helpers import point_on_floor, random_step
 
@@ -28,7 +29,7 @@ def record_of(step):
     return json.loads(step_text(step))
 
 
-@pytest.mark.parametrize("step", STEPS.values(), ids=STEPS)
+@cases("step", STEPS)
 def test_a_step_read_back_is_the_same_bits(tmp_path, step):
     path = save_step(tmp_path / "step.json", step)
     back = load_step(path)

@@ -11,6 +11,7 @@ import pytest
 from quasistatic_ref import ModelError
 from quasistatic_ref.model.readers import text
 from quasistatic_ref.model.readers.clouds import point_cloud, seen_points
+from tests.cases import cases
 
 POINTS = np.array([[0.1, -0.2, 0.3], [1.0, 2e-3, -0.5]])
 PLY_ASCII = """ply
@@ -101,7 +102,7 @@ GOOD = {
 }
 
 
-@pytest.mark.parametrize(("suffix", "content"), GOOD.values(), ids=GOOD)
+@cases("suffix, content", GOOD)
 def test_every_format_gives_the_points_bit_for_bit(tmp_path, suffix, content):
     path = tmp_path / f"cloud{suffix}"
     path.write_bytes(content)
@@ -171,7 +172,7 @@ BAD = {
 }
 
 
-@pytest.mark.parametrize(("suffix", "content", "words"), BAD.values(), ids=BAD)
+@cases("suffix, content, words", BAD)
 def test_a_defect_is_one_sentence_that_names_the_file(tmp_path, suffix, content, words):
     path = tmp_path / f"cloud{suffix}"
     path.write_bytes(content)

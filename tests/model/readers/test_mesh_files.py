@@ -19,6 +19,7 @@ from quasistatic_ref.model.urdf import shapes as urdf_shapes
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from quasistatic_ref.optional.readers import files, placed_meshes
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from tests.cases import cases
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
 from tests.tolerances import CLOSED_FORM
@@ -59,7 +60,7 @@ PLACES = {
 }
 
 
-@pytest.mark.parametrize("place", PLACES.values(), ids=PLACES)
+@cases("place", PLACES)
 def test_a_package_address_is_looked_for_above_the_file(tmp_path, place):
     urdf = tmp_path / "repo" / "arm" / "urdf"
     urdf.mkdir(parents=True)
@@ -126,7 +127,7 @@ OUTSIDE = {
 }
 
 
-@pytest.mark.parametrize(("address", "words"), OUTSIDE.values(), ids=OUTSIDE)
+@cases("address, words", OUTSIDE)
 def test_a_mesh_that_is_not_where_it_may_be_is_refused(tmp_path, address, words):
     home = tmp_path / "home"
     home.mkdir()
@@ -171,7 +172,7 @@ MALFORMED = {
 }
 
 
-@pytest.mark.parametrize(("right", "wrong"), MALFORMED.values(), ids=MALFORMED)
+@cases("right, wrong", MALFORMED)
 def test_a_malformed_collada_mesh_is_refused_by_name(tmp_path, right, wrong):
     assert COLLADA.count(right) == 1
     path = urdf_of_text(tmp_path, COLLADA.replace(right, wrong), "a.dae")
@@ -392,7 +393,7 @@ LIES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("name", "content", "words"), LIES.values(), ids=LIES)
+@cases("name, content, words", LIES)
 def test_what_a_file_states_of_itself_is_compared_with_it(
     tmp_path, monkeypatch, name, content, words
 ):
@@ -426,7 +427,7 @@ SAME = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("name", "content"), SAME.values(), ids=SAME)
+@cases("name, content", SAME)
 def test_what_is_whole_is_read(tmp_path, name, content):
     (tmp_path / name).write_bytes(_bytes(content))
     vertices = loaded_mesh(tmp_path / name).vertices

@@ -13,6 +13,7 @@ from quasistatic_ref import (
     Sphere,
     System,
 )
+from tests.cases import cases
 from tests.oracles.coal_solids import coal_solid
 from tests.scenes import BALL
 from tests.tolerances import ROUNDING
@@ -30,7 +31,7 @@ SOLIDS = {
 }
 
 
-@pytest.mark.parametrize("shape", SOLIDS.values(), ids=SOLIDS)
+@cases("shape", SOLIDS)
 def test_a_body_of_a_shape_is_a_free_solid_about_its_centre(shape):
     """Its moments of inertia are those of coal, whose solids have a density of one."""
     system = System([Body.of_shape("it", shape, MASS, xyz=(1, 2, 3), rpy=(0.1, 0.2, 0.3))])
@@ -70,7 +71,7 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize(("given", "says"), WRONG.values(), ids=WRONG)
+@cases("given, says", WRONG)
 def test_other_solids_are_refused(given, says):
     with pytest.raises(ModelError) as caught:
         Body.of_shape("it", *given)

@@ -5,6 +5,7 @@ import pytest
 
 from quasistatic_ref import ModelError
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
+from tests.cases import cases
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import INERTIAL, collision, link, robot, urdf_of_text
 
@@ -84,7 +85,7 @@ EMPTY = {
 }
 
 
-@pytest.mark.parametrize("shape", EMPTY.values(), ids=EMPTY)
+@cases("shape", EMPTY)
 def test_a_shape_without_size_is_left_out_and_noted(tmp_path, shape):
     urdf = loaded(
         tmp_path, robot(link("a", collision(shape) + collision('<sphere radius="0.5"/>')))

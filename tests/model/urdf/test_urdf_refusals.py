@@ -4,6 +4,7 @@ import pytest
 
 from quasistatic_ref import ModelError
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
+from tests.cases import cases
 from tests.model.urdf.urdf_texts import (
     CHAIN,
     collision,
@@ -84,7 +85,7 @@ REFUSED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("text", "old", "new", "words"), REFUSED.values(), ids=REFUSED)
+@cases("text, old, new, words", REFUSED)
 def test_a_defect_is_one_sentence_that_names_the_file(tmp_path, text, old, new, words):
     assert old in text
     count = -1 if old in ("robot", "collision") else 1
