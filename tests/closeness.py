@@ -1,6 +1,12 @@
 """How near what is found has to be to what is expected, entry by entry."""
 
-from numpy.testing import assert_allclose
+from numpy.testing import assert_allclose, assert_array_equal
+
+
+def assert_same(found, expected):
+    """Every entry is the one that is expected."""
+    __tracebackhide__ = True
+    assert_array_equal(found, expected)
 
 
 def assert_within(found, expected, tolerance):

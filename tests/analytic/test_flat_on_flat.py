@@ -8,6 +8,7 @@ import pytest
 from quasistatic_ref import Box, ContactError
 from quasistatic_ref.contact.separations import BISECTOR, OF_PAIR, SAYS, UNIQUE_NORMAL
 from quasistatic_ref.tolerances import CLOSED_FORM
+from tests.closeness import assert_within
 from tests.oracles.bodies_by_hand import (
     BOX,
     EDGE,
@@ -41,7 +42,7 @@ def side_by_side(way, shape=BOX):
 
 def test_equal_gaps_of_zero_have_the_normal_between_and_deeper_ones_none():
     across = side_by_side([EDGE, 0.0, EDGE])
-    np.testing.assert_allclose(across.points.n, [[np.sqrt(0.5), 0, np.sqrt(0.5)]] * 8, atol=1e-15)
+    assert_within(across.points.n, [[np.sqrt(0.5), 0, np.sqrt(0.5)]] * 8, 1e-15)
     assert {*across.tied.values()} == {SAYS[BISECTOR]}
     with pytest.raises(ContactError, match=r"the bodies are as deep .* along \[1., 0., 0.\] as"):
         side_by_side([EDGE - 1e-3, 0.0, EDGE - 1e-3])

@@ -61,7 +61,7 @@ def points_of_alpha(low, top, R, place, nearest):
     alpha = np.array([*nearest, 0.01])
     points = crossings(a, b, alpha, alpha, UP)
     assert len(set(points.number.tolist())) == len(points.number)
-    np.testing.assert_allclose((points.beta - points.alpha)[:, :2], 0.0, atol=ROUNDING)
+    assert_within((points.beta - points.alpha)[:, :2], 0.0, ROUNDING)
     return sorted(points.alpha[:, :2].round(12).tolist())
 
 

@@ -16,6 +16,7 @@ from quasistatic_ref.contact.distance import (
 from quasistatic_ref.contact.pairs import RANKED
 from quasistatic_ref.contact.separations import OF_CLOUD
 from quasistatic_ref.tolerances import REPEATED
+from tests.closeness import assert_within
 from tests.contact.still import found_for, pair, placed_shape, standing_links
 
 Z = np.array([0.0, 0.0, 1.0])
@@ -74,7 +75,7 @@ def test_a_line_of_contact_has_its_ends_for_contacts_in_one_order(solid, yaw):
         found = closest_points([one], standing_links((noise @ R, t)))
         orders.add(tuple(found.point.tolist()))
         along = np.abs((found.beta[:2] - t) @ R[:, 2])
-        np.testing.assert_allclose(along, 0.05, atol=1e-12)
+        assert_within(along, 0.05, 1e-12)
     assert len(orders) == 1
 
 
@@ -145,5 +146,5 @@ def test_a_cloud_takes_the_face_along_which_it_is_farthest_out():
     cloud = PointCloud(np.array([[0.1, 0.0, 1.0], [0.1, 0.2, 1.0], [0.3, 0.0, 0.5]]) - t)
     solid = placed_shape(Box((0.1, 1.0, 1.0)))
     found = found_for(solid, placed_shape(cloud, 1), standing_links((np.eye(3), t)), 2)
-    np.testing.assert_allclose(found.n, [[1, 0, 0]] * 2, atol=1e-12)
+    assert_within(found.n, [[1, 0, 0]] * 2, 1e-12)
     assert found.tie.tolist() == [OF_CLOUD] * 2

@@ -9,6 +9,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError, QuasistaticError
 from quasistatic_ref.simulate.limits import Limits
+from tests.closeness import assert_same
 from tests.model.urdf.urdf_texts import collision, inertial, link, robot, urdf_of_text
 from tests.scenes import PUSH, written_scenario
 
@@ -167,5 +168,5 @@ def test_stiffness_in_each_form_is_the_same_matrix():
     diagonal = [1e3, 1e3, 1e3, 10.0, 10.0, 10.0]
     forms = np.diag(diagonal), diagonal, {"finger": diagonal}, {"finger/base": np.diag(diagonal)}
     for form in forms:
-        np.testing.assert_array_equal(simulator(K_q=form).K_q, np.diag(diagonal))
-    np.testing.assert_array_equal(simulator(K_q=7.0).K_q, 7.0 * np.eye(6))
+        assert_same(simulator(K_q=form).K_q, np.diag(diagonal))
+    assert_same(simulator(K_q=7.0).K_q, 7.0 * np.eye(6))

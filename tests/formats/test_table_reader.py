@@ -6,6 +6,7 @@ import pytest
 from quasistatic_ref import InputError, ScenarioError
 from quasistatic_ref.formats.table_reader import TableReader
 from tests.cases import cases
+from tests.closeness import assert_same
 
 READS = {
     "number NaN": ({"x": float("nan")}, lambda f: f.number("x"), "t.x: must be a finite"),
@@ -38,7 +39,7 @@ def test_arrays_become_float64_of_the_asked_shape():
     fields = TableReader({"a": [[1, 2], [3, 4]], "b": [], "c": [1, 2, 3]})
     a = fields.array("a", (2, None))
     assert a.dtype == np.float64
-    np.testing.assert_array_equal(a, [[1.0, 2.0], [3.0, 4.0]])
+    assert_same(a, [[1.0, 2.0], [3.0, 4.0]])
     assert fields.array("b", (0, 7)).shape == (0, 7)
     assert fields.array("c", (None,)).shape == (3,)
 

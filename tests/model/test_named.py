@@ -7,6 +7,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.lab.scenes.systems import RAIL
 from quasistatic_ref.model.rotation import quaternion, rotation
+from tests.closeness import assert_same, assert_within
 
 BLOCK = qr.Body.of_shape("block", qr.Box((0.1, 0.2, 0.3)), 2.0, xyz=(0.5, 0, 0.3))
 PUCK = qr.Body.of_shape("puck", qr.Sphere(0.1), 1.0, base="planar", xyz=(0, 1, 0.1))
@@ -25,7 +26,7 @@ RPY = np.array([0.2, -0.4, 1.3])
 def test_each_entry_stands_under_the_name_that_tables_give_it():
     q = np.arange(SYSTEM.n_q) * 1.0
     for joint in SYSTEM.joints:
-        np.testing.assert_array_equal(np.atleast_1d(SYSTEM.of(q, joint.name)), q[joint.q])
+        assert_same(np.atleast_1d(SYSTEM.of(q, joint.name)), q[joint.q])
         for i, position in enumerate(joint.positions):
             assert SYSTEM.of(q, position.name) == q[joint.q][i]
     delta_q = np.arange(SYSTEM.n_v) * 1.0
@@ -36,11 +37,9 @@ def test_each_entry_stands_under_the_name_that_tables_give_it():
 def test_a_trajectory_and_targets_have_the_same_names():
     q = np.arange(4.0 * SYSTEM.n_q).reshape(4, SYSTEM.n_q)
     start = SYSTEM.joint("block/base").q.start
-    np.testing.assert_array_equal(SYSTEM.of(q, "block.z"), q[:, start + 2])
+    assert_same(SYSTEM.of(q, "block.z"), q[:, start + 2])
     assert SYSTEM.of(q, "block").shape == (4, 7)
-    np.testing.assert_array_equal(
-        SYSTEM.of(q[:, : SYSTEM.n_q_a], "rail"), SYSTEM.of(q, "rail/slide")
-    )
+    assert_same(SYSTEM.of(q[:, : SYSTEM.n_q_a], "rail"), SYSTEM.of(q, "rail/slide"))
     for name in ("block", "block.x"):  # x is the first that is not actuated
         with pytest.raises(ModelError, match=f"q: cannot hold {name}: the last axis must have"):
             SYSTEM.of(q[:, : SYSTEM.n_q_a], name)
@@ -62,16 +61,16 @@ def test_named_values_are_where_kinematics_puts_the_links():
         "rail/slide": 0.25, "puck.y": 6.0,
     })  # fmt: skip
     R, t = SYSTEM.pose(q, "block")
-    np.testing.assert_allclose(R, rotation(RPY), atol=1e-15)
-    np.testing.assert_array_equal(t, [1, 2, 3])
+    assert_within(R, rotation(RPY), 1e-15)
+    assert_same(t, [1, 2, 3])
     R, t = SYSTEM.pose(q, "puck/solid")
-    np.testing.assert_allclose(R, rotation(np.array([0, 0, 0.7])), atol=1e-15)
-    np.testing.assert_array_equal(t, [4, 6, 0.1])  # the height of a planar base stays
+    assert_within(R, rotation(np.array([0, 0, 0.7])), 1e-15)
+    assert_same(t, [4, 6, 0.1])  # the height of a planar base stays
     R, _ = SYSTEM.pose(q, "wheel/rim")
-    np.testing.assert_allclose(R, rotation(np.array([0, 0, 2.5])), atol=1e-15)
+    assert_within(R, rotation(np.array([0, 0, 2.5])), 1e-15)
     assert SYSTEM.of(q, "rail/slide") == 0.25
     moved = SYSTEM.placed({"block": {"xyz": (0, 0, 9)}}, q)
-    np.testing.assert_array_equal(SYSTEM.of(moved, "block")[3:], quaternion(RPY))
+    assert_same(SYSTEM.of(moved, "block")[3:], quaternion(RPY))
     assert SYSTEM.of(moved, "puck.y") == 6.0
 
 
@@ -111,7 +110,7 @@ def test_the_power_of_a_load_is_force_times_velocity_of_its_point():
             power = force @ velocity + torque @ omega
             assert tau @ delta_q == pytest.approx(power, abs=1e-4)
             there = SYSTEM.integrate(q, 0.1 * delta_q)
-            np.testing.assert_allclose(SYSTEM.difference(q, there), 0.1 * delta_q, atol=1e-14)
+            assert_within(SYSTEM.difference(q, there), 0.1 * delta_q, 1e-14)
     with pytest.raises(ModelError, match="name: has a fixed base, so a load has no effect"):
         SYSTEM.load(q, "rail", force=(1, 0, 0))
 
@@ -135,9 +134,9 @@ def test_a_name_with_a_space_moves_its_own_joint():
     system = qr.System([qr.Body("arm", urdf, actuated="all", positions=positions)])
     stiffness = {"arm/left": 100.0, "arm/left knee": 200.0}
     simulator = qr.Simulator(system, [], h=0.01, K_q=stiffness)
-    np.testing.assert_array_equal(simulator.K_q, np.diag([100.0, 200.0]))
+    assert_same(simulator.K_q, np.diag([100.0, 200.0]))
     run = qr.rollout(simulator, system.q_start, {"arm/left": 0.5}, 3)
-    np.testing.assert_allclose(run.q[-1], [0.5, 0.2], atol=1e-15)
+    assert_within(run.q[-1], [0.5, 0.2], 1e-15)
     assert [system.of(system.q_start, name) for name in stiffness] == [0.1, 0.2]
     assert [drive.of.name for drive in run.account().drives] == ["arm/left", "arm/left knee"]
     wheel = qr.System([qr.Body("arm", arm("left [knee]", kind="continuous"), actuated="all")])
@@ -159,7 +158,7 @@ def test_a_name_that_two_things_have_is_refused_when_it_is_asked_for(names):
     with pytest.raises(ModelError, match=says):
         system.placed({"mug.x": MUG})
     q = system.placed({"mug.x/base": MUG})
-    np.testing.assert_array_equal(system.of(q, "mug.x/base"), [0, 0, 0.3, 0, 0, 0, 1])
+    assert_same(system.of(q, "mug.x/base"), [0, 0, 0.3, 0, 0, 0, 1])
     assert system.of(q, "mug.z") == 0
     assert system.of(q, "mug.x.z") == 0.3
     both = arm("wheel", "wheel.cos", kind="continuous")

@@ -7,6 +7,7 @@ import pytest
 
 from quasistatic_ref import InputError, load_scenario
 from tests.cases import cases
+from tests.closeness import assert_same
 from tests.model.urdf.urdf_texts import urdf_of_text
 from tests.scenes import BALL, written_scenario
 
@@ -33,8 +34,8 @@ def test_strings_mappings_and_keywords_say_the_same(path):
         assert (scenario.steps, scenario.h, scenario.cone) == (3, 0.02, "product")
         assert (scenario.backend, scenario.record) == ("piqp", "light")
         assert scenario.pairs[0].mu_v == 0.25
-        np.testing.assert_array_equal(scenario.gravity, [0, 0, -1.5])
-        np.testing.assert_array_equal(scenario.K_q, np.diag([7, 8.5]))
+        assert_same(scenario.gravity, [0, 0, -1.5])
+        assert_same(scenario.K_q, np.diag([7, 8.5]))
 
 
 def test_keywords_are_made_last_and_a_table_may_be_given_whole(path):

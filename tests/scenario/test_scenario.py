@@ -12,7 +12,7 @@ from quasistatic_ref import (
     load_scenario,
 )
 from tests.cases import cases
-from tests.closeness import assert_close, assert_relative, assert_within
+from tests.closeness import assert_close, assert_relative, assert_same, assert_within
 from tests.model.urdf.urdf_texts import joint, link, robot, urdf_of_text
 from tests.scenes import PUSH
 from tests.tolerances import ROUNDING
@@ -56,7 +56,7 @@ STIFFNESS = {
 
 @cases("line, expected", STIFFNESS)
 def test_stiffness_may_be_given_by_joint_or_by_body(load, line, expected):
-    np.testing.assert_array_equal(load((K_Q, line)).K_q, expected)
+    assert_same(load((K_Q, line)).K_q, expected)
 
 
 def test_stiffness_is_filled_in_by_joint_in_any_order_of_bodies(tmp_path):
@@ -71,7 +71,7 @@ def test_stiffness_is_filled_in_by_joint_in_any_order_of_bodies(tmp_path):
     stiffness = {"b/j": 10, "b/i": 20, "a/j": 30, "a/i": 40}
     names = [c.name for c in scenario.system.coordinates]
     assert sorted(names) == sorted(stiffness)
-    np.testing.assert_array_equal(np.diag(scenario.K_q), [stiffness[name] for name in names])
+    assert_same(np.diag(scenario.K_q), [stiffness[name] for name in names])
 
 
 def test_targets_are_the_waypoints(load):
@@ -82,7 +82,7 @@ def test_targets_are_the_waypoints(load):
 
 def test_a_waypoint_may_leave_joints_out(load):
     scenario = load(("t = 0.1\nslide = 0.02\nturn = 7.0", "t = 0.1\nturn = 7.0"))
-    np.testing.assert_array_equal(scenario.targets(0.05)[0], 0.0)
+    assert_same(scenario.targets(0.05)[0], 0.0)
 
 
 def test_wrenches_are_linear_in_time_and_act_at_the_centre_of_mass(load):
@@ -148,7 +148,7 @@ def test_shapes_of_the_world_have_the_sizes_that_are_written(load, line, expecte
     assert type(placed.shape) is type(expected)
     for key, value in vars(expected).items():
         assert_relative(getattr(placed.shape, key), value, ROUNDING)
-    np.testing.assert_array_equal(placed.t, [1, 2, 3])
+    assert_same(placed.t, [1, 2, 3])
     assert_within(placed.R, [[0, -1, 0], [1, 0, 0], [0, 0, 1]], ROUNDING)
 
 

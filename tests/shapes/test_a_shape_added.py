@@ -25,7 +25,7 @@ from quasistatic_ref.optional.show.figures.moments import moment
 from quasistatic_ref.scenario.world_solids import SOLIDS, Kind
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import lengths
-from tests.closeness import assert_relative
+from tests.closeness import assert_relative, assert_within
 from tests.errors.scene import SCENE, changed, scene_written
 from tests.tolerances import ROUNDING, SCENARIO
 
@@ -76,8 +76,8 @@ def test_its_distance_to_other_solids_is_that_of_the_faces(other):
     gap = 0.02
     above = ShapeInWorld(other, np.eye(3), np.array([0.01, 0.02, HALF[2] + RADIUS + gap + 0.05]))
     found = solid_pair("pad", ShapeInWorld(PAD, np.eye(3), np.zeros(3)), above)
-    np.testing.assert_allclose(found.phi, gap, atol=ROUNDING)
-    np.testing.assert_allclose(found.n, [0, 0, 1], atol=ROUNDING)
+    assert_within(found.phi, gap, ROUNDING)
+    assert_within(found.n, [0, 0, 1], ROUNDING)
 
 
 def test_edges_of_a_polytope_cross_outside_of_its_margin(monkeypatch):
@@ -95,7 +95,7 @@ def test_edges_of_a_polytope_cross_outside_of_its_margin(monkeypatch):
             near = solid_pair("pair", a, b)
             found = crossings_of.crossings(a, b, near.alpha, near.beta, near.n)
             gaps = (found.beta - found.alpha) @ near.n
-            np.testing.assert_allclose(gaps, [0.001] * 4, atol=ROUNDING)
+            assert_within(gaps, [0.001] * 4, ROUNDING)
             assert_relative(near.phi, 0.001, 1e-12)
 
 
@@ -113,7 +113,7 @@ def test_a_ball_comes_to_rest_on_it_in_a_scenario(scene):
     scenario = load_scenario(scene)
     run = scenario.run()
     # The wrench of the scene is along y and about z: in contact the load is the weight, m g.
-    np.testing.assert_allclose(run["phi"][0, 0], 0.0, atol=ROUNDING)
+    assert_within(run["phi"][0, 0], 0.0, ROUNDING)
     assert_relative(run["wrench"][0, 0, 2], 0.3 * 9.81, SCENARIO)
 
 

@@ -10,7 +10,7 @@ from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.simulate.target import JointTrack, Targets
 from quasistatic_ref.simulate.user_functions import target_function
 from tests.cases import cases
-from tests.closeness import assert_close
+from tests.closeness import assert_close, assert_within
 from tests.tolerances import DIFFERENCE, ROUNDING
 
 TIMES = np.array([1.0, 2.0, 4.0])
@@ -74,9 +74,9 @@ def test_targets_of_many_steps_have_the_bits_of_each(scene, rng):
         assert q_bar_a.tobytes() == one.tobytes()
     slide = scene.joint("desk/slide").q.start
     t = h * np.arange(1, steps + 1)
-    np.testing.assert_allclose(
+    assert_within(
         np.array(found)[:, slide], np.interp(t, TIMES, tracks[2].values[:, 0]),
-        rtol=0, atol=ROUNDING,
+        ROUNDING,
     )  # fmt: skip
 
 

@@ -17,6 +17,7 @@ from quasistatic_ref.cli.run import worst_residual
 from quasistatic_ref.optional.fast import joined
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.header import header_table
+from tests.closeness import assert_same
 from tests.scenes import written_scenario
 
 SHAPES = {
@@ -49,8 +50,8 @@ def run(scenario):
 
 def test_the_first_axis_is_the_step_and_q_has_the_start_as_well(scenario, run):
     assert {name: array.shape for name, array in run.arrays.items()} == SHAPES
-    np.testing.assert_array_equal(run["q"][0], scenario.system.q_start)
-    np.testing.assert_array_equal(run["t"], [(k + 1) * 0.01 for k in range(5)])
+    assert_same(run["q"][0], scenario.system.q_start)
+    assert_same(run["t"], [(k + 1) * 0.01 for k in range(5)])
 
 
 def test_a_recorded_step_is_the_one_that_was_solved(scenario, run):
@@ -62,7 +63,7 @@ def test_a_recorded_step_is_the_one_that_was_solved(scenario, run):
         q = run["q"][k]
         solved = simulator.step(q, targets(t), force(t, q))
         assert run.step_data(k) == solved.step
-        np.testing.assert_array_equal(run["delta_q"][k], solved.solution.delta_q)
+        assert_same(run["delta_q"][k], solved.solution.delta_q)
 
 
 @pytest.mark.parametrize("changes", [["cone=ellipsoid"], ["cone=facets-6"], []])
@@ -103,7 +104,7 @@ def test_a_file_read_back_is_the_same_bits(tmp_path, run):
     assert set(back.arrays) == SHAPES.keys()
     for name, array in run.arrays.items():
         assert back[name].dtype == array.dtype
-        np.testing.assert_array_equal(back[name], array)
+        assert_same(back[name], array)
         assert back[name].tobytes() == np.ascontiguousarray(array).tobytes()
     for k in range(run.steps):
         assert back.step_data(k) == run.step_data(k)
@@ -156,7 +157,7 @@ def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
     light = load_scenario(folder / "scene.toml", ["record=light"], fast=True).run()
     assert set(light.arrays) == SHAPES.keys() - PROGRAMS
     back = load_trajectory(save_trajectory(tmp_path / "run.npz", light))
-    np.testing.assert_array_equal(back["q"], run["q"])
+    assert_same(back["q"], run["q"])
     with pytest.raises(InputError, match="a light record has no quadratic programs"):
         back.step_data(0)
 

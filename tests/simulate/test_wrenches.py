@@ -9,7 +9,7 @@ import pytest
 
 from quasistatic_ref import InputError, ModelError, load_scenario, load_trajectory, save_trajectory
 from quasistatic_ref.simulate.scene import Scene
-from tests.closeness import assert_close, assert_relative
+from tests.closeness import assert_close, assert_relative, assert_same, assert_within
 from tests.scenes import SWING, written_scenario
 from tests.tolerances import ROUNDING
 
@@ -55,8 +55,8 @@ def test_forces_of_pairs_add_up_to_those_of_the_body(scenario, run):
     forces = run.pair_forces()
     assert list(forces) == [pair.name for pair in scenario.pairs]
     floor, push = forces.values()
-    np.testing.assert_allclose(floor + push, run.forces_on("ball")[:, :3], atol=ROUNDING)
-    np.testing.assert_allclose(-push, run.forces_on("rail")[:, :3], atol=ROUNDING)
+    assert_within(floor + push, run.forces_on("ball")[:, :3], ROUNDING)
+    assert_within(-push, run.forces_on("rail")[:, :3], ROUNDING)
     assert_relative(floor[:, 2], run.forces[:, 0, 2], ROUNDING)
     # Multipliers are unique here: the compliance alone makes a difference.
     off = np.abs(run.forces - run["wrench"]).max()
@@ -65,23 +65,23 @@ def test_forces_of_pairs_add_up_to_those_of_the_body(scenario, run):
 
 def test_a_record_of_forces_has_those_of_the_steps(scenario, run, tmp_path):
     kept = load_scenario(scenario.path, steps=40, fast=True, record="forces").run()
-    np.testing.assert_array_equal(kept["forces"], run.forces)
+    assert_same(kept["forces"], run.forces)
     read = load_trajectory(save_trajectory(tmp_path / "forces.npz", kept))
-    np.testing.assert_array_equal(read.forces, kept.forces)
+    assert_same(read.forces, kept.forces)
     assert "A" not in read.arrays
-    np.testing.assert_array_equal(read.step_forces(3), run.forces[3])
+    assert_same(read.step_forces(3), run.forces[3])
     for name, force in run.pair_forces().items():
-        np.testing.assert_array_equal(read.pair_forces()[name], force)
+        assert_same(read.pair_forces()[name], force)
 
 
 @pytest.mark.parametrize("fast", [False, True])
 def test_a_full_record_holds_no_forces_and_files_that_do_are_read(scenario, run, tmp_path, fast):
     full = load_scenario(scenario.path, steps=40, fast=fast).run()
     assert "forces" not in full.arrays
-    np.testing.assert_array_equal(full.forces, run.forces)
+    assert_same(full.forces, run.forces)
     stored = replace(full, arrays={**full.arrays, "forces": full.forces + 1.0})
     read = load_trajectory(save_trajectory(tmp_path / "stored.npz", stored))
-    np.testing.assert_array_equal(read.forces, full.forces + 1.0)
+    assert_same(read.forces, full.forces + 1.0)
 
 
 def test_a_light_record_holds_no_forces(scenario):
@@ -95,11 +95,11 @@ def test_a_result_has_the_forces_by_contact_pair_and_body(scenario, run, fast):
     simulator = load_scenario(scenario.path, fast=fast).simulator()
     k = int(np.argmax(run["wrench"][:, 1, 2]))
     result = simulator.step(run["q"][k], run["q_bar_a"][k])
-    np.testing.assert_array_equal(result.forces, run.forces[k])
+    assert_same(result.forces, run.forces[k])
     for name, force in run.pair_forces().items():
-        np.testing.assert_array_equal(result.pair_forces()[name], force[k])
+        assert_same(result.pair_forces()[name], force[k])
     for name in ("ball", "rail/plate"):
-        np.testing.assert_array_equal(result.forces_on(name), run.forces_on(name)[k])
+        assert_same(result.forces_on(name), run.forces_on(name)[k])
     with pytest.raises(InputError, match="scene: is not known: this result is a copy"):
         pickle.loads(pickle.dumps(result)).pair_forces()
 
@@ -113,7 +113,7 @@ def test_a_trajectory_from_a_file_or_a_pickle_is_given_its_scene(scenario, run, 
             other.wrench_on("ball")
         scenes = (scenario, scenario.simulator(), Scene(scenario.system, scenario.pairs))
         for scene in scenes:
-            np.testing.assert_array_equal(other.wrench_on("ball", scene), run.wrench_on("ball"))
+            assert_same(other.wrench_on("ball", scene), run.wrench_on("ball"))
     assert copy.copy(run)["q"] is run["q"]
 
 

@@ -14,6 +14,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.solve import backends
 from quasistatic_ref.solve.choice import solver_for
+from tests.closeness import assert_within
 from tests.helpers import one_sentence, pinch
 
 STEP = pinch()
@@ -67,7 +68,7 @@ def test_a_function_solves_steps_as_a_backend_does():
     assert (said.interface, said.status) == ("function", "optimal")
     assert said.digits > 9
     residual = qr.solve_step(STEP, by_daqp, certify="residual")
-    np.testing.assert_allclose(residual.delta_q, EXACT.delta_q, atol=1e-9)
+    assert_within(residual.delta_q, EXACT.delta_q, 1e-9)
     solver = pickle.loads(pickle.dumps(solver_for(STEP, by_daqp)))
     assert solver.fits(STEP)
     again = qr.solve_step(STEP, solver)

@@ -11,6 +11,7 @@ from quasistatic_ref.solve import step_problem
 from quasistatic_ref.solve.backends import installed_backends
 from quasistatic_ref.solve.problem_data import problem_data
 from quasistatic_ref.tolerances import UNMOVED
+from tests.closeness import assert_same, assert_within
 from tests.helpers import pinch, random_step, sphere_on_floor
 
 WEIGHT = (0.3, 0.0, -2.943, 0.0, 0.0, 1e-3)
@@ -43,8 +44,8 @@ def test_solve_is_right_in_si_units(name, solver):
     size = np.abs(np.linalg.solve(step.H, qr.standard_form(step).g)).max() or UNMOVED
     for called in (solver, solver.upper()):
         found = page.solve(called)
-        np.testing.assert_allclose(found, exact.delta_q, atol=1e-6 * size)
-        np.testing.assert_array_equal(page.primal(), found)
+        assert_within(found, exact.delta_q, 1e-6 * size)
+        assert_same(page.primal(), found)
     lam = exact.lam
     assert page.dual().sum() == pytest.approx(lam.sum(), rel=1e-4, abs=1e-9)
     assert page.problem.status == cp.OPTIMAL
@@ -61,10 +62,10 @@ def test_the_ellipsoid_is_solved_with_its_multipliers():
     exact = qr.solve_step(step)
     size = np.abs(exact.delta_q).max()
     for solver in ("clarabel", "scs"):
-        np.testing.assert_allclose(page.solve(solver), exact.delta_q, atol=1e-6 * size)
+        assert_within(page.solve(solver), exact.delta_q, 1e-6 * size)
         form = qr.standard_form(step)
         load = form.H @ page.primal() - form.g
-        np.testing.assert_allclose(form.A.T @ page.dual(), load, atol=1e-6 * np.abs(load).max())
+        assert_within(form.A.T @ page.dual(), load, 1e-6 * np.abs(load).max())
     with pytest.raises(qr.BackendError, match="accepts only linear rows"):
         page.solve("piqp")
 
@@ -99,7 +100,7 @@ def test_a_curved_constraint_a_cost_and_a_variable_of_a_user_are_obeyed():
         ]
 
     page = qr.StepProblem(step, additions)
-    np.testing.assert_allclose(page.solve()[:2], [2e-3, 0.0], atol=1e-9)
+    assert_within(page.solve()[:2], [2e-3, 0.0], 1e-9)
     assert page.problem.value == pytest.approx(page.problem.objective.value, rel=1e-12)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from quasistatic_ref import Box, Cone, Cylinder, Extra, Simulator, Sphere, load_scenario
 from quasistatic_ref.formats.plain import Plain, bits
 from tests.cases import cases
+from tests.closeness import assert_same
 from tests.scenes import written_scenario
 from tests.step.public_data import contradiction_error
 
@@ -74,7 +75,7 @@ def test_a_copy_of_a_simulator_has_every_setting(things, trip):
     assert again.pop("pairs") == tuple(scenario.pairs)
     assert set(again) == set(given)
     for name, value in given.items():
-        np.testing.assert_array_equal(again[name], value)
+        assert_same(again[name], value)
 
 
 def test_what_a_solver_took_of_the_clock_is_not_compared_but_copied(things):

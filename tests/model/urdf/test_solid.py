@@ -14,6 +14,7 @@ from quasistatic_ref import (
     System,
 )
 from tests.cases import cases
+from tests.closeness import assert_same, assert_within
 from tests.oracles.coal_solids import coal_solid
 from tests.scenes import BALL
 from tests.tolerances import ROUNDING
@@ -38,15 +39,13 @@ def test_a_body_of_a_shape_is_a_free_solid_about_its_centre(shape):
     expected = MASS * np.eye(6)
     solid = coal_solid(shape)
     expected[3:, 3:] = MASS / solid.computeVolume() * solid.computeMomentofInertia()
-    np.testing.assert_allclose(
-        system.M_u(system.q_start), expected, rtol=ROUNDING, atol=ROUNDING * MASS
-    )
+    assert_within(system.M_u(system.q_start), expected, ROUNDING * MASS)
     (placed,) = system.shapes
     assert placed.name == "it/solid#0"
     assert repr(placed.shape) == repr(shape)  # to the last bit
-    np.testing.assert_array_equal(placed.R, np.eye(3))
-    np.testing.assert_array_equal(placed.t, np.zeros(3))
-    np.testing.assert_array_equal(system.q_start[:3], [1, 2, 3])
+    assert_same(placed.R, np.eye(3))
+    assert_same(placed.t, np.zeros(3))
+    assert_same(system.q_start[:3], [1, 2, 3])
     assert (system.n_a, system.n_u) == (0, 6)
 
 
