@@ -4,48 +4,196 @@ The model is that of Tracy & Manchester, "Convex Quasi-Dynamic Simulation of Rig
 Clouds with Torsional Friction"; equation numbers everywhere in this package are the paper's.
 docs/contributing.md, "Read the code", names the files of a step in the order of its calls.
 
-The names that ``__init__.pyi`` re-exports are loaded on first use, so that ``import quasistatic_ref
-as qr`` is cheap and ``step``, ``certify`` and ``solve`` work where pinocchio and coal are not
-installed. None of them is the name of a sub-package, which Python would put in its place once that
-is imported, but ``figures``, which is that module.
+The names below are loaded on first use, so that ``import quasistatic_ref as qr`` is cheap and
+``step``, ``certify`` and ``solve`` work where pinocchio and coal are not installed. None of them
+is the name of a sub-package, which Python would put in its place once that is imported, but
+``figures``, which is that module.
 """
 
-import ast
 from importlib import import_module
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 __version__ = "0.1.0"
 
+_HOMES = {
+    # A scene.
+    "model.system": "System",
+    "model.body": "Body",
+    "shapes.placed_shape": "Sphere Box Cylinder Capsule Cone Ellipsoid HalfSpace PointCloud "
+    "PlacedShape",
+    "shapes.convex_mesh": "convex_hull",
+    "contact.pairs": "ContactPair",
+    # Steps in sequence.
+    "simulate.result": "StepResult",
+    "simulate.limits": "Limits",
+    "simulate.simulator": "Simulator",
+    "optional.fast.simulator": "FastSimulator",
+    "optional.derivatives.derivatives": "derivatives",
+    "optional.derivatives.smoothed": "smoothed",
+    "optional.derivatives.step_jax": "step_jax smoothed_jax",
+    "simulate.rollout": "rollout",
+    "simulate.recorder": "Recorder",
+    "simulate.observer": "Observer",
+    "simulate.finding": "Finding",
+    "simulate.trajectory": "Trajectory load_trajectory save_trajectory",
+    "scenario.scenario": "Scenario load_scenario",
+    "optional.scans.body": "scanned_body",
+    # One step and its answer.
+    "step.data": "StepData Contacts Extra",
+    "step.files": "load_step save_step",
+    "solve.step_problem": "StepProblem",
+    "step.standard_form": "standard_form",
+    "optional.extensions.extension": "Extension Symbols",
+    "certify.solution": "StepSolution SolverStatistics",
+    "certify.solution_files": "SolutionFile load_solution save_solution",
+    "solve.solve": "solve_step",
+    "optional.guests.mujoco": "mujoco_step",
+    "optional.guests.mujoco_opinion": "mujoco_opinion",
+    "optional.guests.scene": "mujoco_scenario",
+    "optional.coulomb.fixed_point": "coulomb_step CoulombSolution NoFixedPoint",
+    "certify.certificate": "Certificate",
+    "certify.residuals": "Residuals optimality_residuals",
+    "certify.verification": "verify verify_answer",
+    "certify.verdict": "Verdict",
+    "certify.contact_forces": "ContactForces",
+    "optional.forces.forces": "contact_forces",
+    # A run in pictures and numbers.
+    "optional.show.figures.animation": "animate",
+    "optional.show.figures.draw": "draw_scene draw_scenes",
+    "optional.show.figures.viewer": "save_view",
+    "optional.doctor.motions": "relative_turn",
+    # What can go wrong.
+    "errors": "QuasistaticError InputError MissingKey StepDataError ModelError ContactError "
+    "ScenarioError BackendError",
+    "optional.derivatives.step.reason": "NotDifferentiable",
+    "certify.failures": "StepNotSolved StepInfeasible StepIllPosed",
+    "simulate.failures": "LimitExceeded RunFailed",
+}
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 
-def homes(module: str) -> dict[str, str]:
-    """The names that the stub of a module re-exports, and the modules that they come from.
-
-    Parameters
-    ----------
-    module : str
-        Its file, beside which the stub stands.
-    """
-    stub = ast.parse(Path(module).with_suffix(".pyi").read_text("utf-8"))
-    return {
-        name.name: str(statement.module)
-        for statement in stub.body
-        if isinstance(statement, ast.ImportFrom)
-        for name in statement.names
-    }
+__all__ = ["__version__", "figures", *sorted(_HOME)]
 
 
-_HOME = homes(__file__)
+if TYPE_CHECKING:  # what editors and type checkers see: the same names, with their types
+    from quasistatic_ref import figures as figures
+    from quasistatic_ref.certify.certificate import Certificate as Certificate
+    from quasistatic_ref.certify.contact_forces import ContactForces as ContactForces
+    from quasistatic_ref.certify.failures import (
+        StepIllPosed as StepIllPosed,
+        StepInfeasible as StepInfeasible,
+        StepNotSolved as StepNotSolved,
+    )
+    from quasistatic_ref.certify.residuals import (
+        Residuals as Residuals,
+        optimality_residuals as optimality_residuals,
+    )
+    from quasistatic_ref.certify.solution import (
+        SolverStatistics as SolverStatistics,
+        StepSolution as StepSolution,
+    )
+    from quasistatic_ref.certify.solution_files import (
+        SolutionFile as SolutionFile,
+        load_solution as load_solution,
+        save_solution as save_solution,
+    )
+    from quasistatic_ref.certify.verdict import Verdict as Verdict
+    from quasistatic_ref.certify.verification import (
+        verify as verify,
+        verify_answer as verify_answer,
+    )
+    from quasistatic_ref.contact.pairs import ContactPair as ContactPair
+    from quasistatic_ref.errors import (
+        BackendError as BackendError,
+        ContactError as ContactError,
+        InputError as InputError,
+        MissingKey as MissingKey,
+        ModelError as ModelError,
+        QuasistaticError as QuasistaticError,
+        ScenarioError as ScenarioError,
+        StepDataError as StepDataError,
+    )
+    from quasistatic_ref.model.body import Body as Body
+    from quasistatic_ref.model.system import System as System
+    from quasistatic_ref.optional.coulomb.fixed_point import (
+        CoulombSolution as CoulombSolution,
+        NoFixedPoint as NoFixedPoint,
+        coulomb_step as coulomb_step,
+    )
+    from quasistatic_ref.optional.derivatives.derivatives import derivatives as derivatives
+    from quasistatic_ref.optional.derivatives.smoothed import smoothed as smoothed
+    from quasistatic_ref.optional.derivatives.step.reason import (
+        NotDifferentiable as NotDifferentiable,
+    )
+    from quasistatic_ref.optional.derivatives.step_jax import (
+        smoothed_jax as smoothed_jax,
+        step_jax as step_jax,
+    )
+    from quasistatic_ref.optional.extensions.extension import (
+        Extension as Extension,
+        Symbols as Symbols,
+    )
+    from quasistatic_ref.optional.fast.simulator import FastSimulator as FastSimulator
+    from quasistatic_ref.optional.forces.forces import contact_forces as contact_forces
+    from quasistatic_ref.optional.guests.mujoco import mujoco_step as mujoco_step
+    from quasistatic_ref.optional.guests.mujoco_opinion import mujoco_opinion as mujoco_opinion
+    from quasistatic_ref.optional.guests.scene import mujoco_scenario as mujoco_scenario
+    from quasistatic_ref.optional.scans.body import scanned_body as scanned_body
+    from quasistatic_ref.optional.show.figures.animation import animate as animate
+    from quasistatic_ref.optional.show.figures.draw import (
+        draw_scene as draw_scene,
+        draw_scenes as draw_scenes,
+    )
+    from quasistatic_ref.optional.show.figures.viewer import save_view as save_view
+    from quasistatic_ref.scenario.scenario import (
+        Scenario as Scenario,
+        load_scenario as load_scenario,
+    )
+    from quasistatic_ref.shapes.convex_mesh import convex_hull as convex_hull
+    from quasistatic_ref.shapes.placed_shape import (
+        Box as Box,
+        Capsule as Capsule,
+        Cone as Cone,
+        Cylinder as Cylinder,
+        Ellipsoid as Ellipsoid,
+        HalfSpace as HalfSpace,
+        PlacedShape as PlacedShape,
+        PointCloud as PointCloud,
+        Sphere as Sphere,
+    )
+    from quasistatic_ref.simulate.failures import (
+        LimitExceeded as LimitExceeded,
+        RunFailed as RunFailed,
+    )
+    from quasistatic_ref.simulate.finding import Finding as Finding
+    from quasistatic_ref.simulate.limits import Limits as Limits
+    from quasistatic_ref.optional.doctor.motions import relative_turn as relative_turn
+    from quasistatic_ref.simulate.observer import Observer as Observer
+    from quasistatic_ref.simulate.recorder import Recorder as Recorder
+    from quasistatic_ref.simulate.result import StepResult as StepResult
+    from quasistatic_ref.simulate.rollout import rollout as rollout
+    from quasistatic_ref.simulate.simulator import Simulator as Simulator
+    from quasistatic_ref.simulate.trajectory import (
+        Trajectory as Trajectory,
+        load_trajectory as load_trajectory,
+        save_trajectory as save_trajectory,
+    )
+    from quasistatic_ref.solve.solve import solve_step as solve_step
+    from quasistatic_ref.solve.step_problem import StepProblem as StepProblem
+    from quasistatic_ref.step.data import Contacts as Contacts, Extra as Extra, StepData as StepData
+    from quasistatic_ref.step.files import load_step as load_step, save_step as save_step
+    from quasistatic_ref.step.standard_form import standard_form as standard_form
+else:
 
-__all__ = ["__version__", *sorted(_HOME)]
-
-
-def __getattr__(name: str) -> object:
-    if name == "figures":
-        return import_module(f"{__name__}.figures")
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    with import_module(f"{__name__}.parts").needing(name):
-        return getattr(import_module(_HOME[name]), name)
+    def __getattr__(name: str) -> object:
+        if name == "figures":
+            return import_module(f"{__name__}.figures")
+        if name not in _HOME:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        home = _HOME[name]
+        if home.startswith("optional."):
+            with import_module(f"{__name__}.parts").needing(name):
+                return getattr(import_module(f"{__name__}.{home}"), name)
+        return getattr(import_module(f"{__name__}.{home}"), name)
 
 
 def __dir__() -> list[str]:

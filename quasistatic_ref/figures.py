@@ -1,20 +1,31 @@
 """Figures of contacts and of moments of a run: ``qr.figures``, each loaded on first use."""
 
 from importlib import import_module
+from typing import TYPE_CHECKING
 
-from quasistatic_ref import homes
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import OPTIONAL, needing
 
-_HOME = homes(__file__)
+_HOME = {
+    "cone_with_load": "friction_cone",
+    "moment": "moments",
+    "stick_slip_map": "contact_pictures",
+}
 
 __all__ = sorted(_HOME)
 
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.show.figures.contact_pictures import (
+        stick_slip_map as stick_slip_map,
+    )
+    from quasistatic_ref.optional.show.figures.friction_cone import cone_with_load as cone_with_load
+    from quasistatic_ref.optional.show.figures.moments import moment as moment
+else:
 
-def __getattr__(name: str) -> object:
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    with needing(f"figures.{name}"):
-        return getattr(import_module(_HOME[name]), name)
+    def __getattr__(name: str) -> object:
+        if name not in _HOME:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        with needing(f"figures.{name}"):
+            return getattr(import_module(f"{OPTIONAL}.show.figures.{_HOME[name]}"), name)
 
 
 def __dir__() -> list[str]:

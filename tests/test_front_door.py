@@ -45,7 +45,7 @@ for folder in ("simulate", "solve", "cli.main"):  # each before and after the na
         values = {name: getattr(qr, name) for name in names}
         if then: importlib.import_module(f"quasistatic_ref.{then}")
         for name, value in values.items():
-            home = importlib.import_module(qr._HOME[name])
+            home = importlib.import_module(f"quasistatic_ref.{qr._HOME[name]}")
             assert value is getattr(home, name) is getattr(qr, name), (name, folder)
 print("good")
 """
@@ -109,6 +109,21 @@ def test_the_names_are_those_that_dir_shows():
 def typed_only(block):
     """Whether a part of a module is for type checkers alone."""
     return isinstance(block, ast.If) and getattr(block.test, "id", "") == "TYPE_CHECKING"
+
+
+def test_type_checkers_see_the_names_of_the_tables_of_homes():
+    seen = {
+        (name.name, name.asname, home.module)
+        for door in (qr, figures)
+        for block in filter(typed_only, ast.parse(inspect.getsource(door)).body)
+        for home in block.body
+        for name in home.names
+    }
+    homes = {(name, name, f"quasistatic_ref.{home}") for name, home in qr._HOME.items()}
+    drawn = "quasistatic_ref.optional.show.figures."
+    homes |= {(name, name, drawn + home) for name, home in figures._HOME.items()}
+    alike = "a name stands in its table of homes, and in the re-exports below the table"
+    assert seen == homes | {("figures", "figures", "quasistatic_ref")}, alike
 
 
 def test_arguments_that_type_checkers_see_are_those_that_there_are():
