@@ -1,7 +1,20 @@
 """Processes that tests start, and wait for."""
 
+import subprocess
+import sys
 import time
 from pathlib import Path
+
+from tests.pages import ROOT
+
+
+def python(*arguments, status=0, cwd=ROOT, env=None):
+    """An interpreter of its own, once it has ended with the exit status that is expected."""
+    done = subprocess.run(
+        [sys.executable, *arguments], cwd=cwd, env=env, capture_output=True, text=True, timeout=600
+    )
+    assert done.returncode == status, done.stdout + done.stderr
+    return done
 
 
 def has_ended(pid):

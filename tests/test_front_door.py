@@ -4,12 +4,10 @@ import ast
 import doctest
 import inspect
 import re
-import subprocess
 import sys
 import tempfile
 from importlib import import_module
 from operator import attrgetter
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,8 +15,9 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref import figures
 from tests.extras import marked_parameters
+from tests.pages import PACKAGE, ROOT
+from tests.processes import python
 
-PACKAGE = Path(qr.__file__).parent
 NAMES = [name for name in qr.__all__ if name not in {"__version__", "figures"}]
 FIGURES = [f"figures.{name}" for name in figures.__all__]
 JAX = "smoothed_jax", "step_jax"
@@ -93,13 +92,6 @@ qr.solve_stepp  # type: ignore[attr-defined]  # misspelt: mypy has to see it
 """What users write: the last two lines are needed errors, so that nothing here is of any type."""
 
 
-def run(*arguments):
-    command = [sys.executable, *arguments]
-    return subprocess.run(
-        command, capture_output=True, text=True, timeout=600, cwd=PACKAGE.parent, check=False
-    )
-
-
 def test_the_names_are_those_that_dir_shows():
     assert dir(qr) == sorted(qr.__all__)
     assert set(ASKED.split()) <= set(dir(qr))
@@ -132,7 +124,7 @@ def test_arguments_that_type_checkers_see_are_those_that_there_are():
     for path in PACKAGE.rglob("*.py"):
         if "TYPE_CHECKING:  # what is made of lists" not in (text := path.read_text("utf-8")):
             continue
-        place = path.relative_to(PACKAGE.parent).with_suffix("")
+        place = path.relative_to(ROOT).with_suffix("")
         for node in (node for node in ast.parse(text).body if isinstance(node, ast.ClassDef)):
             for block in filter(typed_only, node.body):
                 (init,) = block.body
@@ -148,7 +140,7 @@ def test_arguments_that_type_checkers_see_are_those_that_there_are():
 
 
 def test_nothing_is_imported_with_the_package():
-    done = run("-c", "import sys, quasistatic_ref; print(*sys.modules)")
+    done = python("-c", "import sys, quasistatic_ref; print(*sys.modules)")
     loaded = set(done.stdout.split())
     assert not loaded & {"numpy", "cvxpy", "pinocchio", "coal"}
     assert {name for name in loaded if name.startswith("quasistatic_ref.")} == set()
@@ -156,12 +148,10 @@ def test_nothing_is_imported_with_the_package():
 
 @pytest.mark.long
 def test_a_user_s_file_has_types(tmp_path):
-    readme = (PACKAGE.parent / "README.md").read_text("utf-8")
+    readme = (ROOT / "README.md").read_text("utf-8")
     (tmp_path / "readme.py").write_text(re.search(r"```python\n(.*?)```", readme, re.S)[1], "utf-8")
     (tmp_path / "users.py").write_text(USERS, "utf-8")
-    command = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "readme.py", "users.py"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout
+    python("-m", "mypy", "--strict", "--config-file=", "readme.py", "users.py", cwd=tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -204,8 +194,7 @@ def test_no_name_is_that_of_a_module_which_python_would_put_in_its_place():
 
 @pytest.mark.long
 def test_every_name_is_reliable_in_every_order_of_imports():
-    done = run("-W", "error", "-c", BEFORE_OR_AFTER)
-    assert (done.returncode, done.stdout.strip()) == (0, "good"), done.stderr
+    assert python("-W", "error", "-c", BEFORE_OR_AFTER).stdout == "good\n"
 
 
 def test_an_unknown_name_is_an_attribute_error():
@@ -214,8 +203,6 @@ def test_an_unknown_name_is_an_attribute_error():
 
 
 def test_python_m_is_the_command_line():
-    done = run("-m", "quasistatic_ref", "--version")
-    assert (done.returncode, done.stdout.strip()) == (0, qr.__version__), done.stderr
-    bad = run("-m", "quasistatic_ref", "run", "no_such_scenario")
-    assert bad.returncode == 2
-    assert "no_such_scenario" in bad.stderr
+    command = "-m", "quasistatic_ref"
+    assert python(*command, "--version").stdout.strip() == qr.__version__
+    assert "no_such_scenario" in python(*command, "run", "no_such_scenario", status=2).stderr

@@ -7,14 +7,13 @@ looks at them. Outputs are not compared: they depend on the machine.
 import json
 import re
 import runpy
-import subprocess
-import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import pytest
 
 from tests.extras import marked_as_long
+from tests.processes import python
 
 FOLDER = Path(__file__).parents[1] / "docs" / "notebooks"
 SCRIPTS = sorted(FOLDER.glob("*.py"))
@@ -48,8 +47,7 @@ def test_a_script_runs(script, monkeypatch):
 def test_a_script_runs_without_a_robot_library():
     blocked = 'import runpy, sys; sys.modules["pinocchio"] = sys.modules["coal"] = None; '
     run = f"{blocked}runpy.run_path({str(FOLDER / f'{WITHOUT_ROBOTS}.py')!r})"
-    done = subprocess.run([sys.executable, "-c", run], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
+    python("-c", run)
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)

@@ -1,7 +1,6 @@
 """Optional parts can be taken away: the grasp keeps its bits, and a word that needs one says so."""
 
 import shutil
-import subprocess
 import sys
 from dataclasses import replace
 from importlib import import_module
@@ -23,10 +22,11 @@ from quasistatic_ref.simulate.trajectory import load_trajectory
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 from tests.helpers import random_step
+from tests.pages import PACKAGE, ROOT
+from tests.processes import python
 from tests.tolerances import ROUNDING
 
-PACKAGE = Path(qr.__file__).parent
-MODELS = PACKAGE.parent / "models"
+MODELS = ROOT / "models"
 PARTS = sorted(path.parent.name for path in PACKAGE.glob("optional/*/__init__.py"))
 GRASP = "bunny_grasp"
 
@@ -43,8 +43,7 @@ def copied(tmp_path_factory):
 
 def grasp(copied):
     """The bits of all arrays of the first steps of the grasp, by a copy of the package."""
-    command = [sys.executable, "-m", "quasistatic_ref", "run", GRASP, "--set", "steps=40"]
-    subprocess.run(command, cwd=copied, check=True)
+    python("-m", "quasistatic_ref", "run", GRASP, "--set", "steps=40", cwd=copied)
     with np.load(copied / "results" / f"{GRASP}.npz") as file:
         return {name: file[name].tobytes() for name in file.files if name != "header"}
 

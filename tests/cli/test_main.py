@@ -3,7 +3,6 @@
 import errno
 import json
 import os
-import subprocess
 import sys
 
 import pytest
@@ -12,6 +11,7 @@ from quasistatic_ref import save_step
 from quasistatic_ref.cli import solve as solve_command
 from quasistatic_ref.cli.main import COMMANDS, main
 from tests.helpers import one_sentence, point_on_floor
+from tests.processes import python
 
 
 def test_any_command_can_be_interrupted(tmp_path, cli, monkeypatch):
@@ -89,7 +89,7 @@ def test_help_does_not_pay_for_heavy_imports(arguments):
         f"    loaded = [name for name in {HEAVY!r} if name in sys.modules]\n"
         "    print('loaded:', loaded, file=sys.stderr)\n"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    done = python("-c", code)
     assert done.stderr == "loaded: []\n"
     assert done.stdout
 
@@ -110,8 +110,7 @@ def test_ctrl_c_while_packages_are_imported_is_one_sentence(package):
         "sys.argv = ['quasistatic-ref', 'verify', 'no.json', 'no.json']\n"
         "runpy.run_module('quasistatic_ref', run_name='__main__')\n"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (130, "quasistatic-ref: interrupted\n")
+    assert python("-c", code, status=130).stderr == "quasistatic-ref: interrupted\n"
 
 
 def test_only_the_first_word_is_a_command(scene, tmp_path, monkeypatch, cli):

@@ -3,15 +3,13 @@
 import statistics
 import sys
 from inspect import CO_GENERATOR
-from pathlib import Path
 
 import pytest
 
-import quasistatic_ref
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
+from tests.pages import PACKAGE
 
-PACKAGE = str(Path(quasistatic_ref.__file__).parent)
 CALLS = 450
 KINDS = 18, 21  # the last three in few of the 300 steps
 MAKERS = {"__init__", "<lambda>", "unchecked"}  # a lambda makes what inherits from NamedTuple
@@ -43,7 +41,7 @@ def test_a_step_makes_few_calls_and_few_kinds_of_objects(steps, apart, most, mon
             code = frame.f_code
             if event == "call":
                 kinds.update(made(frame))
-                own = code.co_filename.startswith(PACKAGE) and not code.co_name.startswith("<")
+                own = code.co_filename.startswith(str(PACKAGE)) and not code.co_name.startswith("<")
                 calls[-1] += own and not code.co_flags & CO_GENERATOR
 
         measured = len(calls) > 1 and len(calls) % apart == 0  # the first compiles the problem

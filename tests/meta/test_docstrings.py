@@ -1,15 +1,12 @@
 """Every public name says what it is: shapes, units and errors, in its docstring."""
 
-from pathlib import Path
-
 import pytest
 
-import quasistatic_ref
 from tests.meta.docstrings import complaints, units_of_symbols
+from tests.pages import PACKAGE, ROOT
 
-PACKAGE = Path(quasistatic_ref.__file__).parent
 NOTATION = [
-    PACKAGE.parent / "docs" / "conventions.md",
+    ROOT / "docs" / "conventions.md",
     PACKAGE / "shapes" / "__init__.py",
     PACKAGE / "lab" / "claims" / "closed_forms" / "__init__.py",
 ]

@@ -1,16 +1,14 @@
 """What needs an extra is marked with it."""
 
 import re
-import subprocess
-import sys
 import tomllib
-from pathlib import Path
 
 import pytest
 
 from tests.extras import is_missing
+from tests.pages import ROOT
+from tests.processes import python
 
-ROOT = Path(__file__).parents[2]
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"][
     "optional-dependencies"
 ]
@@ -39,15 +37,16 @@ def test_that_has_what_it_needs():
 
 
 def test_nothing_is_skipped_but_for_want_of_an_extra_or_of_a_count():
-    sources = [path for path in ROOT.glob("tests/**/*.py") if path.name != Path(__file__).name]
+    sources = [path for path in ROOT.glob("tests/**/*.py") if path.name != "test_extras.py"]
     found = {path.name for path in sources if SKIPS.search(path.read_text("utf-8"))}
     assert found == {"conftest.py"}, "it skips by the marker"
 
 
 def test_a_file_that_is_skipped_whole_has_the_marker_by_which_ci_takes_it():
     for path in ROOT.glob("tests/**/*.py"):
-        skipped = re.search(r"^\w+ = pytest\.importorskip\(", path.read_text("utf-8"), re.MULTILINE)
-        marked = "pytestmark = pytest.mark.extra(" in path.read_text("utf-8")
+        source = path.read_text("utf-8")
+        skipped = re.search(r"^\w+ = pytest\.importorskip\(", source, re.MULTILINE)
+        marked = "pytestmark = pytest.mark.extra(" in source
         assert marked or not skipped, f"write pytestmark = pytest.mark.extra(...) in {path}"
 
 
@@ -61,10 +60,7 @@ def test_every_marker_names_an_extra(request):
 def test_what_is_skipped_is_named_with_its_extra(tmp_path):
     (tmp_path / "conftest.py").write_text(CONFTEST, "utf-8")
     (tmp_path / "test_marked.py").write_text(MARKED, "utf-8")
-    command = [sys.executable, "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider"]
-    done = subprocess.run(
-        [*command, f"--rootdir={tmp_path}", tmp_path],
-        cwd=ROOT, capture_output=True, text=True, check=True,
-    )  # fmt: skip
-    assert "1 passed, 2 skipped" in done.stdout
-    assert 'needs the extra robots: pip install -e ".[test,robots]"' in done.stdout
+    options = "-q", "-rs", "-p", "no:cacheprovider", f"--rootdir={tmp_path}"
+    printed = python("-m", "pytest", *options, tmp_path).stdout
+    assert "1 passed, 2 skipped" in printed
+    assert 'needs the extra robots: pip install -e ".[test,robots]"' in printed

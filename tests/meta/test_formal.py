@@ -1,9 +1,9 @@
 """The theorems of validation/formal: each is asked for its axioms, and shown where docs say it."""
 
 import re
-from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
+from tests.pages import ROOT
+
 SOURCE = (ROOT / "validation" / "formal" / "theorems.v").read_text("utf-8")
 PROVED = re.findall(r"^(?:Theorem|Corollary) (\w+)", SOURCE, re.MULTILINE)
 

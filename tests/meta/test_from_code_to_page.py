@@ -3,7 +3,6 @@
 import ast
 import re
 import tomllib
-from pathlib import Path
 
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import COMMANDS, command_parser
@@ -14,11 +13,9 @@ from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.step.cones import CONES, ELLIPSOID, cone
 from tests.meta.remedies import assert_alike, assert_among
 from tests.optional.doctor.test_findings import GRAVE
+from tests.pages import PACKAGE, ROOT
 from tests.step.test_cones import COUNTS
 from validation.check_solution import cone_rows
-
-ROOT = Path(__file__).parents[2]
-PACKAGE = ROOT / "quasistatic_ref"
 
 
 def text(name):

@@ -1,17 +1,13 @@
 """The core imports no optional part and no lab; third-party packages keep to their folders."""
 
 import ast
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 
-import quasistatic_ref
 from quasistatic_ref.model.body import FIXED
 from quasistatic_ref.model.joints import BASES, JOINTS
-
-PACKAGE = Path(quasistatic_ref.__file__).parent
+from tests.pages import PACKAGE
+from tests.processes import python
 
 # What import-linter cannot see: the core's files that may name a folder of modules as a string.
 DOORS = {"lab": "cli/main.py", "optional": "parts.py"}
@@ -27,14 +23,7 @@ def test_the_contracts_of_imports_in_pyproject_are_kept():
     call = (
         "from importlinter.cli import lint_imports; raise SystemExit(lint_imports(no_cache=True))"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", call],
-        capture_output=True,
-        text=True,
-        cwd=PACKAGE.parent,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout
+    python("-c", call)
 
 
 def named_folders(node, name):
@@ -92,13 +81,7 @@ def test_a_planted_word_is_found(name, source):
 
 def printed_text(*lines):
     """What these lines print in an interpreter of their own, which must end well."""
-    command = [sys.executable, "-W", "error", "-c", "\n".join(lines)]
-    root = str(PACKAGE.parent)
-    done = subprocess.run(
-        command, capture_output=True, text=True, timeout=600, cwd=root, check=False
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout.strip()
+    return python("-W", "error", "-c", "\n".join(lines)).stdout.strip()
 
 
 def test_step_certify_and_solve_work_without_pinocchio_and_coal():
@@ -132,12 +115,3 @@ def test_the_judge_runs_without_cvxpy():
         "print(optimality_residuals(standard_form(step), delta_q, lam).worst < 1e-9)",
     )
     assert said == "True"
-
-
-def test_importing_the_package_loads_none_of_its_folders():
-    said = printed_text(
-        "import sys, quasistatic_ref",
-        "loaded = [m for m in sys.modules if m.startswith('quasistatic_ref.')]",
-        "print(loaded, 'numpy' in sys.modules, 'cvxpy' in sys.modules)",
-    )
-    assert said == "[] False False"

@@ -2,12 +2,11 @@
 
 import ast
 import re
-from pathlib import Path
 
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from tests.meta.remedies import assert_alike, assert_among
+from tests.pages import ROOT
 
-ROOT = Path(__file__).parents[2]
 THEORY = ROOT / "docs" / "theory"
 TESTS = ROOT / "tests"
 PAGE = re.sub(r"^```.*?^```$", "", (THEORY / "errata.md").read_text("utf-8"), flags=re.M | re.S)

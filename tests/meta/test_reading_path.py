@@ -3,13 +3,11 @@
 import re
 import sys
 from collections import defaultdict
-from pathlib import Path
 
-import quasistatic_ref
 from quasistatic_ref.scenario.scenario import load_scenario
+from tests.pages import PACKAGE, ROOT
 
-PACKAGE = Path(quasistatic_ref.__file__).parent
-PAGE = PACKAGE.parent / "docs" / "contributing.md"
+PAGE = ROOT / "docs" / "contributing.md"
 BRANCH = re.compile(r"^( *)(\w+(?:\.\w+)?) +(\w+/\w+\.py)", re.MULTILINE)
 SECTION = PAGE.read_text().partition("## Read the code")[2].partition("\n## ")[0]
 

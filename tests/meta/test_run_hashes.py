@@ -6,15 +6,13 @@ Processes of their own: ``OPENBLAS_CORETYPE`` chooses kernels, ``NPY_DISABLE_CPU
 
 import hashlib
 import os
-import subprocess
-import sys
 from functools import cache
 
 import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario
-from tests.pages import ROOT
+from tests.processes import python
 
 NAMES = ("bunny_grasp", "block_incline", "door")
 STEPS = 35
@@ -41,8 +39,4 @@ def hashes():
 )
 def test_other_kernels_and_no_vector_code_end_at_the_same_bits(settings):
     source = f"from {__name__} import hashes; print(*hashes())"
-    done = subprocess.run(
-        [sys.executable, "-c", source], cwd=ROOT, env={**os.environ, **settings},
-        text=True, stdout=subprocess.PIPE, check=True,
-    )  # fmt: skip
-    assert done.stdout.split() == hashes()
+    assert python("-c", source, env={**os.environ, **settings}).stdout.split() == hashes()

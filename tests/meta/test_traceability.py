@@ -7,13 +7,11 @@ the name test_r7_... for (R7).
 
 import ast
 import re
-from pathlib import Path
 
 from quasistatic_ref.lab.claims.registry import CLAIMS
 from tests.meta.remedies import assert_alike, assert_among
+from tests.pages import PACKAGE, ROOT
 
-ROOT = Path(__file__).parents[2]
-PACKAGE = ROOT / "quasistatic_ref"
 EQUATIONS = ROOT / "tests" / "equations"
 PAPER = set(range(1, 14))
 NUMBER = r"(?:\(|:eq:`eq-)(\d+)[)`]"

@@ -1,8 +1,6 @@
 """Memory: certified steps leave nothing behind, and a record is as large as its arrays."""
 
 import gc
-import subprocess
-import sys
 import tracemalloc
 
 import numpy as np
@@ -10,6 +8,7 @@ import pytest
 
 from quasistatic_ref import Body, Recorder, Sphere, System, load_scenario
 from quasistatic_ref.simulate.recorder import PACKED
+from tests.processes import python
 
 GROWTH = """
 import gc, tracemalloc
@@ -39,9 +38,7 @@ APIECE = 80
 
 @pytest.mark.long
 def test_certified_steps_leave_nothing_behind():
-    command = [sys.executable, "-c", GROWTH]
-    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    before, after = map(int, printed.split())
+    before, after = map(int, python("-c", GROWTH).stdout.split())
     assert (after - before) / (1000 - 600) < LEFT
 
 

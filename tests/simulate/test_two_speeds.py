@@ -1,14 +1,12 @@
 """The plain path and `fast` take the same steps, and the plain path uses nothing of `fast`."""
 
-import subprocess
-import sys
-
 import pytest
 
 from quasistatic_ref import (
     load_scenario,
 )
 from tests.extras import SCENARIOS_TO_RUN
+from tests.processes import python
 
 STEPS = {"bunny_grasp": 60}  # its gripper has closed after 50; of the others 6 are taken
 SAME = ("q", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "H", "g", "A", "b")
@@ -33,8 +31,7 @@ print(*(name for name in sys.modules if name.startswith("quasistatic_ref.optiona
 
 
 def test_the_plain_path_asks_for_nothing_of_fast():
-    done = subprocess.run([sys.executable, "-c", PLAIN], capture_output=True, text=True, check=True)
-    imported = done.stdout.split()
+    imported = python("-c", PLAIN).stdout.split()
     assert any(name.startswith("quasistatic_ref.optional.doctor") for name in imported)
     assert not any(name.startswith("quasistatic_ref.optional.fast") for name in imported)
 
@@ -50,5 +47,4 @@ print(*(name for name in large if name in sys.modules))
 
 @pytest.mark.extra("fast")
 def test_a_fast_run_imports_no_large_package_that_it_does_not_use():
-    done = subprocess.run([sys.executable, "-c", FAST], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == []
+    assert python("-c", FAST).stdout.split() == []

@@ -1,11 +1,11 @@
 """What a solver prints when it begins does not reach standard output."""
 
 import os
-import subprocess
 import sys
 from types import SimpleNamespace
 
 from quasistatic_ref.solve.greeting import greeting_silenced
+from tests.processes import python
 
 
 def test_what_highs_prints_at_its_first_object_is_not_seen(monkeypatch, capfd):
@@ -35,8 +35,7 @@ assert "scs" not in installed("cvxpy")
 def test_a_solver_that_cannot_be_imported_is_left_out_in_our_words(tmp_path):
     (tmp_path / "scs.py").write_text("raise RuntimeError('no licence')")
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
-    done = subprocess.run([sys.executable, "-c", PROGRAM], env=environment, capture_output=True,
-                          text=True, check=True)  # fmt: skip
+    done = python("-c", PROGRAM, env=environment)
     assert done.stdout == ""
     assert "UserWarning: scs is installed, but cannot be imported, and is left out" in done.stderr
     assert "licence" not in done.stderr
