@@ -77,7 +77,7 @@ class Recorder:
     start, q : ndarray, shape (n_q,)
         Where the run started, and where it is.
     parts : list of dict
-        The steps so far but for the latest ones, see :meth:`packed`.
+        The steps so far as arrays, but for those since the last :meth:`flush`.
 
     Raises
     ------
@@ -108,10 +108,6 @@ class Recorder:
             check_there("forces", 'record = "forces"')
         self.simulator = simulator
         self.system = simulator.system
-        self.h = simulator.h
-        self.backend = simulator.backend
-        self.cone = simulator.cone
-        self.layout = simulator.layout
         self.record = record
         self.observers = list(doctors() if observers is None else observers)
         self.start = self.system.checked(q)
@@ -132,7 +128,7 @@ class Recorder:
     @property
     def t(self) -> float:
         """End of the step that comes next [s]."""
-        return (self.steps + 1) * self.h
+        return (self.steps + 1) * self.simulator.h
 
     def add(self, q_bar_a: Array, result: StepResult) -> None:
         """Record one step that succeeded.
@@ -159,7 +155,7 @@ class Recorder:
         contacts = result.step.contacts
         most = min(PACKED, 1 + LARGEST // max(1, 4 * contacts.n_c * contacts.n_v))
         if len(self._latest) >= most or any(each.every_step for each in self.observers):
-            self.packed()
+            self.flush()
         now = time.perf_counter()
         self._between.append(now - self._since - sum(result.seconds.values()))
         self._since = now
@@ -183,42 +179,45 @@ class Recorder:
         self.extra = rows
         self.with_cost = with_cost
 
-    def packed(self) -> list[StepArrays]:
-        """All steps so far as arrays, in parts: those added since the call before are the last."""
-        if self._latest:
-            results = self._latest
-            try:
-                every = arrays_of(results, self.system.n_v)
-                arrays = self._arrays(results, every)
-                if self.observers and "motion" not in arrays:
-                    every["motion"] = motions(results, self.system.n_v)
-            except BaseException:  # what is not known of these steps cannot be recorded
-                self.steps -= len(results)
-                self.q = self.parts[-1]["q"][-1] if self.parts else self.start
-                raise
-            finally:
-                self._latest = []
-                self._targets = []
-            for array in (*arrays.values(), *every.values()):
-                read_only(array)
-            before = self.parts[-1] if self.parts else arrays
-            self.parts.append(arrays)  # before an observer may raise
-            for observer in self.observers:
-                notes = observer.after(self, results, every | arrays)
-                for name, note in notes.items():
-                    arrays[name] = _checked_note(name, note, len(results), before.get(name))
-        return self.parts
+    def flush(self) -> None:
+        """Make a part of the steps since the last flush, and ask the observers about them.
+
+        Steps of which something cannot be known are dropped: the run ends before them.
+        """
+        results = self._latest
+        if not results:
+            return
+        try:
+            every = arrays_of(results, self.system.n_v)
+            arrays = self._arrays(results, every)
+            if self.observers and "motion" not in arrays:
+                every["motion"] = motions(results, self.system.n_v)
+        except BaseException:
+            self.steps -= len(results)
+            self.q = self.parts[-1]["q"][-1] if self.parts else self.start
+            raise
+        finally:
+            self._latest = []
+            self._targets = []
+        for kept in (*arrays.values(), *every.values()):
+            read_only(kept)
+        before = self.parts[-1] if self.parts else arrays
+        self.parts.append(arrays)  # before an observer may raise
+        for observer in self.observers:
+            notes = observer.after(self, results, every | arrays)
+            for name, note in notes.items():
+                arrays[name] = _checked_note(name, note, len(results), before.get(name))
 
     def _arrays(self, results: Sequence[StepResult], every: StepArrays) -> StepArrays:
         """What is kept of the last steps, of which `every` array is read."""
-        first = results[0]
-        lam = every["lam"]
+        first = results[0].step
+        wrench = without_warnings(
+            contact_wrenches, first.contacts, every["lam"], first.h, first.cone
+        )
         arrays: StepArrays = {
-            "t": np.arange(self.steps - len(results) + 1, self.steps + 1) * self.h,
+            "t": np.arange(self.steps - len(results) + 1, self.steps + 1) * first.h,
             "q_bar_a": np.array(self._targets),
-            "wrench": without_warnings(
-                contact_wrenches, first.step.contacts, lam, self.h, self.cone
-            ),
+            "wrench": wrench,
             **every,
         }
         if self.record == "full":
@@ -229,7 +228,7 @@ class Recorder:
             arrays["imbalance"] = np.array([imbalance for _, imbalance in forces_of])
             arrays["motion"] = motions(results, self.system.n_v)
         more = ITERATED if self.simulator.law == COULOMB else ()
-        if first.step.extra.names:
+        if first.extra.names:
             more = (*more, "lam_extra")
         return arrays | {name: _of_all([r.solution for r in results], name) for name in more}
 
@@ -243,7 +242,8 @@ class Recorder:
 
         Without the last steps, while it is asked about them, and after it has failed there.
         """
-        parts = self.packed()
+        self.flush()
+        parts = self.parts
         if name in self.notes:
             parts = list(takewhile(lambda part: name in part, parts))
         return _over_all_steps(parts, name) if parts else np.zeros(0)
@@ -258,42 +258,44 @@ class Recorder:
         interrupted : bool
             Whether that was Ctrl-C.
         """
-        parts = self.packed()
+        self.flush()
+        parts = self.parts
         kept = parts[0] if parts else {}
         known = [name for name in IN_ORDER if name in kept]
         arrays = {name: _over_all_steps(parts, name) for name in known} or {
             name: np.zeros(0) for name in ("t", "delta_q", "worst_residual")
         }
         full = self.steps and self.record == "full"
-        names = self.layout.contact_names
+        simulator = self.simulator
+        layout = simulator.layout
         header = Header(
-            h=self.h,
-            backend=self.backend,
-            cone=self.cone,
+            h=simulator.h,
+            backend=simulator.backend,
+            cone=simulator.cone,
             record=self.record,
             n_a=self.system.n_a,
             n_u=self.system.n_u,
             coordinates=tuple(c.name for c in self.system.coordinates),
             units=tuple(c.unit for c in self.system.coordinates),
             positions=tuple(p.heading for joint in self.system.joints for p in joint.positions),
-            slots=tuple(self.layout.slots),
+            slots=tuple(layout.slots),
             steps=self.steps,
             extra=self.extra,
             failed=failed,
             quasi_dynamic_number=None,  # the observers know
             largest_boundary_layer=None,
-            contacts=tuple(map(tuple, map(names, arrays["point"]))) if full else (),
+            contacts=tuple(map(tuple, map(layout.contact_names, arrays["point"]))) if full else (),
             findings=(),
-            law=self.simulator.law,
+            law=simulator.law,
             alone=self.alone,
             unanswered=tuple(step for step in self.unanswered if step < self.steps),
         )
-        constant = {k: getattr(self.layout, k) if self.steps else np.zeros(0) for k in CONSTANT}
+        constant = {k: getattr(layout, k) if self.steps else np.zeros(0) for k in CONSTANT}
         q = np.concatenate([self.start[None], *(part["q"] for part in parts)])
         arrays = {"q": q + 0.0, **arrays, **constant}
         timed = [name for name in kept if name.startswith(SECONDS)]
         seconds = {name.removeprefix(SECONDS): _over_all_steps(parts, name) for name in timed}
-        trajectory = Trajectory(header, arrays, seconds, self.simulator)
+        trajectory = Trajectory(header, arrays, seconds, simulator)
         for observer in self.observers:
             trajectory = observer.end(self, trajectory, interrupted)
         return replace(trajectory, seconds={**seconds, **self._seconds_of_run()})

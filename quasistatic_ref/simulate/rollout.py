@@ -113,14 +113,14 @@ def rollout(
                 last = simulator.step(q, q_bar_a, force_at(recorder.t, q, last))
                 recorder.add(q_bar_a, last)
                 if recorder.steps == steps:
-                    recorder.packed()
+                    recorder.flush()
             except (QuasistaticError, KeyboardInterrupt) as failure:
                 interrupted = isinstance(failure, KeyboardInterrupt)
                 last_or_next = max(k, recorder.steps - 1)
                 reason = f"step {last_or_next}: {'interrupted' if interrupted else failure}"
                 step = failure.step if isinstance(failure, StepNotSolved) else None
                 with suppress(QuasistaticError):  # of an observer: the run has failed already
-                    recorder.packed()
+                    recorder.flush()
                 trajectory = recorder.trajectory(reason, interrupted)
                 raise RunFailed(reason, trajectory, step) from failure
             bar.update()
