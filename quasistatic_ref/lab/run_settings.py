@@ -48,7 +48,7 @@ def run_settings(simulator: Simulator, start: Array, record: str) -> dict[str, s
             settings[f"{field} of {pair.name}"] = repr(getattr(pair, field))
         settings[f"shapes of {pair.name}"] = fingerprint((pair.alpha, pair.beta))
     settings["the order of the contacts"] = ", ".join(pair.name for pair in simulator.pairs)
-    arrays = {"K_q": simulator.K_q, "gravity_factor": simulator.gravity_factor, "start": start}
+    arrays = {"K_q": simulator.K_q, "gravity_acts": simulator.gravity_acts, "start": start}
     return settings | {name: fingerprint(array) for name, array in arrays.items()}
 
 

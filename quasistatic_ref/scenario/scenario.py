@@ -17,7 +17,7 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.numbers.arrays import Array, freeze_copies
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import total
 from quasistatic_ref.parts import extended_bodies, fast_backend, fast_simulator
 from quasistatic_ref.scenario.bodies import (
@@ -94,10 +94,6 @@ class Scenario(Settings, Plain, Shown):
     fast: bool = False
     bodies: Mapping[str, Body] = field(default_factory=dict)
     of_bodies: OfBodies | None = None
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        freeze_copies(self, "gravity", "K_q", "gravity_acts")
 
     def simulator(self, extension: ExtensionOfQ | None = None) -> Simulator:
         """A simulator of this scenario, with an `extension` as it takes one."""

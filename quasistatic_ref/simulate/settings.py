@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field, fields
 from typing import Any
 
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, Mask, freeze_copies
 from quasistatic_ref.simulate.law import CONVEX, check_law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.scene import Scene
@@ -27,8 +27,8 @@ class Settings(Scene):
         Stiffness of the actuated coordinates [N/m, N m/rad].
     gravity : ndarray, shape (3,)
         [m/s^2], world frame.
-    gravity_acts : ndarray, shape (n_a,)
-        Whether gravity acts on each actuated coordinate [-].
+    gravity_acts : ndarray of bool, shape (n_a,)
+        Whether gravity acts on each actuated coordinate.
     backend, accuracy, certify
         As of :func:`~quasistatic_ref.solve.solve.solve_step`, the backend by its name.
     cone : str
@@ -48,7 +48,7 @@ class Settings(Scene):
     h: float
     K_q: Array
     gravity: Array
-    gravity_acts: Array
+    gravity_acts: Mask
     backend: str = DEFAULT
     accuracy: float = ACCURACY
     certify: str = CERTIFY[0]
@@ -60,6 +60,7 @@ class Settings(Scene):
         check_accuracy(self.accuracy)
         check_law(self.law, self.certify)
         check_backend(self.backend, self.cone, self.certify)
+        freeze_copies(self, "K_q", "gravity", "gravity_acts")
 
     def settings(self) -> dict[str, Any]:
         """All of them by name."""

@@ -123,8 +123,6 @@ class Simulator(Settings, Shown):
     ----------
     backend : str
         Name of the backend.
-    gravity_factor : ndarray, shape (n_v,)
-        1.0 at each coordinate on which gravity acts, otherwise 0.0 [-].
     solver : Solver or None
         The object that solved the last step; it solves the next one, too, if that step fits it.
     working_set : tuple of int
@@ -175,7 +173,7 @@ class Simulator(Settings, Shown):
             h=seconds(h),
             K_q=stiffness_matrix(system, K_q),
             gravity=checked_array(gravity, "gravity", (3,)),
-            gravity_acts=checked_array(acts, "gravity_acts", (system.n_a,)),
+            gravity_acts=checked_array(acts, "gravity_acts", (system.n_a,)) != 0,
             backend=DEFAULT if backend is None else backend,
             accuracy=accuracy,
             certify=certify,
@@ -186,7 +184,6 @@ class Simulator(Settings, Shown):
         self.extension = extension
         self.named_backend = backend
         self.layout = contact_layout(pairs)
-        self.gravity_factor = np.concatenate([self.gravity_acts, np.ones(system.n_u)])
         self.solver: Solver | None = None
         self.spares: dict[str, Solver] = {}
         self.working_set: tuple[int, ...] = ()
@@ -327,8 +324,9 @@ class Simulator(Settings, Shown):
     def generalised_force(self, q: ArrayLike, force: ArrayLike | None) -> Array:
         """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
         force = checked_force(self.system, force)
-        tau: Array = self.gravity_factor * self.system.gravity_force(q, self.gravity) + force
-        return tau
+        tau = self.system.gravity_force(q, self.gravity)
+        tau[: self.system.n_a] *= self.gravity_acts
+        return tau + force
 
     def findings(
         self, q: ArrayLike | None = None, force: ArrayLike | None = None

@@ -45,7 +45,7 @@ def data_rates(
     joints = simulator.system.joints
     target_by_q, target_by_next = difference_rates(joints, step.delta_q_bar_a)
     gravity = np.array(simulator.gravity)
-    acts = simulator.gravity_factor[:, None]
+    acts = np.concatenate([simulator.gravity_acts, np.ones(simulator.system.n_u)])[:, None]
     un_actuated = np.concatenate([np.zeros(n_a), x[n_a:]])
 
     by = load_rates(step, x)
