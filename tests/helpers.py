@@ -16,14 +16,16 @@ from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
 INTERFACES = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))
 JUDGE = "daqp"
+PAPER = 7, 6, (6,) * 10 + (4,) * 5
+"""n_a, n_u and rows of each contact, of the paper's grasp."""
 SHAPES = [
-    (7, 6, (6,) * 10 + (4,) * 5),
+    PAPER,
     (3, 4, (6, 4)),
     (0, 6, (4, 6, 4)),
     (4, 0, (6, 6)),
     (2, 2, ()),
 ]
-"""n_a, n_u and rows of each contact, of random steps."""
+"""The same of random steps."""
 
 
 def changed(contacts, **changes):
@@ -37,7 +39,11 @@ def residuals_of(step, delta_q, lam):
 
 
 def random_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):
-    """A random step with phi >= 0, which is always feasible: standing still is allowed."""
+    """A random step with phi >= 0, which is always feasible: standing still is allowed.
+
+    ``rng`` is a generator, or the seed of one.
+    """
+    rng = np.random.default_rng(rng)
     n_c = len(rows)
     contacts = random_contacts(
         rng, n_c, n_a + n_u,
@@ -75,6 +81,7 @@ def planted_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):
     One row of each contact is made active and given a positive multiplier; the forces are those
     that balance it. H is positive definite, so this optimum is the only one.
     """
+    rng = np.random.default_rng(rng)
     step = random_step(rng, n_a, n_u, rows)
     delta_q = 1e-3 * rng.normal(size=n_a + n_u)
     phi = []

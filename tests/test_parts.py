@@ -110,7 +110,7 @@ def test_a_word_is_refused_in_a_sentence_that_names_its_part(without, word, ever
     assert f"{word} needs quasistatic_ref/{gone}\n" in cli(*command, status=2).err
 
 
-STEP = random_step(np.random.default_rng(0))
+STEP = random_step(0)
 NAMES = {
     "smoothed": ("derivatives", lambda: qr.smoothed),
     "forces": ("forces", lambda: solve_step(STEP).forces),

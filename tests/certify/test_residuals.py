@@ -12,7 +12,7 @@ from tests.tolerances import ROUNDING
 
 
 def plant():
-    return planted_step(np.random.default_rng(5))
+    return planted_step(5)
 
 
 def near(actual, expected):

@@ -21,7 +21,7 @@ from tests.errors.scene import changed
 from tests.helpers import point_on_floor, random_step
 from tests.tolerances import ROUNDING
 
-PLAIN = random_step(np.random.default_rng(11), n_a=2, n_u=3, rows=(6, 4))
+PLAIN = random_step(11, n_a=2, n_u=3, rows=(6, 4))
 
 
 @pytest.mark.parametrize(

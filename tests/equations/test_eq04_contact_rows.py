@@ -19,7 +19,7 @@ def left_hand_sides(step, delta_q):
 
 
 def test_the_cvxpy_constraints_are_the_printed_left_hand_sides(rng):
-    step = random_step(rng, rows=(6, 4, 6))
+    step = random_step(rng)
     delta_q = rng.normal(size=step.n_v)
     c = step.contacts
     for i, row in enumerate(left_hand_sides(step, delta_q)):

@@ -14,6 +14,6 @@ def test_they_are_what_the_last_two_constraints_add_to_the_gap(rng):
 
 
 def test_only_contacts_with_six_rows_have_them(rng):
-    problem = paper_problem(random_step(rng, rows=(6, 4, 6)))
+    problem = paper_problem(random_step(rng))
     assert [constraint.shape for constraint in problem.contact_rows] == [(3,)] * 4 + [(2,)] * 2
     assert pyramid(1.0, 0.0, 0.0, 0.25)[4:] == (1.25, 0.75)

@@ -2,7 +2,7 @@
 
 from quasistatic_ref import standard_form
 from tests.closeness import assert_close, assert_same
-from tests.helpers import contact_row, random_step
+from tests.helpers import PAPER, contact_row, random_step
 from tests.tolerances import ROUNDING
 
 
@@ -17,6 +17,6 @@ def test_A_is_contact_major_and_its_rows_are_the_printed_columns(rng):
 
 def test_erratum_six_rows_for_fifteen_points_are_ninety_not_eighty(rng):
     everywhere = standard_form(random_step(rng, n_a=7, n_u=6, rows=(6,) * 15))
-    gripper_only = standard_form(random_step(rng, n_a=7, n_u=6, rows=(6,) * 10 + (4,) * 5))
+    gripper_only = standard_form(random_step(rng, *PAPER))
     assert everywhere.A.shape == (90, 13)
     assert gripper_only.A.shape == (80, 13)

@@ -2,7 +2,6 @@
 
 import sys
 
-import numpy as np
 import pytest
 
 from quasistatic_ref import save_step
@@ -96,7 +95,7 @@ def test_a_setting_that_does_not_fit_is_refused(tmp_path, refused, setting):
 @pytest.mark.parametrize("command", ["run", "solve"])
 def test_an_unknown_backend_is_refused_before_anything_is_done(tmp_path, refused, name, command):
     path = scene_written(tmp_path)
-    save_step(tmp_path / "step.json", planted_step(np.random.default_rng(0))[0])
+    save_step(tmp_path / "step.json", planted_step(0)[0])
     where = ["--out", tmp_path / "out"]
     arguments = [path, *where] if command == "run" else [tmp_path / "step.json"]
     sentence = refused(command, *arguments, "--backend", name)
@@ -154,7 +153,7 @@ def test_a_folder_that_cannot_be_written_to_is_known_before_the_run(
 
 @pytest.mark.parametrize("path", ["/dev/full", "{}/file/x.json", "{}", "{}/a\0b", "", "{}/x/"])
 def test_a_step_that_cannot_be_written_is_refused(tmp_path, refused, path):
-    step = save_step(tmp_path / "step.json", planted_step(np.random.default_rng(0))[0])
+    step = save_step(tmp_path / "step.json", planted_step(0)[0])
     in_the_way(tmp_path)
     (tmp_path / "x").mkdir()
     assert "cannot be written: " in refused("solve", step, "-o", path.replace("{}", str(tmp_path)))

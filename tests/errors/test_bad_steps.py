@@ -2,7 +2,6 @@
 
 import json
 
-import numpy as np
 import pytest
 
 from quasistatic_ref.formats.files import plain
@@ -10,7 +9,7 @@ from quasistatic_ref.step.files import step_record
 from tests.errors.scene import changed, dotted, numeric_fields
 from tests.helpers import planted_step
 
-STEP = plain(step_record(planted_step(np.random.default_rng(7))[0]))
+STEP = plain(step_record(planted_step(7)[0]))
 """n_a = 3, n_u = 4, contacts with 6, 4 and 6 rows."""
 ONE = "contacts/1/"
 CAUSES = {

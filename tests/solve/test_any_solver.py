@@ -14,6 +14,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.solve import backends
 from quasistatic_ref.solve.choice import solver_for
+from tests.cases import cases
 from tests.closeness import assert_within
 from tests.helpers import one_sentence, pinch
 
@@ -53,7 +54,8 @@ number = 3
 
 @pytest.fixture
 def mine(tmp_path, monkeypatch):
-    """A file of functions, in the folder where commands run."""
+    """A file of functions and a step, in the folder where commands run."""
+    qr.save_step(tmp_path / "step.json", STEP)
     (tmp_path / "mine.py").write_text(MINE)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", [*sys.path])
@@ -77,14 +79,12 @@ def test_a_function_solves_steps_as_a_backend_does():
 
 @pytest.mark.parametrize("name", ["mine:solve", "mine.py:solve"])
 def test_a_function_has_a_name_on_the_command_line(name, mine, cli):
-    qr.save_step(mine / "step.json", STEP)
     assert "correct digits" in cli("solve", "step.json", "--backend", name, "-o", "s.json").err
     run = qr.load_scenario("sphere_spin", {"solver.backend": name}, steps=2).run()
     assert set(run.certificate) == {"exact"}
 
 
 def test_what_a_function_prints_comes_not_among_the_answers(mine, capfd):
-    qr.save_step(mine / "step.json", STEP)
     (mine / "loud.py").write_text(f"print('noise of the module')\n{MINE}")
     assert main(["solve", "step.json", "--backend", "loud.py:prints"]) == 0
     said = capfd.readouterr()
@@ -94,7 +94,6 @@ def test_what_a_function_prints_comes_not_among_the_answers(mine, capfd):
 
 
 def test_a_module_that_ends_its_process_is_a_sentence(mine, cli):
-    qr.save_step(mine / "step.json", STEP)
     (mine / "ends.py").write_text("raise SystemExit(0)")
     said = cli("solve", "step.json", "--backend", "ends.py:solve", status=2).err
     assert "cannot be imported: RuntimeError: SystemExit: 0" in said
@@ -119,9 +118,8 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("wrong", WRONG)
-def test_what_a_function_returns_is_not_believed(wrong):
-    function, says = WRONG[wrong]
+@cases("function, says", WRONG)
+def test_what_a_function_returns_is_not_believed(function, says):
     solution = qr.solve_step(STEP, function)
     assert solution.delta_q.tobytes() == EXACT.delta_q.tobytes()
     assert says in solution.statistics.status
@@ -134,7 +132,6 @@ def test_what_a_function_returns_is_not_believed(wrong):
     "name", ["missing:solve", "mine:missing", "mine:number", "none.py:solve", "mine.py:number"]
 )
 def test_a_function_that_is_not_there_is_named(name, mine, cli):
-    qr.save_step(mine / "step.json", STEP)
     assert name in one_sentence(cli("solve", "step.json", "--backend", name, status=2).err)
 
 

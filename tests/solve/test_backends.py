@@ -20,6 +20,7 @@ from tests.closeness import assert_same, assert_within
 from tests.helpers import (
     INTERFACES,
     JUDGE,
+    PAPER,
     SHAPES,
     changed,
     error,
@@ -63,7 +64,7 @@ def test_every_interface_agrees_with_an_active_set_solver_at_1e_12(interface, sh
 
 @every_interface
 def test_a_step_gives_the_same_bits_whatever_was_solved_before(interface):
-    steps = [planted_step(np.random.default_rng(seed))[0] for seed in (1, 2)]
+    steps = [planted_step(seed)[0] for seed in (1, 2)]
     mu = {name: getattr(steps[1].contacts, name) for name in ("mu_v", "mu_omega")}
     steps[0] = steps[0].replace(contacts=changed(steps[0].contacts, **mu))
     solver = solver_for(steps[0], interface)
@@ -80,7 +81,7 @@ def test_a_step_gives_the_same_bits_whatever_was_solved_before(interface):
 )
 @pytest.mark.parametrize("prefix", ["", "qpsolvers:"])
 def test_a_solver_stopped_after_one_iteration_is_raised(prefix, name, limit, monkeypatch):
-    step, _, _ = planted_step(np.random.default_rng(3), *SHAPES[0])
+    step, _, _ = planted_step(3, *PAPER)
     entry = BACKENDS[name]
     stopped = dataclasses.replace(
         entry, option_sets=lambda a: tuple(options | {limit: 1} for options in entry.option_sets(a))
@@ -111,8 +112,7 @@ LIES = {
 
 
 @cases("spoil", LIES)
-def test_an_optimal_status_is_not_evidence(spoil, monkeypatch, rng):
-    step, _, _ = planted_step(rng)
+def test_an_optimal_status_is_not_evidence(spoil, monkeypatch, step):
     make_backend_lie(monkeypatch, spoil)
     with pytest.raises(StepNotSolved) as caught:
         solve_step(step)
@@ -120,9 +120,9 @@ def test_an_optimal_status_is_not_evidence(spoil, monkeypatch, rng):
     assert not caught.value.residuals.worst <= 1e-6
 
 
-def test_certify_off_takes_the_solver_s_word_and_says_so(monkeypatch, rng):
+def test_certify_off_takes_the_solver_s_word_and_says_so(monkeypatch, step):
     make_backend_lie(monkeypatch, LIES["no motion"])
-    answer = solve_step(planted_step(rng)[0], certify="off")
+    answer = solve_step(step, certify="off")
     assert answer.certificate.kind == "none"
     assert not answer.certificate.residuals
 

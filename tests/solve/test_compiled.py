@@ -15,9 +15,10 @@ from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.solve.units import StepInBothUnits
-from tests.helpers import planted_step, random_step
+from tests.cases import cases
+from tests.helpers import PAPER, planted_step, random_step
 
-SIZES = [(7, 6, (6,) * 10 + (4,) * 5), (3, 0, (4, 4)), (0, 4, (6, 4)), (2, 3, ())]
+SIZES = [PAPER, (3, 0, (4, 4)), (0, 4, (6, 4)), (2, 3, ())]
 
 
 def bits(value):
@@ -62,12 +63,11 @@ def test_every_number_of_the_data_has_the_bits_of_cvxpy_s(cone, n_a, n_u, rows, 
 
 
 @pytest.mark.parametrize("moved", [None, "cvxpy.cvxcore.python.canonInterface"])
-def test_answers_have_the_bits_of_the_problem_s_own_solve(moved, rng, monkeypatch):
+def test_answers_have_the_bits_of_the_problem_s_own_solve(moved, step, monkeypatch):
     """Also where CVXPY has moved a name that is private to it."""
     if moved is not None:
         monkeypatch.setitem(sys.modules, moved, None)
         monkeypatch.delitem(sys.modules, CompiledMap.__module__)
-    step, _, _ = planted_step(rng, 3, 4, (6, 4, 6))
     solver = CvxpySolver(step, "clarabel")
     both = StepInBothUnits(step)
     solver.write(both)
@@ -93,7 +93,7 @@ def test_a_cost_that_a_backend_does_not_take_is_said_in_our_words():
 @pytest.mark.parametrize("cone", ["pyramid", "product", "facets-8"])
 def test_clarabel_is_called_as_by_cvxpy(cone, rng, monkeypatch):
     """From the second step on without CVXPY's own call, to the same bits."""
-    steps = [planted_step(rng, 3, 4, (6, 4, 6))[0].replace(cone=cone) for _ in range(4)]
+    steps = [planted_step(rng)[0].replace(cone=cone) for _ in range(4)]
     steps = [step.replace(contacts=steps[0].contacts) for step in steps]
     solver = CvxpySolver(steps[0])
     solve_step(steps[0], solver)
@@ -106,19 +106,19 @@ def test_clarabel_is_called_as_by_cvxpy(cone, rng, monkeypatch):
         assert found.statistics.iterations == expected.statistics.iterations
 
 
-@pytest.mark.parametrize("moved", ["dims_to_solver_cones", "CLARABEL"])
-def test_a_cvxpy_that_moves_what_is_private_costs_no_answer(moved, rng, monkeypatch):
-    step, _, _ = planted_step(rng, 3, 4, (6, 4, 6))
-    expected = solve_step(step, CvxpySolver(step), certify="off")
-    monkeypatch.delattr(of_compiled, moved)
-    found = [solve_step(step, solver, certify="off") for solver in 2 * [CvxpySolver(step)]]
-    assert {bits(one.delta_q) for one in found} == {bits(expected.delta_q)}
+WRONG = Reply(np.zeros(7), np.zeros(16), True, "optimal")
+CALLS = {
+    "cones that CVXPY has moved": lambda patch: patch.delattr(of_compiled, "dims_to_solver_cones"),
+    "a name that CVXPY has moved": lambda patch: patch.delattr(of_compiled, "CLARABEL"),
+    "another answer": lambda patch: patch.setattr(
+        of_compiled.ClarabelCall, "reply", lambda *_: WRONG
+    ),
+}
 
 
-def test_a_call_that_answers_otherwise_is_not_taken(rng, monkeypatch):
-    step, _, _ = planted_step(rng, 3, 4, (6, 4, 6))
+@cases("spoil", CALLS)
+def test_a_call_that_fails_or_answers_otherwise_costs_no_answer(spoil, step, monkeypatch):
     expected = solve_step(step, CvxpySolver(step), certify="off")
-    wrong = Reply(np.zeros(7), np.zeros(16), True, "optimal")
-    monkeypatch.setattr(of_compiled.ClarabelCall, "reply", lambda *_: wrong)
+    spoil(monkeypatch)
     found = [solve_step(step, solver, certify="off") for solver in 2 * [CvxpySolver(step)]]
     assert {bits(one.delta_q) for one in found} == {bits(expected.delta_q)}

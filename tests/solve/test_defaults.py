@@ -15,11 +15,11 @@ from quasistatic_ref.solve.reply import Reply
 from tests.helpers import error
 from tests.tolerances import OPTIMUM
 
+pytestmark = pytest.mark.extra("fast")
 FAILED = Reply(None, None, False, "at a loss")
 UNCLAIMED = Reply(np.zeros(6), np.zeros(6), False, "iteration limit")
 
 
-@pytest.mark.extra("fast")
 def test_the_default_backend_is_clarabel_and_with_fast_daqp():
     for settings, named in (
         ({}, "clarabel"),
@@ -32,7 +32,6 @@ def test_the_default_backend_is_clarabel_and_with_fast_daqp():
         assert scenario.backend == scenario.simulator().backend == named
 
 
-@pytest.mark.extra("fast")
 def test_bodies_that_cannot_touch_count_one_by_one(monkeypatch):
     """3 boxes with 4 contacts each: the dense J of each has 4 * 4 * 6 entries."""
     simulator = boxes(3).simulator("off", True)
@@ -45,7 +44,6 @@ def test_bodies_that_cannot_touch_count_one_by_one(monkeypatch):
     assert default_backend(simulator.system, (), "pyramid", CONVEX) == "daqp"
 
 
-@pytest.mark.extra("fast")
 @pytest.mark.parametrize("failed", [FAILED, UNCLAIMED])
 def test_clarabel_takes_steps_on_which_the_default_backend_fails(failed, monkeypatch):
     scenario = load_scenario("sphere_spin", ["solver.certify=off"], fast=True)
@@ -64,7 +62,6 @@ def test_clarabel_takes_steps_on_which_the_default_backend_fails(failed, monkeyp
     assert backends == ["daqp", "clarabel", "clarabel", "daqp"]
 
 
-@pytest.mark.extra("fast")
 def test_a_failure_of_a_backend_that_is_named_is_that_backend_s(monkeypatch):
     from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 
@@ -75,7 +72,6 @@ def test_a_failure_of_a_backend_that_is_named_is_that_backend_s(monkeypatch):
         scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h))
 
 
-@pytest.mark.extra("fast")
 def test_a_simulator_that_names_no_backend_takes_curved_extensions():
     scenario = load_scenario("sphere_spin")
     plain = Simulator(scenario.system, scenario.pairs, h=scenario.h, K_q=scenario.K_q)

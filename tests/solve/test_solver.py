@@ -29,19 +29,10 @@ from tests.helpers import (
     REQUIRED,
     changed,
     error,
-    planted_step,
     point_on_floor,
     random_step,
 )
 from tests.tolerances import OPTIMUM
-
-ROWS = (6, 4, 6)
-
-
-@pytest.fixture
-def step(rng):
-    return planted_step(rng, 3, 4, ROWS)[0]
-
 
 EVERY = [
     *((CvxpySolver, name, "cvxpy") for name in installed("cvxpy") if not BACKENDS[name].no_steps),
@@ -83,10 +74,10 @@ def with_mu(step, **mu):
 
 
 OTHERS = {
-    "n_a": (lambda s, rng: random_step(rng, 2, 4, ROWS), "CF"),
-    "n_u": (lambda s, rng: random_step(rng, 3, 5, ROWS), "CF"),
+    "n_a": (lambda s, rng: random_step(rng, n_a=2), "CF"),
+    "n_u": (lambda s, rng: random_step(rng, n_u=5), "CF"),
     "cone": (lambda s, rng: s.replace(cone="facets-8"), "CFQ"),
-    "contacts.rows": (lambda s, rng: random_step(rng, 3, 4, (4, 6, 6)), "CF"),
+    "contacts.rows": (lambda s, rng: random_step(rng, rows=(4, 6, 6)), "CF"),
     "extra": (
         lambda s, rng: s.replace(extra=Extra(("a",), np.ones((1, 7)), [-1.0])), "CF",
     ),

@@ -18,15 +18,15 @@ WEIGHT = (0.3, 0.0, -2.943, 0.0, 0.0, 1e-3)
 ABLE = [name for name in installed_backends() if ":" not in name and name != "highs"]
 COSTLY = qr.Extra(("stop",), np.eye(7)[:1], [1e-4], H=np.eye(7), g=np.full(7, 1e-6))
 STEPS = {
-    "pinch": lambda: pinch(),
+    "pinch": pinch,
     "ball": lambda: sphere_on_floor(wrench=WEIGHT),
-    "four and six rows": lambda: random_step(np.random.default_rng(0)),
-    "a user's row and cost": lambda: random_step(np.random.default_rng(0)).replace(extra=COSTLY),
-    "facets": lambda: random_step(np.random.default_rng(0)).replace(cone="facets-8"),
-    "nothing drives": lambda: sphere_on_floor(),
-    "nothing actuated": lambda: random_step(np.random.default_rng(1), n_a=0),
-    "all actuated": lambda: random_step(np.random.default_rng(1), n_u=0),
-    "no rows": lambda: random_step(np.random.default_rng(1), rows=()),
+    "four and six rows": lambda: random_step(0),
+    "a user's row and cost": lambda: random_step(0).replace(extra=COSTLY),
+    "facets": lambda: random_step(0).replace(cone="facets-8"),
+    "nothing drives": sphere_on_floor,
+    "nothing actuated": lambda: random_step(1, n_a=0),
+    "all actuated": lambda: random_step(1, n_u=0),
+    "no rows": lambda: random_step(1, rows=()),
 }
 
 
@@ -57,7 +57,7 @@ def test_solve_is_right_in_si_units(name, solver):
 
 def test_the_ellipsoid_is_solved_with_its_multipliers():
     """Second-order cones cost Clarabel digits; lam balances the load: H delta_q - g = A'lam."""
-    step = random_step(np.random.default_rng(3), rows=(6, 4, 6)).replace(cone="ellipsoid")
+    step = random_step(3).replace(cone="ellipsoid")
     page = qr.StepProblem(step)
     exact = qr.solve_step(step)
     size = np.abs(exact.delta_q).max()

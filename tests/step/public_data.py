@@ -48,7 +48,7 @@ def public_data(folder):
     simulator = scenario.simulator()
     result = simulator.step(system.q_start, scenario.targets(scenario.h))
     run = rollout(simulator, system.q_start, scenario.targets, 3)
-    step = random_step(np.random.default_rng(0))
+    step = random_step(0)
     extra = Extra(("a", "b"), np.ones((2, 7)), [-1.0, -2.0])
     solution = solve_step(step)
     infeasible = contradiction_error()

@@ -11,7 +11,7 @@ from tests.cases import cases
 from tests.closeness import assert_same
 from tests.helpers import changed, random_step
 
-STEP = random_step(np.random.default_rng(7), n_a=2, n_u=3, rows=(6, 4))
+STEP = random_step(7, n_a=2, n_u=3, rows=(6, 4))
 CONTACTS = STEP.contacts
 NAN = float("nan")
 INF = float("inf")

@@ -11,14 +11,13 @@ from quasistatic_ref.step.friction import friction_rows
 from quasistatic_ref.step.problem import paper_problem, set_values
 from tests.closeness import assert_within
 from tests.helpers import (
+    PAPER,
     changed,
     error,
     planted_step,
     random_step,
 )
 from tests.tolerances import OPTIMUM
-
-PAPER = {"n_a": 7, "n_u": 6, "rows": (6,) * 10 + (4,) * 5}
 
 
 def with_mu_of(other, step):
@@ -28,7 +27,7 @@ def with_mu_of(other, step):
 
 
 def test_nothing_is_compiled_after_the_first_solve(monkeypatch):
-    first, *others = (planted_step(np.random.default_rng(seed), **PAPER)[0] for seed in range(3))
+    first, *others = (planted_step(seed, *PAPER)[0] for seed in range(3))
     others = [with_mu_of(first, step) for step in others]
     kept = CvxpySolver(first, "clarabel")
     solve_step(first, kept)

@@ -48,7 +48,7 @@ def test_cvxpy_compiles_the_rows_of_every_cone_in_order(name, rows, rng):
 
 def test_cvxpy_compiles_the_ellipsoid_to_one_second_order_cone_a_contact(rng):
     # Its entries are b - A delta_q in the cone: gap, slip_1, slip_2 and spin.
-    step = random_step(rng, 3, 4, (6, 4, 6)).replace(cone="ellipsoid")
+    step = random_step(rng).replace(cone="ellipsoid")
     problem = StepProblem(step)
     data, _, _ = problem.problem.get_problem_data(cp.CLARABEL, solver_opts={})
     assert (data["dims"].nonneg, data["dims"].soc) == (0, [4, 4, 4])
