@@ -11,8 +11,9 @@ from quasistatic_ref import RunFailed, load_scenario, load_step, load_trajectory
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.limits import Limits
+from tests.cases import cases
 from tests.closeness import assert_relative
-from tests.errors.scene import SCENE, changed, scene_written
+from tests.errors.scene import SCENE, SUNK, changed, scene_written
 from tests.tolerances import ROUNDING
 
 WEDGE = (
@@ -20,7 +21,6 @@ WEDGE = (
     ("shapes/ceiling", {"halfspace": {"normal": [0.0, 0.0, -1.0], "offset": -0.099}}),
     ("contacts/ceiling", {"alpha": "ceiling", "beta": "ball", "mu_v": 0.5, "rows": 4}),
 )
-SUNK = (("bodies/ball/pose/xyz", [0.065, 0.0, -0.03]),)
 THROWN = (("bodies/ball/wrenches/0/force", [0.0, 0.0, 3e4]), ("contacts", {}))
 """3e4 N on 0.3 kg: h^2 f / m = 10 m a step, straight up from 0.05 m."""
 CASES = {
@@ -31,7 +31,7 @@ CASES = {
          "widen these gaps, or make one of the bodies compliant"),
     ),
     "too deep": (
-        SUNK, 0,
+        (SUNK,), 0,
         ("contact floor(floor, ball/ball#0)/0 is 0.08 m deep, deeper than "
          "limits.penetration = 0.05 m", "start the bodies apart", "or raise the limit"),
     ),
@@ -43,9 +43,10 @@ CASES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(tmp_path, cli, case):
-    changes, steps, words = CASES[case]
+@cases("changes, steps, words", CASES)
+def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(
+    tmp_path, cli, changes, steps, words
+):
     path = scene_written(tmp_path, changed(SCENE, *changes))
     out = tmp_path / "out"
     captured = cli("run", path, "--out", out, status=3)
@@ -83,7 +84,7 @@ def test_the_failing_step_fails_again_by_itself(tmp_path, cli):
 @pytest.mark.parametrize(("depth", "fails"), [(0.0799, True), (0.0801, False)])
 def test_the_depth_that_is_allowed_is_the_scenario_s(tmp_path, depth, fails):
     alone = (("contacts/push", ...), ("bodies/ball/wrenches", ...))
-    scene = changed(SCENE, *SUNK, *alone, ("limits/penetration", depth), ("steps", 1))
+    scene = changed(SCENE, SUNK, *alone, ("limits/penetration", depth), ("steps", 1))
     scenario = load_scenario(scene_written(tmp_path, scene), fast=True)
     if fails:
         with pytest.raises(RunFailed, match=r"is 0\.08 m deep"):

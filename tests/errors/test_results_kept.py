@@ -1,9 +1,8 @@
 """Results that are there: no run replaces a longer one, nor a file of another kind."""
 
 import numpy as np
-import pytest
 
-from quasistatic_ref.cli.main import main
+from tests.cases import cases
 from tests.errors.scene import SCENE, SUNK, changed, contents, scene_written
 
 LOST = {
@@ -16,15 +15,13 @@ LOST = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("cause", LOST)
-def test_a_run_never_replaces_a_longer_one(tmp_path, capsys, cli, cause):
-    changes, more, status, says = LOST[cause]
+@cases("changes, more, status, says", LOST)
+def test_a_run_never_replaces_a_longer_one(tmp_path, cli, changes, more, status, says):
     out = tmp_path / "out"
-    command = ["run", str(scene_written(tmp_path)), "--out", str(out), "--quiet"]
-    assert main(command) == 0
+    command = ["run", scene_written(tmp_path), "--out", out, "--quiet"]
+    cli(*command)
     before = contents(out)
     scene_written(tmp_path, changed(SCENE, *changes))
-    capsys.readouterr()
     assert says.format(out) in cli(*command, *more, status=status).err
     assert before.items() <= contents(out).items()
     assert status == 3 or contents(out) == before

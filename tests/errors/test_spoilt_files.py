@@ -120,16 +120,21 @@ def step_solved(path):
 
 def good_files(folder):
     """Name -> content and reader, for each format."""
+
+    def written(name):
+        return (folder / name).read_bytes()
+
     scene_written(folder)
-    step = load_scenario("sphere_spin", ["steps=1"]).run().step_data(0)
+    run = load_scenario("sphere_spin", ["steps=1"]).run()
+    step = run.step_data(0)
     for name, save in (("c.npy", np.save), ("c.npz", np.savez)):
         save(folder / name, POINTS)
     las = laspy.LasData(laspy.LasHeader(point_format=0, version="1.2"))
     las.x, las.y, las.z = POINTS.T
     las.write(folder / "c.las")
-    run = save_trajectory(folder / "run.npz", load_scenario("sphere_spin", ["steps=1"]).run())
+    save_trajectory(folder / "run.npz", run)
     ply = f"{PLY}property float z\nend_header\n0 0 0\n1 0 0\n"
-    answers = answers_written(folder, "rows", "mine", {"one": {"A": [[1.0]], "b": [1.0]}})
+    answers_written(folder, "rows", "mine", {"one": {"A": [[1.0]], "b": [1.0]}})
     return {
         "scene.toml": (toml_text(SCENE), scene_read),
         "r.urdf": ((models_folder() / "door" / "door.urdf").read_bytes(), robot_read),
@@ -146,17 +151,17 @@ def good_files(folder):
         "c.csv": (b"x,y,z,blue\n0,0,0,255\n1,0,0,255\n", points_read),
         "c.ply": (ply.encode(), point_cloud),
         "c.pcd": (pcd("ascii", PCD_BODY), points_read),
-        "c.las": ((folder / "c.las").read_bytes(), points_read),
-        "c.npy": ((folder / "c.npy").read_bytes(), point_cloud),
-        "c.npz": ((folder / "c.npz").read_bytes(), point_cloud),
+        "c.las": (written("c.las"), points_read),
+        "c.npy": (written("c.npy"), point_cloud),
+        "c.npz": (written("c.npz"), point_cloud),
         "step.json": (step_text(step).encode(), step_solved),
         "solution.json": (
             solution_text(solve_step(step, "none")).encode(),
             lambda path: refutation(step, load_solution(path, step)),
         ),
-        "run.npz": (run.read_bytes(), lambda path: load_trajectory(path).step_data(0)),
+        "run.npz": (written("run.npz"), lambda path: load_trajectory(path).step_data(0)),
         "rows.json": (
-            answers.read_bytes(),
+            written("rows.json"),
             lambda path: answers_read(path.parent, "rows"),
         ),
     }

@@ -27,11 +27,11 @@ def test_a_path_with_any_letters_is_read(tmp_path):
     assert loaded_urdf(urdf_of_text(tmp_path, text, "ящик €.urdf")).links == ("box",)
 
 
-def test_a_fixed_base_needs_no_mass(tmp_path):
+def test_a_fixed_base_needs_no_mass():
     text = robot(link("stand", inertial=""))
-    assert loaded_urdf(urdf_of_text(tmp_path, text)).links == ("stand",)
+    assert loaded_urdf(text).links == ("stand",)
     with pytest.raises(ModelError, match=r"link\[stand\].inertial: is missing, but the floating"):
-        loaded_urdf(urdf_of_text(tmp_path, text), base="floating")
+        loaded_urdf(text, base="floating")
 
 
 NO_WEIGHT = (
@@ -40,40 +40,39 @@ NO_WEIGHT = (
 )
 
 
-def test_an_inertia_that_moves_nothing_is_noted(tmp_path):
+def test_an_inertia_that_moves_nothing_is_noted():
     text = robot(
         link("a", inertial=inertial(mass="0")), link("b", inertial=""), joint("j", "a", "b")
     )
-    path = urdf_of_text(tmp_path, text)
-    notes = loaded_urdf(path, base="floating", actuated="all").notes
+    notes = loaded_urdf(text, base="floating", actuated="all").notes
     assert notes == (NO_WEIGHT,)
     with pytest.raises(ModelError, match=r"link\[b\].inertial: is missing, but joint 'j' moves"):
-        loaded_urdf(path, base="floating", actuated=("base",))
+        loaded_urdf(text, base="floating", actuated=("base",))
     with pytest.raises(ModelError, match=r"link\[a\].inertial.mass: must be greater than 0"):
-        loaded_urdf(path, base="floating", actuated=("j",))
+        loaded_urdf(text, base="floating", actuated=("j",))
 
 
-def test_a_link_that_only_connects_joints_needs_no_mass(tmp_path):
+def test_a_link_that_only_connects_joints_needs_no_mass():
     """Its joints turn about one axis: where neither is actuated, M_u is singular."""
     chain = joint("j", "a", "b") + joint("i", "b", "c")
-    path = urdf_of_text(tmp_path, robot(link("a"), link("b", inertial=""), link("c"), chain))
+    text = robot(link("a"), link("b", inertial=""), link("c"), chain)
     for actuated in (("i", "j"), ("i",), ("j",)):
-        system = System([Body("r", path, base="floating", actuated=actuated)])
+        system = System([Body("r", text, base="floating", actuated=actuated)])
         assert system.masses.tolist() == [0.0, 2.0, 0.0, 2.0]
     with pytest.raises(ModelError, match="its mass matrix M_u is singular in float64"):
-        System([Body("r", path, base="floating")])
+        System([Body("r", text, base="floating")])
 
 
-def test_a_defect_of_a_part_of_a_body_is_noted(tmp_path):
+def test_a_defect_of_a_part_of_a_body_is_noted():
     needle = inertial(moments=("0.1", "0.1", "1"))  # 1 > 0.1 + 0.1
     welded = robot(link("a"), link("b", inertial=needle), joint("j", "a", "b", "fixed"))
-    (note,) = loaded_urdf(urdf_of_text(tmp_path, welded)).notes
+    (note,) = loaded_urdf(welded).notes
     assert note.startswith("link[b].inertial.inertia: is impossible")
     assert note.endswith("; accepted, because no un-actuated joint moves this link")
     massless = robot(
         link("a"), link("b", inertial=inertial(mass="0")), joint("j", "a", "b", "fixed")
     )
-    (note,) = loaded_urdf(urdf_of_text(tmp_path, massless), base="floating").notes
+    (note,) = loaded_urdf(massless, base="floating").notes
     whole = "the inertia of all links welded to it is that of a body"
     assert note == f"link[b].inertial.mass: must be greater than 0; accepted, because {whole}"
 
