@@ -17,6 +17,7 @@ from quasistatic_ref.formats.quoting import known_names, suggestion
 from quasistatic_ref.formats.table_reader import REQUIRED, TableReader
 from quasistatic_ref.formats.together import once
 from quasistatic_ref.model.readers.clouds import point_cloud
+from quasistatic_ref.model.readers.mesh_files import mesh_path
 from quasistatic_ref.model.readers.text import decimal
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.system import Kinematics, System
@@ -90,10 +91,13 @@ def world_shape(name: str, table: TableReader, folder: Path) -> PlacedShape:
     kind = SOLIDS[kinds[0]]
     sizes = table.table(kinds[0])
     arguments = {name: field.read(sizes, name) for name, field in kind.fields.items()}
+    if "file" in arguments:
+        with about_field(sizes.name("file")):  # a path that leads to nothing beside the folder
+            arguments["file"] = mesh_path(arguments["file"], folder, is_of_file=False)
     try:
-        shape = kind.made(folder, sizes.where, **arguments)
+        shape = kind.made(**arguments)
     except InputError as error:
-        error.field = error.field if error.field and "." in error.field else sizes.where
+        error.field = sizes.name(error.field) if error.field in arguments else sizes.where
         raise
     sizes.close()
     table.close()

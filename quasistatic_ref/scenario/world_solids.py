@@ -4,11 +4,21 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from quasistatic_ref.errors import ScenarioError, about_field
+from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.declared import Field
-from quasistatic_ref.model.readers.mesh_files import mesh_hull, mesh_path
+from quasistatic_ref.formats.files import plain
+from quasistatic_ref.model.readers.mesh_files import mesh_hull
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.shapes import placed_shape as shapes
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    Shape,
+    Sphere,
+)
 
 
 class Kind(NamedTuple):
@@ -18,19 +28,17 @@ class Kind(NamedTuple):
     ----------
     fields : mapping of str to Field
     made : callable
-        The shape of a scenario's folder, the table's place in the file and the fields by name.
+        The shape of the fields by name, `file` being a path.
     """
 
     fields: Mapping[str, Field]
-    made: Callable[..., shapes.Shape]
+    made: Callable[..., Shape]
 
 
-def _mesh(folder: Path, where: str, file: str, scale: Array) -> shapes.Shape:
+def _mesh(file: Path, scale: Array) -> Shape:
     if not (scale != 0).all():
-        raise ScenarioError("must not be zero", field=f"{where}.scale", value=scale.tolist())
-    with about_field(f"{where}.file"):
-        path = mesh_path(file, folder, is_of_file=False)  # nothing beside it
-    return mesh_hull(path, scale)
+        raise ScenarioError("must not be zero", field="scale", value=scale.tolist())
+    return mesh_hull(file, scale)
 
 
 _SIZE = Field("three numbers", "edges, or axes, along x, y, z", "m",
@@ -48,14 +56,14 @@ SOLIDS: dict[str, Kind] = {
             "offset": Field("number", "the solid is normal . x <= offset: for a normal of "
                             "length 1 the height of its plane", "m", 0.0),
         },
-        lambda _, __, normal, offset: shapes.HalfSpace(normal, offset),
+        HalfSpace,
     ),
-    "box": Kind({"size": _SIZE}, lambda _, __, size: shapes.Box(size=size)),
-    "sphere": Kind({"radius": _RADIUS}, lambda _, __, radius: shapes.Sphere(radius)),
-    "cylinder": Kind(_ROUND, lambda _, __, radius, length: shapes.Cylinder(radius, length=length)),
-    "capsule": Kind(_ROUND, lambda _, __, radius, length: shapes.Capsule(radius, length=length)),
-    "cone": Kind(_ROUND, lambda _, __, radius, length: shapes.Cone(radius, length=length)),
-    "ellipsoid": Kind({"size": _SIZE}, lambda _, __, size: shapes.Ellipsoid(size=size)),
+    "box": Kind({"size": _SIZE}, Box),
+    "sphere": Kind({"radius": _RADIUS}, Sphere),
+    "cylinder": Kind(_ROUND, Cylinder),
+    "capsule": Kind(_ROUND, Capsule),
+    "cone": Kind(_ROUND, Cone),
+    "ellipsoid": Kind({"size": _SIZE}, Ellipsoid),
     "mesh": Kind(
         {
             "file": Field("text", "file in the scenario's folder, whose convex hull is taken"),
@@ -68,7 +76,7 @@ SOLIDS: dict[str, Kind] = {
 """The kinds by the name of their table."""
 
 
-def solid_table(shape: shapes.Shape, name: str) -> tuple[str, dict[str, Any]]:
+def solid_table(shape: Shape, name: str) -> tuple[str, dict[str, Any]]:
     """Kind and sizes of a solid called `name`, as its table says them.
 
     Raises
@@ -76,16 +84,8 @@ def solid_table(shape: shapes.Shape, name: str) -> tuple[str, dict[str, Any]]:
     ScenarioError
         If no table says such a shape.
     """
-    if isinstance(shape, shapes.HalfSpace):
-        return "halfspace", {"normal": shape.normal.tolist(), "offset": shape.offset}
-    if isinstance(shape, shapes.Sphere):
-        return "sphere", {"radius": shape.radius}
-    if isinstance(shape, shapes.Box):
-        return "box", {"size": (2 * shape.half_extents).tolist()}
-    if isinstance(shape, shapes.Ellipsoid):
-        return "ellipsoid", {"size": (2 * shape.half_axes).tolist()}
-    if isinstance(shape, shapes.Cylinder | shapes.Capsule | shapes.Cone):
-        sizes = {"radius": shape.radius, "length": 2 * shape.half_length}
-        return type(shape).__name__.lower(), sizes
-    problem = f"is a {type(shape).__name__} that no file holds; write it as a mesh, and load that"
-    raise ScenarioError(problem, field=name)
+    if shape.kind not in SOLIDS:
+        kind = type(shape).__name__
+        problem = f"is a {kind} that no file holds; write it as a mesh, and load that"
+        raise ScenarioError(problem, field=name)
+    return shape.kind, plain(shape.sizes)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.numbers.arrays import Array, read_only
-from quasistatic_ref.shapes.frozen import freeze_lengths, halved
+from quasistatic_ref.shapes.frozen import freeze_array, positive_lengths, set_half
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.shapes.shape import AXES, lengths
+from quasistatic_ref.shapes.shape import AXES
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -32,8 +33,8 @@ class Box(Rounded):
     def __init__(
         self, half_extents: ArrayLike | None = None, *, size: ArrayLike | None = None
     ) -> None:
-        halved(self, "half_extents", half_extents, "size", size)
-        freeze_lengths(self, "half_extents", "three positive lengths, half of each edge")
+        set_half(self, "half_extents", half_extents, "size", size, positive_lengths)
+        freeze_array(self, "half_extents", (3,))
 
     @cached_property
     def core(self) -> tuple[Array, float]:
@@ -59,6 +60,7 @@ class Box(Rounded):
         """Those of a face."""
         return 4
 
-    def words(self) -> str:
-        """Kind and edges [m]."""
-        return f"box {lengths(2 * self.half_extents)}"
+    @property
+    def sizes(self) -> dict[str, Any]:
+        """Its edges [m]."""
+        return {"size": 2 * self.half_extents}

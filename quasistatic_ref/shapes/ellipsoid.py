@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import dot, norm, total
-from quasistatic_ref.shapes.frozen import freeze_lengths, halved
-from quasistatic_ref.shapes.shape import Shape, lengths
+from quasistatic_ref.shapes.frozen import freeze_array, positive_lengths, set_half
+from quasistatic_ref.shapes.shape import Shape
 
 STEPS = 100
 """Most Newton steps to the root of an ellipsoid's sum; about ten are usual."""
@@ -34,8 +35,8 @@ class Ellipsoid(Shape):
     def __init__(
         self, half_axes: ArrayLike | None = None, *, size: ArrayLike | None = None
     ) -> None:
-        halved(self, "half_axes", half_axes, "size", size)
-        freeze_lengths(self, "half_axes")
+        set_half(self, "half_axes", half_axes, "size", size, positive_lengths)
+        freeze_array(self, "half_axes", (3,))
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m].
@@ -91,6 +92,7 @@ class Ellipsoid(Shape):
         scaled = squares * direction / height
         return np.asarray((np.diag(squares) - np.outer(scaled, scaled)) / height)
 
-    def words(self) -> str:
-        """Kind and axes [m]."""
-        return f"ellipsoid {lengths(2 * self.half_axes)}"
+    @property
+    def sizes(self) -> dict[str, Any]:
+        """Its axes [m]."""
+        return {"size": 2 * self.half_axes}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -69,6 +69,11 @@ class HalfSpace(Shape):
         """Of `points`, shape (N, 3) [m], above its plane."""
         phi, normal = self.signed_distance(points)
         return phi[:, None], normal[:, None]
+
+    @property
+    def sizes(self) -> dict[str, Any]:
+        """Its normal [-] and offset [m]."""
+        return {"normal": self.normal, "offset": self.offset}
 
     def words(self) -> str:
         """Kind, normal [-] and offset [m]."""

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import norm, product
-from quasistatic_ref.shapes.frozen import freeze_size, halved
+from quasistatic_ref.shapes.frozen import positive_length, set_half
 from quasistatic_ref.shapes.shape import Shape
 from quasistatic_ref.tolerances import UPRIGHT
 
@@ -29,20 +30,18 @@ class Revolved(Shape):
     def __init__(
         self, radius: float, half_length: float | None = None, *, length: float | None = None
     ) -> None:
-        object.__setattr__(self, "radius", radius)
-        halved(self, "half_length", half_length, "length", length)
-        freeze_size(self, "radius")
-        freeze_size(self, "half_length")
+        object.__setattr__(self, "radius", positive_length(radius, "radius"))
+        set_half(self, "half_length", half_length, "length", length, positive_length)
 
     @property
     def edge_count(self) -> int:
         """As of a square: a rim crosses each edge twice, a line once."""
         return 4
 
-    def words(self) -> str:
-        """Kind, radius and length [m]."""
-        kind = type(self).__name__.lower()
-        return f"{kind} of radius {self.radius:g} m, length {2 * self.half_length:g} m"
+    @property
+    def sizes(self) -> dict[str, Any]:
+        """Its radius and length [m]."""
+        return {"radius": self.radius, "length": 2 * self.half_length}
 
 
 def from_axis(points: Array) -> tuple[Array, Array]:

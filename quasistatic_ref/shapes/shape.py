@@ -1,7 +1,7 @@
 """The questions that every shape answers, in its own frame; by default a shape refuses them."""
 
 from functools import cached_property
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -147,9 +147,28 @@ class Shape(Plain):
         reach = self.support_value(AXES)
         return float((reach[:3] + reach[3:]).max())
 
+    @property
+    def kind(self) -> str:
+        """What files call it."""
+        return type(self).__name__.lower()
+
+    @property
+    def sizes(self) -> dict[str, Any]:
+        """What files say of it: the arguments that make it again, by their names [m, -].
+
+        Raises
+        ------
+        ContactError
+            If it is a cloud or a mesh.
+        """
+        raise self.lacks("has no sizes")
+
     def words(self) -> str:
-        """Kind and size [m], e.g. ``box 0.1 x 0.2 x 0.3 m``."""
-        raise self.lacks("has no words")
+        """Kind and sizes, e.g. ``box 0.1 x 0.2 x 0.3 m`` or ``sphere of radius 0.1 m``."""
+        sizes = self.sizes
+        if "size" in sizes:
+            return f"{self.kind} {lengths(sizes['size'])}"
+        return f"{self.kind} of {', '.join(f'{name} {size:g} m' for name, size in sizes.items())}"
 
     def lacks(self, problem: str) -> ContactError:
         """The error that says what a shape of this kind does not have."""

@@ -2,11 +2,12 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.shapes.frozen import freeze_size
+from quasistatic_ref.shapes.frozen import positive_length
 from quasistatic_ref.shapes.rounded import Rounded
 
 
@@ -24,13 +25,14 @@ class Sphere(Rounded):
     radius: float
 
     def __post_init__(self) -> None:
-        freeze_size(self, "radius")
+        object.__setattr__(self, "radius", positive_length(self.radius, "radius"))
 
     @cached_property
     def core(self) -> tuple[Array, float]:
         """Its centre, as half extents of shape (3,) [m], and the radius."""
         return np.array([0.0, 0.0, 0.0]), self.radius
 
-    def words(self) -> str:
-        """Kind and radius [m]."""
-        return f"sphere of radius {self.radius:g} m"
+    @property
+    def sizes(self) -> dict[str, Any]:
+        """Its radius [m]."""
+        return {"radius": self.radius}

@@ -114,7 +114,7 @@ def test_a_body_whose_root_link_has_no_shape_is_answered_with_the_shapes_that_it
 def test_a_solid_is_itself_in_the_words_of_a_table(solid):
     kind, sizes = solid_table(solid, "solid")
     fields = {name: np.array(x) if isinstance(x, list) else x for name, x in sizes.items()}
-    assert SOLIDS[kind].made(None, "solid", **fields) == solid
+    assert SOLIDS[kind].made(**fields) == solid
 
 
 FINGER = """<link name="{0}"><inertial><mass value="0.1"/>

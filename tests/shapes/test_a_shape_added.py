@@ -59,9 +59,7 @@ def scene(tmp_path, monkeypatch):
     """A ball on a pad whose upper face is at z = 0."""
     size = Field("three numbers", "edges of the box", "m")
     rounding = Field("number", "of the ball", "m", above=0.0)
-    row = Kind(
-        {"size": size, "radius": rounding}, lambda _, __, size, radius: Pad(size / 2, radius)
-    )
+    row = Kind({"size": size, "radius": rounding}, lambda size, radius: Pad(size / 2, radius))
     monkeypatch.setitem(SOLIDS, "pad", row)
     pad = {"pad": SIZES, "pose": {"xyz": [0.0, 0.0, float(-HALF[2] - RADIUS)]}}
     with_pad = changed(

@@ -33,7 +33,7 @@ REFUSED = [
     ("radius too large to double", lambda: Sphere(1.7e308), "radius: must be a positive length"),
     ("a radius below a proton's", lambda: Sphere(0.9 * SHORT), "radius: must be at least 1e-15 m"),
     ("flat box", lambda: Box((1, 0, 1)), "half_extents: must be three positive lengths"),
-    ("one edge", lambda: Box(0.1), r"half_extents: must be three .*, half of each edge \(got 0.1"),
+    ("one edge", lambda: Box(0.1), r"half_extents: must be three .*, half of its size \(got 0.1"),
     ("short cylinder", lambda: Cylinder(1.0, 0.0), "half_length: must be a positive length"),
     ("no normal", lambda: HalfSpace(np.zeros(3), 0.0), "normal: must not be zero"),
     ("nan offset", lambda: HalfSpace(np.eye(3)[0], np.nan), "offset: must be a finite number"),

@@ -1,6 +1,6 @@
 """What a URDF file says, checked on its own, before any library has read it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import Path
@@ -51,6 +51,12 @@ _GEOMETRIES = {
     "mesh": ("filename", "scale"),
 }
 """Shape -> its attributes."""
+_SOLIDS: dict[str, Callable[..., Shape]] = {
+    "box": Box,
+    "sphere": Sphere,
+    "cylinder": Cylinder,
+    "capsule": Capsule,
+}
 
 
 Defect = tuple[str, str, object]
@@ -317,28 +323,18 @@ def written_shape(collision: Tag, notes: list[str]) -> FileShape | None:
         if not (scale != 0).all():
             return None
         return FileMesh(shape.text("filename").strip(), scale)
-    if kind == "box":
-        sizes = shape.numbers("size", 3).tolist()
-    else:
-        sizes = [shape.number(name) for name in _GEOMETRIES[kind]]
-    if min(sizes) == 0 and not (kind == "capsule" and sizes[0] > 0):
+    sizes = {
+        name: shape.numbers(name, 3) if name == "size" else shape.number(name)
+        for name in _GEOMETRIES[kind]
+    }
+    if np.min([*sizes.values()]) == 0 and not (kind == "capsule" and sizes["radius"] > 0):
         return None
     try:
-        match kind:
-            case "box":
-                return Box(size=sizes)
-            case "sphere":
-                return Sphere(*sizes)
-            case "capsule":
-                return Capsule(sizes[0], length=sizes[1])
-            case _:
-                return Cylinder(sizes[0], length=sizes[1])
-    except ModelError as error:
-        written = {"half_extents": "size", "radius": "radius", "half_length": "length"}
-        if error.field in written:  # about a size: name it as the file does
-            name = written[error.field]
-            error.field = f"{shape.where}.{name}"
-            error.value = shape.element.get(name)
+        return _SOLIDS[kind](**sizes)
+    except ModelError as error:  # about a size
+        name = str(error.field)
+        error.field = f"{shape.where}.{name}"
+        error.value = shape.text(name)
         raise
 
 

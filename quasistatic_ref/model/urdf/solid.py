@@ -34,11 +34,15 @@ def solid_urdf(shape: Homogeneous, mass: float, name: str) -> str:
     if not m > 0:
         raise ModelError("must be greater than 0", field=f"{name}.mass", value=mass)
     xx, yy, zz = solid_inertia(shape, m).tolist()
+    sizes = " ".join(
+        f'{key}="{" ".join(map(repr, np.atleast_1d(size).tolist()))}"'
+        for key, size in shape.sizes.items()
+    )
     return (
         '<robot name="solid" version="1.1"><link name="solid">'
         f'<inertial><mass value="{m!r}"/>'
         f'<inertia ixx="{xx!r}" iyy="{yy!r}" izz="{zz!r}" ixy="0" ixz="0" iyz="0"/></inertial>'
-        f"<collision><geometry>{solid_element(shape)}</geometry></collision></link></robot>"
+        f"<collision><geometry><{shape.kind} {sizes}/></geometry></collision></link></robot>"
     )
 
 
@@ -67,13 +71,3 @@ def solid_inertia(shape: Homogeneous, mass: float) -> Array:
     across = cylinder * (r**2 / 4 + half**2 / 3)
     across += balls * ((2 / 5 - 9 / 64) * r**2 + (half + 3 / 8 * r) ** 2)
     return np.array([across, across, along])
-
-
-def solid_element(shape: Homogeneous) -> str:
-    """The element of a shape in URDF."""
-    if isinstance(shape, Sphere):
-        return f'<sphere radius="{shape.radius!r}"/>'
-    if isinstance(shape, Box):
-        return f'<box size="{" ".join(map(repr, (2 * shape.half_extents).tolist()))}"/>'
-    kind = "capsule" if isinstance(shape, Capsule) else "cylinder"
-    return f'<{kind} radius="{shape.radius!r}" length="{2 * shape.half_length!r}"/>'
