@@ -22,6 +22,7 @@ from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
+from flint import fmpz_mat
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array
@@ -169,23 +170,21 @@ def exact_factor(S: Array, share: float) -> Array | None:
     """
     fractions = [[v.as_integer_ratio() for v in row] for row in S.tolist()]
     common = math.lcm(*(q for row in fractions for _, q in row))
-    rest = [[p * (common // q) for p, q in row[i:]] for i, row in enumerate(fractions)]
-    diagonal = [row[0] for row in rest]
+    whole_numbers = [[p * (common // q) for p, q in row] for row in fractions]
+    permutation, _, _, minors = fmpz_mat(whole_numbers).fflu()  # as Bareiss: all are minors of S
+    if not permutation.is_one():  # a pivot is zero
+        return None
     part, whole = share.as_integer_ratio()
     L = np.zeros(S.shape)
     last = 1
-    for k, entry in enumerate(diagonal):  # Bareiss: all entries are minors, all divisions exact
-        row, *below = rest
-        minor = row[0]  # the pivot is minor / last
-        if whole * minor <= part * entry * last:  # so is a pivot that is not above zero
+    for k, row in enumerate(minors.tolist()):
+        above = [int(v) for v in row[k:]]
+        minor = above[0]  # the pivot is minor / last
+        if whole * minor <= part * whole_numbers[k][k] * last:  # so is one that is not above zero
             return None
         square = minor * last * common
-        roots = [_root(v * v, square) for v in row]
-        L[k:, k] = [-root if v < 0 else root for v, root in zip(row, roots, strict=True)]
-        rest = [
-            [(minor * v - row[i] * w) // last for v, w in zip(r, row[i:], strict=True)]
-            for i, r in enumerate(below, start=1)  # r begins at its entry on the diagonal
-        ]
+        roots = [_root(v * v, square) for v in above]
+        L[k:, k] = [-root if v < 0 else root for v, root in zip(above, roots, strict=True)]
         last = minor
     return L
 
