@@ -6,8 +6,9 @@ of 128 bits decide nearly always; a larger precision decides the rest.
 """
 
 import math
+from collections.abc import Callable, Sequence
 
-from flint import arb
+from flint import arb, fmpq
 
 from quasistatic_ref.numbers.precision import working_precision
 
@@ -19,22 +20,36 @@ always after it."""
 
 def cos_sin(angle: float) -> tuple[float, float]:
     """Cosine and sine [-] of an angle [rad]; NaN of an infinite one."""
-    for precision in PRECISIONS:
-        with working_precision(precision):
-            sine, cosine = arb(angle).sin_cos()
-            s = float(sine.lower())
-            c = float(cosine.lower())
-            if s == float(sine.upper()) and c == float(cosine.upper()):
-                return c, s
-    return math.nan, math.nan
+    sine, cosine = _rounded(lambda: arb(angle).sin_cos())
+    return cosine, sine
+
+
+def cos_sin_of_turn(k: int, K: int) -> tuple[float, float]:
+    """Cosine and sine [-] of k / K of a turn.
+
+    Quarter turns and reflections are exact.
+
+    Examples
+    --------
+    >>> cos_sin_of_turn(1, 4), cos_sin_of_turn(4, 8)
+    ((0.0, 1.0), (-1.0, 0.0))
+    """
+    sine, cosine = _rounded(lambda: arb.sin_cos_pi_fmpq(fmpq(2 * k, K)))
+    return cosine, sine
 
 
 def angle_of(y: float, x: float) -> float:
     """The angle of the vector (x, y), in [-pi, pi] [rad]; 0 of the zero vector."""
+    (angle,) = _rounded(lambda: [arb.atan2(arb(y), arb(x))])
+    return angle
+
+
+def _rounded(balls: Callable[[], Sequence[arb]]) -> list[float]:
+    """The numbers in balls that are formed with the precision of each turn; NaN if undecided."""
     for precision in PRECISIONS:
         with working_precision(precision):
-            ball = arb.atan2(arb(y), arb(x))
-            angle = float(ball.lower())
-            if angle == float(ball.upper()):
-                return angle
-    return math.nan
+            formed = balls()
+            least = [float(ball.lower()) for ball in formed]
+            if least == [float(ball.upper()) for ball in formed]:
+                return least
+    return [math.nan] * len(formed)

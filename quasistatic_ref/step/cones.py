@@ -23,7 +23,6 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from decimal import Decimal, localcontext
 from functools import cache, cached_property
 from typing import Any, TypeAlias
 
@@ -31,6 +30,7 @@ import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.quoting import nearest_name
+from quasistatic_ref.numbers.angles import cos_sin_of_turn
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.parts import ellipsoid_cone
 
@@ -42,8 +42,6 @@ ELLIPSOID = "ellipsoid"
 CONES = (PYRAMID, ELLIPSOID, "product", "facets-K", "frictionless")
 MOST_FACETS = 1024
 """A polygon with more sides is within 5e-6 of the circle, and makes steps of many MB."""
-
-PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494")
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,7 +152,7 @@ def facets(K: int) -> ConeFunction:
         The cone's function. It returns the sides counter-clockwise about n, then +spin, -spin, in
         the unit [m] of its arguments.
     """
-    corners = [direction(k, K) for k in range(K)]
+    corners = [cos_sin_of_turn(k, K) for k in range(K)]
 
     def rows(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
         sides = (gap + c * slip_1 + s * slip_2 for c, s in corners)
@@ -197,25 +195,3 @@ def cone(name: str) -> FrictionCone:
             return PolyhedralCone(name, tuple(f"side {k}" for k in range(K)) + spin, K, facets(K))
     problem = f"must be one of {', '.join(CONES)}, with K even and 4 to {MOST_FACETS}"
     raise StepDataError(f"{problem}{nearest_name(str(name), CONES)}", field="cone", value=name)
-
-
-def direction(k: int, K: int) -> tuple[float, float]:
-    """(cos, sin) of k/K of a turn, rounded correctly to float64.
-
-    Each is therefore a definite number on every machine, quarter turns and reflections are exact,
-    and K = 4 gives 0 and 1.
-
-    Examples
-    --------
-    >>> direction(1, 4), direction(4, 8), direction(1, 8)[0] == direction(1, 8)[1]
-    ((0.0, 1.0), (-1.0, 0.0), True)
-    """
-    with localcontext(prec=60):
-        angle = 2 * PI * k / K
-        term = Decimal(1)
-        sums = [Decimal(0), Decimal(0)]
-        for i in range(80):  # the series of cosine and sine, in turn
-            sums[i % 2] += term if i % 4 < 2 else -term
-            term = term * angle / (i + 1)
-        cosine, sine = (float(round(x, 50)) + 0.0 for x in sums)  # never -0.0
-        return cosine, sine

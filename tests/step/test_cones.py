@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import StepDataError, standard_form
-from quasistatic_ref.step.cones import cone, direction
+from quasistatic_ref.numbers.angles import cos_sin_of_turn
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.friction import contact_wrenches
 from tests.closeness import assert_close, assert_within
 from tests.helpers import random_step
@@ -39,7 +40,7 @@ def test_another_name_is_refused(name, rng):
 
 @pytest.mark.parametrize("K", [6, 8, 12])
 def test_opposite_directions_and_quarter_turns_are_exact(K):
-    found = [direction(k, K) for k in range(K)]
+    found = [cos_sin_of_turn(k, K) for k in range(K)]
     for k, (c, s) in enumerate(found):
         assert (-c, -s) == found[(k + K // 2) % K]
         assert (c, -s) in found
