@@ -151,34 +151,27 @@ class TableReader:
             raise self.error_about(field, problem, value)
         return value
 
-    def array(
-        self, field: str, shape: tuple[int | None, ...], default: Any = REQUIRED
-    ) -> np.ndarray:
-        """A field that is finite numbers of a shape (None: any length), as float64."""
+    def array(self, field: str, shape: tuple[int, ...], default: Any = REQUIRED) -> np.ndarray:
+        """A field that is finite numbers of a shape, as float64."""
         value = self.take(field, default)
-        wanted = " x ".join("any" if s is None else str(s) for s in shape)
+        problem = f"must be {' x '.join(map(str, shape))} numbers"
         if isinstance(value, str):
-            problem = f"must be {wanted} numbers, with commas between them and brackets around them"
+            problem += ", with commas between them and brackets around them"
             raise self.error_about(field, problem, value)
         try:
-            array = np.array(value, dtype=object)
-            if any(isinstance(v, list) for v in array.flat):
-                raise self.error_about(
-                    field, f"must be {wanted} numbers, in lists of equal length", value
-                )
-            if any(isinstance(v, bool) or not isinstance(v, int | float) for v in array.flat):
-                raise self.error_about(field, f"must contain numbers only ({wanted})", value)
-            numbers = array.astype(np.float64)
-        except InputError:
-            raise
+            entries = np.array(value, dtype=object)
+            kinds = {type(entry) for entry in entries.flat}
+            fit = all(issubclass(kind, int | float) and kind is not bool for kind in kinds)
+            numbers = entries.astype(np.float64) if fit else None
         except (ValueError, OverflowError, TypeError, RuntimeError):  # 33 axes and more
-            raise self.error_about(field, f"must be {wanted} finite numbers", value) from None
+            numbers = None
+        if numbers is None:
+            problem += ", finite ones in lists of equal length"
+            raise self.error_about(field, problem, value)
         if numbers.shape == (0,) and 0 in shape:
-            numbers = numbers.reshape([s or 0 for s in shape])
-        if numbers.ndim != len(shape) or any(
-            s is not None and s != n for s, n in zip(shape, numbers.shape, strict=True)
-        ):
-            raise self.error_about(field, f"must be {wanted} numbers", value)
+            numbers = numbers.reshape(shape)
+        if numbers.shape != shape:
+            raise self.error_about(field, problem, value)
         if not np.isfinite(numbers).all():
             raise self.error_about(field, "must contain finite numbers only", value)
         return numbers

@@ -353,16 +353,7 @@ KIND: dict[str, Callable[[StepData], ArrayLike]] = {
 
 def differences(template: StepData, step: StepData, names: Iterable[str] = KIND) -> list[str]:
     """In what of those `names` of ``KIND`` a step is not like another."""
-    unlike = []
-    for name in names:
-        one, other = KIND[name](template), KIND[name](step)
-        if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
-            alike = one.shape == other.shape and bool((one == other).all())
-        else:
-            alike = one == other
-        if not alike:
-            unlike.append(name)
-    return unlike
+    return [n for n in names if not np.array_equal(KIND[n](template), KIND[n](step))]
 
 
 def hessian(h: float, K_q: Array, M_u: Array) -> Array:

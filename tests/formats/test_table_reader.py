@@ -19,7 +19,7 @@ READS = {
         lambda f: f.text("x", choices=("fixed", "floating")),
         "t.x: is not a choice; did you mean 'fixed'?",
     ),
-    "array a word": ({"x": ["a"]}, lambda f: f.array("x", (1,)), "t.x: must contain numbers only"),
+    "array a word": ({"x": ["a"]}, lambda f: f.array("x", (1,)), "t.x: must be 1 numbers, finite"),
     "array ragged": ({"x": [[1], [1, 2]]}, lambda f: f.array("x", (2, 2)), "t.x: must"),
     "array too long": ({"x": [1, 2, 3]}, lambda f: f.array("x", (2,)), "t.x: must be 2 numbers"),
     "array too deep": ({"x": np.zeros((1,) * 40).tolist()}, lambda f: f.array("x", (1,)), "t.x: "),
@@ -36,12 +36,11 @@ def test_a_field_is_refused_by_its_full_name(table, read, says):
 
 
 def test_arrays_become_float64_of_the_asked_shape():
-    fields = TableReader({"a": [[1, 2], [3, 4]], "b": [], "c": [1, 2, 3]})
-    a = fields.array("a", (2, None))
+    fields = TableReader({"a": [[1, 2], [3, 4]], "b": []})
+    a = fields.array("a", (2, 2))
     assert a.dtype == np.float64
     assert_same(a, [[1.0, 2.0], [3.0, 4.0]])
     assert fields.array("b", (0, 7)).shape == (0, 7)
-    assert fields.array("c", (None,)).shape == (3,)
 
 
 def test_a_missing_field_is_its_default_whatever_that_is():
