@@ -9,6 +9,10 @@ from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot
 
 
 def test_a_configuration_of_another_length_is_refused(scene):
+    with pytest.raises(ModelError, match=rf"q: must have shape \({scene.n_q},\)"):
+        scene.checked(scene.q_start[:-1])
+    with pytest.raises(ModelError, match=r"q\[arm/base\]: must be finite"):
+        scene.checked(scene.q_start * np.nan)
     with pytest.raises(ModelError, match="q: must be numbers"):
         scene.checked(["zero"] * scene.n_q)
     with pytest.raises(ModelError, match=rf"^q: must have shape \({scene.n_q},\) \(got \(1,\)\)$"):
