@@ -19,6 +19,8 @@ from validation.tools.scripts import ROOT
 
 CHECKER = ROOT / "validation" / "check_solution.py"
 ORDER = "active names independent rows, in order"
+SCENES = scenes()
+STICKS = SCENES["exact", "sticks, six rows of rank four"]
 CONES = ("pyramid", "product", "facets-6", "facets-32", "frictionless")
 
 
@@ -68,9 +70,7 @@ def test_degenerate_steps_hold_in_each_cone_and_a_last_bit_does_not(outcome, see
 
 
 def test_each_equation_is_named(outcome):
-    of = {name: step for (kind, name), step in scenes().items() if kind == "exact"}
-    sticks = of["sticks, six rows of rank four"]
-    text, good = step_text(sticks), good_file(sticks, "exact")
+    text, good = step_text(STICKS), good_file(STICKS, "exact")
     j, i = good["certificate"]["active"][0]
     idle = next(k for k in range(4) if [0, k] not in good["certificate"]["active"])
     for where, value, line in (
@@ -88,11 +88,10 @@ def test_minimisers_on_rows_that_are_not_those_of_the_optimum_break_their_equati
     outcome, tmp_path
 ):
     """Here and in `verify`."""
-    of = {name: step for (kind, name), step in scenes().items() if kind == "exact"}
-    idle = of["touches, but bears nothing"]
+    idle = SCENES["exact", "touches, but bears nothing"]
     record = good_file(idle, "exact")
     record["certificate"] |= {"active": [[0, 0]], "smallest_active_multiplier": 0.0}
-    held = of["held back by a row of its own"]
+    held = SCENES["exact", "held back by a row of its own"]
     free = held.replace(extra=Extra((), np.zeros((0, held.n_v)), np.zeros(0)))
     other = good_file(free, "exact") | {"step_sha256": step_sha256(held), "lam_extra": [0.0]}
     for step, wrong, line in (
@@ -128,8 +127,7 @@ NO_FILE = {
 def test_what_is_no_file_of_its_format_is_refused_here_and_by_verify(
     outcome, tmp_path, file, where, value, words
 ):
-    step = scenes()["exact", "sticks, six rows of rank four"]
-    texts = {"step": step_text(step), "solution": solved_text(step)}
+    texts = {"step": step_text(STICKS), "solution": solved_text(STICKS)}
     texts[file] = json.dumps(with_value(json.loads(texts[file]), where, value))
     status, line = outcome(*texts.values())
     assert (status, words in line) == (2, True), line
@@ -137,13 +135,12 @@ def test_what_is_no_file_of_its_format_is_refused_here_and_by_verify(
 
 
 def test_a_field_that_is_there_twice_and_files_that_are_none_are_refused(outcome, capsys):
-    step = scenes()["exact", "sticks, six rows of rank four"]
-    solution = solved_text(step)
+    solution = solved_text(STICKS)
     for text in (
         '{"cone": "pyramid", ' + solution[1:],
         solution.replace('{"kind"', '{"kind": 1, "kind"'),
     ):
-        status, line = outcome(step_text(step), text)
+        status, line = outcome(step_text(STICKS), text)
         assert (status, "a field is there twice" in line) == (2, True)
     for paths, words in (((), "two files are asked for"), (("/dev/zero",) * 2, "Expecting value")):
         assert checker.main(*paths) == 2
@@ -151,7 +148,7 @@ def test_a_field_that_is_there_twice_and_files_that_are_none_are_refused(outcome
 
 
 def test_what_is_not_claimed_or_not_judged_here_is_said(outcome):
-    for (kind, _), step in scenes().items():
+    for (kind, _), step in SCENES.items():
         status, line = outcome(step_text(step), json.dumps(good_file(step, kind)))
         judged = kind in ("exact", "infeasible")
         assert status == (0 if judged else 2), line

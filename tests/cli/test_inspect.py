@@ -11,13 +11,20 @@ from quasistatic_ref.optional.doctor.time_step import time_step_record, time_ste
 from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, urdf_of_text
 from tests.optional.doctor.words import block, slides
+from tests.pages import flat
 from tests.scenes import RAIL, SWING, written_scenario
 from tests.tolerances import ROUNDING
 
 
-def test_inspect_shows_a_urdf(tmp_path, cli):
+@pytest.fixture
+def inspected(cli):
+    """What ``inspect --json`` prints of a file."""
+    return lambda *arguments: json.loads(cli("inspect", *arguments, "--json").out)
+
+
+def test_inspect_shows_a_urdf(tmp_path, cli, inspected):
     path = urdf_of_text(tmp_path, RAIL, "rail.urdf")
-    record = json.loads(cli("inspect", path, "--json").out)
+    record = inspected(path)
     assert [c["name"] for c in record["coordinates"]] == ["rail/slide", "rail/turn"]
     assert [c["unit"] for c in record["coordinates"]] == ["m", "rad"]
     assert (record["n_a"], record["n_u"]) == (2, 0)
@@ -34,7 +41,7 @@ def test_inspect_shows_a_urdf(tmp_path, cli):
     assert "the model ignores:" in text
 
 
-def test_inspect_does_not_call_ignored_what_the_scenario_uses(tmp_path, cli):
+def test_inspect_does_not_call_ignored_what_the_scenario_uses(tmp_path, inspected):
     rubbed = '<dynamics damping="1" friction="2"/>'
     arm = robot(
         link("a", inertial=""), link("b"), link("c"), link("d"),
@@ -48,28 +55,28 @@ def test_inspect_does_not_call_ignored_what_the_scenario_uses(tmp_path, cli):
         text = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
         text += f'[bodies.arm]\nurdf = "arm.urdf"\njoint_friction = {friction}\n'
         path = urdf_of_text(tmp_path, text, "scene.toml")
-        lines[friction] = json.loads(cli("inspect", path, "--json").out)["ignored"]
+        lines[friction] = inspected(path)["ignored"]
     assert "arm: joint friction (1)" in lines['"urdf"']  # of the weld
     assert "arm: joint friction (3)" in lines["{ slide = 1 }"]
     assert all("arm: joint damping (3)" in each for each in lines.values())
 
 
 @pytest.mark.parametrize("kind", ["continuous", "ball"])
-def test_bounds_of_a_joint_without_ends_are_ignored_and_named(tmp_path, cli, kind):
+def test_bounds_of_a_joint_without_ends_are_ignored_and_named(tmp_path, kind, inspected):
     text = robot(link("a", inertial=""), link("b"), joint("j", "a", "b", kind))
-    ignored = json.loads(cli("inspect", urdf_of_text(tmp_path, text), "--json").out)["ignored"]
+    ignored = inspected(urdf_of_text(tmp_path, text))["ignored"]
     assert "r: bounds of joints that turn without end (1)" in ignored
 
 
-def test_inspect_says_what_a_mimic_follows(tmp_path, cli):
+def test_inspect_says_what_a_mimic_follows(tmp_path, cli, inspected):
     path = urdf_of_text(tmp_path, CHAIN, "arm.urdf")
     assert "\narm/swing_mimic = -0.7 * arm/swing + 0.2\n" in cli("inspect", path).out
     follows = {"name": "arm/swing_mimic", "of": "arm/swing", "multiplier": -0.7, "offset": 0.2}
-    assert json.loads(cli("inspect", path, "--json").out)["mimics"] == [follows]
+    assert inspected(path)["mimics"] == [follows]
 
 
-def test_inspect_shows_a_scenario(scene, cli):
-    record = json.loads(cli("inspect", scene, "--json", "--set", "contacts.floor.mu_omega=0.5").out)
+def test_inspect_shows_a_scenario(scene, cli, inspected):
+    record = inspected(scene, "--set", "contacts.floor.mu_omega=0.5")
     stiffness = {c["name"]: c["K_q"] for c in record["coordinates"] if c["actuated"]}
     assert stiffness == {"rail/slide": 500, "rail/turn": 2.5}
     assert "read_as" not in record  # a scenario says how its bodies are held
@@ -81,8 +88,8 @@ def test_inspect_shows_a_scenario(scene, cli):
     assert "2.5 N m/rad" in text
 
 
-def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, cli):
-    fields = json.loads(cli("inspect", scene, "--json").out)["fields"]
+def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, cli, inspected):
+    fields = inspected(scene)["fields"]
     assert fields["h"] == 0.01
     numbers = {
         name: x for name, x in fields.items() if type(x) in (int, float) and name != "version"
@@ -113,10 +120,10 @@ TURNED = inertial(
 )
 
 
-def test_inspect_shows_inertias_along_the_axes_of_their_link(tmp_path, cli):
+def test_inspect_shows_inertias_along_the_axes_of_their_link(tmp_path, cli, inspected):
     """A quarter turn about z: ixx along the frame of the inertia is iyy along the link's."""
     path = urdf_of_text(tmp_path, robot(link("a", inertial=TURNED)), "one.urdf")
-    (found,) = json.loads(cli("inspect", path, "--json").out)["links"]
+    (found,) = inspected(path)["links"]
     assert found["centre"] == [0.5, 0.25, 0.125]
     assert np.diag(found["inertia"]) == pytest.approx([0.2, 0.1, 0.25], abs=ROUNDING)
     out = cli("inspect", path).out
@@ -124,22 +131,26 @@ def test_inspect_shows_inertias_along_the_axes_of_their_link(tmp_path, cli):
     assert "0.5 0.25 0.125" in out
 
 
-def test_findings_are_listed_before_a_run(cli):
-    arguments = ["inspect", "block_push", "--set", "contacts.floor.k=1"]
-    printed = " ".join(cli(*arguments).out.split())
+def test_findings_are_listed_before_a_run(cli, inspected):
+    scene = "block_push", "--set", "contacts.floor.k=1"
+    printed = flat(cli("inspect", *scene).out)
     assert "findings, before a run: - raise k of contacts.floor to 4: block lies flat" in printed
-    (found,) = json.loads(cli(*arguments, "--json").out)["findings"]
+    (found,) = inspected(*scene)["findings"]
     assert (found["name"], found["grave"]) == ("too few points", True)
 
 
-def record_and_words(cli, *arguments):
-    record = json.loads(cli("inspect", *arguments, "--json").out)["time_step"]
-    return record, " ".join(cli("inspect", *arguments).out.split())
+@pytest.fixture
+def record_and_words(cli, inspected):
+    """What is printed of the time step, as JSON, and the whole page in one line."""
+    return lambda *arguments: (
+        inspected(*arguments)["time_step"],
+        flat(cli("inspect", *arguments).out),
+    )
 
 
-def test_inspect_says_from_which_time_step_on_drag_is_small(scene, cli):
+def test_inspect_says_from_which_time_step_on_drag_is_small(scene, record_and_words):
     """(R13): m v / h < mu_v m g / 10 where h > 10 v / (mu_v g)."""
-    record, text = record_and_words(cli, scene)
+    record, text = record_and_words(scene)
     v, mu_v, g = 0.02 / 0.1, 0.3, 9.81  # the plate's way and time, and the smaller mu_v
     assert record["target_speed"] == pytest.approx(v, rel=ROUNDING)
     assert record["small_drag_from"] == pytest.approx(10 * v / (mu_v * g), rel=ROUNDING)
@@ -147,7 +158,7 @@ def test_inspect_says_from_which_time_step_on_drag_is_small(scene, cli):
     assert record["between_waypoints"] == 0.1
     assert "move by up to 0.2 m/s; drag is below a tenth of friction" in text
     assert "on a body's weight from h = 0.68 s on; waypoints are at least 0.1 s apart" in text
-    weightless, text = record_and_words(cli, scene, "--set", "gravity=[0, 0, 0]")
+    weightless, text = record_and_words(scene, "--set", "gravity=[0, 0, 0]")
     assert weightless == record | {"small_drag_from": None}
     assert "drag" not in text
 
@@ -195,10 +206,10 @@ def test_what_targets_carry_bounds_the_time_step_where_it_slides_first():
     assert record["small_layer_to"] == pytest.approx(0.02, rel=1e-9)
 
 
-def test_inspect_says_how_far_a_target_turns_in_a_step(tmp_path, cli):
+def test_inspect_says_how_far_a_target_turns_in_a_step(tmp_path, record_and_words):
     """270 degrees in 10 ms and h = 2 ms: 54 degrees a step, a chord of 2 r sin(27 deg)."""
     club = str(written_scenario(tmp_path, SWING))
-    record, text = record_and_words(cli, club, "--set", "h=0.002", "--set", "steps=30")
+    record, text = record_and_words(club, "--set", "h=0.002", "--set", "steps=30")
     turn = 1.5 * np.pi / 5
     r = 0.2
     assert record["target_turn"] == pytest.approx(turn, rel=ROUNDING)

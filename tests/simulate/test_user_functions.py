@@ -90,10 +90,7 @@ def test_a_loop_by_hand_ends_in_the_trajectory_of_rollout(scenario):
         recorder.add(goal(recorder.t), result)
         q = result.q
     found = recorder.trajectory()
-    assert found.header == expected.header
-    assert found.arrays.keys() == expected.arrays.keys()
-    for name, array in expected.arrays.items():
-        assert_same(found[name], array)
+    assert found == expected
     assert found.seconds.keys() == expected.seconds.keys()
 
 

@@ -33,18 +33,13 @@ BINARY_HEADER = """ply
 format binary_little_endian 1.0
 element vertex 2
 property uchar red
-property {0} x
-property {0} y
-property {0} z
+property double x
+property double y
+property double z
 element face 0
 property list uchar int vertex_indices
 end_header
 """
-
-
-def binary_ply(kind, code):
-    body = b"".join(struct.pack(f"<B3{code}", 7, *point) for point in POINTS)
-    return BINARY_HEADER.format(kind).encode() + body
 
 
 PCD_HEADER = """# .PCD v0.7 - Point Cloud Data file format
@@ -87,7 +82,7 @@ GOOD = {
     "csv with a header": (".csv", b"x,y,z\n0.1, -0.2, 0.3\n1.0,2e-3,-0.5\n"),
     "csv with columns moved": (".csv", b'id,"Z",X,y\n0,0.3,0.1,-0.2\n1,-0.5,1.0,2e-3\n'),
     "ascii ply": (".ply", PLY_ASCII.encode()),
-    "binary ply in float64": (".ply", binary_ply("double", "d")),
+    "binary ply in float64": (".ply", BINARY_HEADER.encode() + binary_body("<B3d")),
     "ascii pcd": (".pcd", pcd("ascii", PCD_BODY)),
     "pcd without COUNT": (
         ".pcd",

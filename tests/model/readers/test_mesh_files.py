@@ -14,6 +14,7 @@ import trimesh
 
 from quasistatic_ref import Body, ModelError, System, load_scenario
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_hull, mesh_path
 from quasistatic_ref.model.urdf import shapes as urdf_shapes
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
@@ -47,8 +48,7 @@ def test_a_mesh_of_a_urdf_is_loaded_scaled_and_noted(tmp_path):
 
 
 def test_a_package_address_is_looked_for_in_package_dirs(tmp_path):
-    (tmp_path / "arm" / "meshes").mkdir(parents=True)
-    expected = urdf_of_text(tmp_path / "arm" / "meshes", TETRAHEDRON, "a.obj")
+    expected = text_written(tmp_path / "arm/meshes/a.obj", TETRAHEDRON)
     found = mesh_path("package://arm/meshes/a.obj", tmp_path / "arm", (tmp_path,))
     assert found == expected.resolve()
 
@@ -62,13 +62,10 @@ PLACES = {
 
 @cases("place", PLACES)
 def test_a_package_address_is_looked_for_above_the_file(tmp_path, place):
-    urdf = tmp_path / "repo" / "arm" / "urdf"
-    urdf.mkdir(parents=True)
-    (tmp_path / "repo" / ".git").mkdir()
-    outside = tmp_path / "arm" / "meshes"
-    for folder in (outside, (tmp_path / place).parent):
-        folder.mkdir(parents=True, exist_ok=True)
-        urdf_of_text(folder, TETRAHEDRON, "a.obj")
+    urdf = tmp_path / "repo/arm/urdf"
+    (tmp_path / "repo/.git").mkdir(parents=True)
+    for mesh in ("arm/meshes/a.obj", place):
+        text_written(tmp_path / mesh, TETRAHEDRON)
     assert mesh_path("package://arm/meshes/a.obj", urdf) == (tmp_path / place).resolve()
     (tmp_path / place).unlink()
     with pytest.raises(ModelError, match="no such file"):  # nothing outside of the repository
@@ -81,10 +78,9 @@ def test_a_package_address_is_looked_for_above_the_file(tmp_path, place):
     ("../../other/meshes/a.obj", "other/meshes/a.obj", ".git"),
 ])  # fmt: skip
 def test_a_relative_path_leads_anywhere_in_its_package(tmp_path, uri, place, mark):
-    urdf = tmp_path / "arm" / "urdf"
+    urdf = tmp_path / "arm/urdf"
     urdf.mkdir(parents=True)
-    (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
-    mesh = urdf_of_text((tmp_path / place).parent, TETRAHEDRON, "a.obj")
+    mesh = text_written(tmp_path / place, TETRAHEDRON)
     if mark is not None:
         with pytest.raises(ModelError, match="outside the folder of this file"):
             mesh_path(uri, urdf)
@@ -95,10 +91,9 @@ def test_a_relative_path_leads_anywhere_in_its_package(tmp_path, uri, place, mar
 
 
 def test_a_relative_path_leads_anywhere_in_the_folder_of_its_scenario(tmp_path):
-    (tmp_path / "robots" / "urdf").mkdir(parents=True)
     urdf_of_text(tmp_path, TETRAHEDRON, "a.obj")
     mesh = collision('<mesh filename="../../a.obj"/>')
-    urdf_of_text(tmp_path / "robots" / "urdf", robot(link("a", mesh)))
+    text_written(tmp_path / "robots/urdf/r.urdf", robot(link("a", mesh)))
     scene = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
     scene += '[bodies.r]\nurdf = "robots/urdf/r.urdf"\nbase = "floating"\n'
     (shape,) = load_scenario(urdf_of_text(tmp_path, scene, "s.toml")).system.shapes
@@ -106,12 +101,10 @@ def test_a_relative_path_leads_anywhere_in_the_folder_of_its_scenario(tmp_path):
 
 
 def test_a_mesh_of_a_scenario_itself_lies_in_its_folder(tmp_path):
-    for name in ("scenes", "robots"):
-        (tmp_path / name).mkdir()
-    urdf_of_text(tmp_path / "robots", TETRAHEDRON, "a.obj")
+    text_written(tmp_path / "robots/a.obj", TETRAHEDRON)
     scene = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
     scene += '[bodies.r]\nurdf = "r.urdf"\n[shapes.m]\nmesh = { file = "../robots/a.obj" }\n'
-    urdf_of_text(tmp_path / "scenes", robot(link("a")), "r.urdf")
+    text_written(tmp_path / "scenes/r.urdf", robot(link("a")))
     with pytest.raises(ModelError, match=r"m\.mesh\.file: leads to .*, outside the folder of"):
         load_scenario(urdf_of_text(tmp_path / "scenes", scene, "s.toml"))
 
@@ -227,13 +220,12 @@ def test_two_materials_are_one_convex_mesh(tmp_path):
 
 
 def test_two_nodes_of_a_collada_file_stand_where_it_places_them(tmp_path):
-    node = '<node><instance_geometry url="#g"/></node>'
-    text = COLLADA.replace("</node>\n", f"</node>{node}".replace("<node>", MOVED) + "\n")
+    text = COLLADA.replace("</node>\n", f"</node>{MOVED}\n")
     hull = mesh_hull(urdf_of_text(tmp_path, text, "a.dae"), np.ones(3))
     assert_within(hull.vertices.max(axis=0), np.array([4.0, 2.0, 2.0]), CLOSED_FORM)
 
 
-MOVED = "<node><translate>2 0 0</translate><scale>2 2 2</scale>"
+MOVED = '<node><translate>2 0 0</translate><scale>2 2 2</scale><instance_geometry url="#g"/></node>'
 POINTS = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.1 0.1 0.1\n"
 
 
