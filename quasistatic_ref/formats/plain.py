@@ -26,7 +26,7 @@ class Plain:
         return bool(bits(self) == bits(other))
 
     @classmethod
-    def compared_as(cls) -> type:
+    def compared_as(cls) -> Any:
         """The class whose object it equals: its own, unless it forms fields of another one late."""
         return cls
 
@@ -41,6 +41,11 @@ class Plain:
         made = cls.__new__(cls)
         made.__dict__.update(fields)
         return made
+
+    def with_fields(self, **changes: Any) -> Self:
+        """A copy with other fields, which are right by construction: nothing of it is checked."""
+        copy: Self = self.compared_as().unchecked(**(field_values(self) | changes))
+        return copy
 
     def __hash__(self) -> int:
         return hash(bits(self))

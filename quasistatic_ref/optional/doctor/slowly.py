@@ -21,12 +21,11 @@ last two T, unless nothing slips: without a slip the step is the convex one.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.formats.plain import Plain, field_values
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only, without_warnings
 from quasistatic_ref.optional.doctor.artifacts import gives
 from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
@@ -41,7 +40,6 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian
 from quasistatic_ref.tolerances import ACCURACY
 
-Data = TypeVar("Data", bound=Plain)
 SLOWLY = 10.0
 """T [s], or a thousand h if that is more: what nothing bears falls by 500 m."""
 LITTLE = 1e-3
@@ -206,12 +204,12 @@ class Slow:
 
     def _answer(self, T: float, s: Array | None, proved: bool) -> Answer:
         if self._of_T.si_step.h != T:
-            self._of_T = StepInBothUnits(with_fields(self.step, h=T))
+            self._of_T = StepInBothUnits(self.step.with_fields(h=T))
         step = self._of_T.si_step
         units = self._of_T.units
         if s is not None:
             phi = read_only(step.contacts.phi + s)
-            step = with_fields(step, contacts=with_fields(step.contacts, phi=phi))
+            step = step.with_fields(contacts=step.contacts.with_fields(phi=phi))
         if not self._polyhedral:
             return self._round(step, units)
         if proved:
@@ -230,15 +228,14 @@ class Slow:
         of_user = len(step.extra.names)
         at, u = self._tangents
         for _ in range(CUTS):
-            extra = with_fields(
-                step.extra,
+            extra = step.extra.with_fields(
                 names=(*step.extra.names, *("tangent",) * len(at)),
                 A=np.vstack(
                     [step.extra.A, self._J_n[at] - np.einsum("ri,riv->rv", u, self._slips[at])]
                 ),
                 b=np.concatenate([step.extra.b, -contacts.phi[at]]),
             )
-            cut = with_fields(step, cone="frictionless", extra=extra)
+            cut = step.with_fields(cone="frictionless", extra=extra)
             delta_q, lam = self.solvers.by_floats(cut, units)
             slip = self._slips @ delta_q
             norm = np.linalg.norm(slip, axis=1)
@@ -391,15 +388,10 @@ class Slow:
     @cached_property
     def in_round(self) -> Climb:
         """The same T in the round cone; open where one of them has no fixed point there."""
-        slow = Slow(with_fields(self.step, cone=ELLIPSOID), self.solvers, self.sizes)
+        slow = Slow(self.step.with_fields(cone=ELLIPSOID), self.solvers, self.sizes)
         rungs = [slow.rung(one.T, one.s) for one in self.climbed.rungs]
         confirmed = [one for one in rungs if one is not None]
         return Climb(confirmed, len(confirmed) < len(rungs))
-
-
-def with_fields(data: Data, **changes: Any) -> Data:
-    """A copy of plain data with other fields, which are right by construction."""
-    return data.unchecked(**(field_values(data) | changes))
 
 
 def alike(step: StepData, sizes: Array) -> bytes:
@@ -459,7 +451,7 @@ def landed(step: StepData, presses: Mask, delta_q: Array) -> StepData:
     rows = np.vstack([1e3 * J_n[presses], *(J[sticks] for J in J_t[:2])])  # gaps first
     gaps = np.concatenate([-1e3 * contacts.phi[presses], np.zeros(2 * int(sticks.sum()))])
     down = root @ np.linalg.lstsq(rows @ root, gaps, rcond=1e-9)[0]
-    extra = with_fields(step.extra, b=step.extra.b - step.extra.A @ down)
+    extra = step.extra.with_fields(b=step.extra.b - step.extra.A @ down)
     return step.replace(
         contacts=contacts.raised(J_n @ down),
         delta_q_bar_a=step.delta_q_bar_a - down[: step.n_a],

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.step.data import Extra, StepData
@@ -16,7 +15,7 @@ def with_numbers(step: StepData, extension: Extension) -> StepData:
         if rows.cost is not None or extra.A.shape[1] != step.n_v:
             step = step.replace(extra=extra)  # which has to fit
         else:
-            step = StepData.unchecked(**(field_values(step) | {"extra": extra}))
+            step = step.with_fields(extra=extra)
     return with_rises(step, extension.rises)
 
 

@@ -7,14 +7,12 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.optional.extensions.extension import Rises
 from quasistatic_ref.optional.extensions.urdf_joints import urdf_joints
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
-from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Extra, StepData
 
 LIGHT: Final = 1e-6
@@ -49,7 +47,7 @@ def with_rises(step: StepData, rises: Rises) -> StepData:
     of_step = {
         "M_u": read_only(M_u),
         "tau_u": read_only(np.concatenate([step.tau_u, -rises.loads])),
-        "contacts": Contacts.unchecked(**(field_values(contacts) | {"J": read_only(J)})),
+        "contacts": contacts.with_fields(J=read_only(J)),
         "extra": Extra(
             extra.names + names,
             np.concatenate([_wider(extra.A, p), *rows]),
@@ -58,7 +56,7 @@ def with_rises(step: StepData, rises: Rises) -> StepData:
             g=None if g is None else np.pad(g, (0, p)),
         ),
     }
-    return StepData.unchecked(**(field_values(step) | of_step))
+    return step.with_fields(**of_step)
 
 
 def _wider(array: Array, p: int) -> Array:
