@@ -28,7 +28,7 @@ from quasistatic_ref.errors import BackendError
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.problem_data import ProblemData
-from quasistatic_ref.solve.units import coordinate_units
+from quasistatic_ref.solve.units import coordinate_units, powers_of_two
 from quasistatic_ref.tolerances import UNMOVED
 
 
@@ -171,8 +171,3 @@ def row_scales(A: sp.csr_array, of: Indices) -> Array:
         if present.size:
             scales[i] = powers_of_two(1 / np.median(present))
     return scales
-
-
-def powers_of_two(x: Array | float) -> Array:
-    """The power of two next to each of positive numbers, in their shape."""
-    return np.exp2(np.round(np.log2(x)))

@@ -23,10 +23,8 @@ from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.norm import energy_norm, joined, single_lengths
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, Mask, finite, read_only
-from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Extra, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import UNMOVED
 
@@ -62,11 +60,16 @@ class Units(NamedTuple):
 
 def coordinate_units(diagonal: Array) -> Array:
     """Diagonal of S, shape (n_v,) [m or rad, per (N m s)^0.5], from the `diagonal` of H."""
-    return np.exp2(np.round(np.log2(1 / np.sqrt(diagonal))))
+    return powers_of_two(1 / np.sqrt(diagonal))
+
+
+def powers_of_two(x: Array | float) -> Array:
+    """The power of two next to each of positive numbers, in their shape."""
+    return np.exp2(np.round(np.log2(x)))
 
 
 def squared_lengths(A: Array, coordinate: Array) -> Array:
-    """Squared lengths of the rows of A S [m^2/(N m s)], shape (m,), ascending; NaN comes last.
+    """Squared lengths of the rows of A S that are not zero [m^2/(N m s)], ascending: (k,), k <= m.
 
     Parameters
     ----------
@@ -77,8 +80,7 @@ def squared_lengths(A: Array, coordinate: Array) -> Array:
     """
     # Squares and sums are rounded, which is enough to choose a power of two.
     squares: Array = np.square(A).dot(np.square(coordinate))
-    squares.sort()
-    return squares
+    return np.sort(squares[squares != 0])  # NaN comes last
 
 
 def units_of(form: StandardForm) -> Units:
@@ -95,13 +97,12 @@ def units_of(form: StandardForm) -> Units:
     squares = squared_lengths(form.A, coordinate)
     free_length = energy_norm(form.H).of_impulse(form.g)  # ||H^-1 g||_H
     length = _power_of_two(_median_length(squares))
-    b = form.b
-    push_out = max(float(b[b.argmax()]), 0.0) / length if b.size else 0.0  # from penetration
+    push_out = float(form.b.max(initial=0.0)) / length  # from penetration
     size = max(free_length, push_out)
     softest = float(coordinate.max(initial=0.0))
     if size == 0:  # no load, no penetration: the optimum is zero
         size = UNMOVED / softest if coordinate.size else UNMOVED
-    if not math.isfinite(free_length + push_out + (squares[-1] if b.size else 0.0)):
+    if not math.isfinite(free_length + push_out + squares.max(initial=0.0)):
         size = math.nan
     size = _power_of_two(max(size, SMALLEST * max(1.0, softest)))
     return Units(coordinate, length, size)
@@ -139,11 +140,9 @@ def natural_step(step: StepData, units: Units) -> StepData:
     if not finite(np.concatenate([array.ravel() for array in arrays])):
         raise out_of_range()
     # Shapes, signs, frames and definiteness are those of the step, which are checked.
-    parts = field_values(step) | of_step
-    parts["contacts"] = Contacts.unchecked(**(field_values(c) | of_contacts))
     if not extra.empty:
-        parts["extra"] = Extra.unchecked(**(field_values(extra) | of_extra))
-    return StepData.unchecked(**parts)
+        extra = extra.with_fields(**of_extra)
+    return step.with_fields(**of_step, contacts=c.with_fields(**of_contacts), extra=extra)
 
 
 def within_reach(natural: StepData) -> tuple[StepData, Mask]:
@@ -168,11 +167,11 @@ def within_reach(natural: StepData) -> tuple[StepData, Mask]:
     out_of_reach = np.concatenate([np.repeat(phi < contacts.phi, natural.counts), b > extra.b])
     if not out_of_reach.any():
         return natural, out_of_reach
-    near = {
-        "contacts": Contacts.unchecked(**(field_values(contacts) | {"phi": read_only(phi)})),
-        "extra": Extra.unchecked(**(field_values(extra) | {"b": read_only(b)})),
-    }
-    return StepData.unchecked(**(field_values(natural) | near)), out_of_reach
+    near = natural.with_fields(
+        contacts=contacts.with_fields(phi=read_only(phi)),
+        extra=extra.with_fields(b=read_only(b)),
+    )
+    return near, out_of_reach
 
 
 def reach(J: Array) -> Array:
@@ -201,14 +200,9 @@ def in_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
 
 
 def _median_length(squares: Array) -> float:
-    """The median of lengths that are not zero, from their squares in ascending order."""
+    """The median of lengths, from their squares in ascending order; 1 if there are none."""
     n = len(squares)
-    first = 0 if n and squares[0] > 0 else int(squares.searchsorted(0.0, side="right"))
-    if first == n:
-        return 1.0
-    lower = (first + n - 1) // 2
-    upper = (first + n) // 2
-    return (math.sqrt(squares[lower]) + math.sqrt(squares[upper])) / 2
+    return (math.sqrt(squares[(n - 1) // 2]) + math.sqrt(squares[n // 2])) / 2 if n else 1.0
 
 
 def _power_of_two(x: float) -> float:
@@ -287,8 +281,7 @@ class StepInBothUnits:
     def row_ratio(self) -> float:
         """Length of the longest row over that of the shortest, rows of zeros left out [-]."""
         squares = squared_lengths(self.si_form.A, self.units.coordinate)
-        first = int(squares.searchsorted(0.0, side="right"))
-        return math.sqrt(squares[-1] / squares[first]) if first < len(squares) else 1.0
+        return math.sqrt(squares[-1] / squares[0]) if squares.size else 1.0
 
     def natural_residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-].
