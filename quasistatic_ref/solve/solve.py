@@ -7,8 +7,6 @@ import time
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate, exact_certificate
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
@@ -18,7 +16,7 @@ from quasistatic_ref.certify.norm import digits_by_groups
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.certify.warm import basic_rows, warm_rows
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array, finite, without_warnings
+from quasistatic_ref.numbers.arrays import finite, without_warnings
 from quasistatic_ref.parts import extended_step
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.choice import solver_for
@@ -31,8 +29,6 @@ from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
 if TYPE_CHECKING:
     from quasistatic_ref.optional.extensions.extension import Extension
 
-FACTOR_LIMIT = 2.0**200
-"""Three such factors are far from 2^1024, where the range of float64 ends."""
 FEW = 100
 """Most rows of which a start is chosen from all groups at once, and not from each. Where lam is not
 unique, the start decides on it; that of small scenes is in committed runs."""
@@ -159,23 +155,13 @@ def solved(
         if not reply.solved:
             raise StepNotSolved(solver.name, reply.status, both.si_step, reply.accuracy)
         solution = judged(both, solver, reply, certify)
+    numbers = [solution.delta_q, solution.lam]
+    if certify != "off":
+        numbers.append(solution.wrench.ravel())
     residuals = solution.certificate.residuals.values()
-    good = all(map(finite, (solution.delta_q, solution.lam)))
-    good = good and all(map(math.isfinite, residuals))
-    if certify != "off" or solution.step.extra.names:
-        good = good and (_far_from_largest(solution) or finite(solution.wrench.ravel()))
-    if not good:
+    if not (all(map(finite, numbers)) and all(map(math.isfinite, residuals))):
         raise out_of_range()
     return solution
-
-
-def _far_from_largest(solution: StepSolution) -> bool:
-    """Whether lam, mu and 1 / h are so small that wrenches, their products, cannot overflow."""
-    mu = solution.step.contacts.mu
-    lam = solution.lam
-    return bool(
-        solution.step.h > 1 / FACTOR_LIMIT and np.vdot(mu, mu) + np.vdot(lam, lam) < FACTOR_LIMIT
-    )
 
 
 def answered(
@@ -234,29 +220,21 @@ def proved(
     """
     step = both.si_step
     reply, statistics = answered(both, solver, accuracy)
-    check_arithmetic()  # a backend may have changed it
+    claimed = reply if reply is not None and reply.solved else None
     begin = time.perf_counter()
     answer = None if reply is None else in_si(*reply.answer, both.units)
-    claimed = reply is not None and reply.solved
     curved = curved_cone(step)
     optimum: Enclosed | ExactOptimum | None
-    if curved is not None:
-        optimum = curved.optimum(step, answer if claimed else None)
-        if optimum is None and reply is not None and claimed:
-            return judged(both, solver, reply, "residual")
+    if curved is None:
+        optimum = optimum_by_groups(step, both.parts, starts(both, solver, claimed, start))
+    else:
+        check_arithmetic()  # a backend may have changed it
+        optimum = curved.optimum(step, None if claimed is None else answer)
+        if optimum is None and claimed is not None:
+            return judged(both, solver, claimed, "residual")
         if optimum is None:
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, statistics.accuracy)
-    else:
-        if reply is not None and claimed:
-            x, y = reply.answer
-            if solver.basic:
-                starts = [basic_rows(y[group.rows]) for group, _ in both.parts]
-            else:
-                starts = warm_starts(both, x, y)
-        else:
-            starts = [group.within(start) for group, _ in both.parts]
-        optimum = optimum_by_groups(step, both.parts, starts)
     delta_q = optimum.delta_q
     lam = optimum.lam
     check_length(step, delta_q, both.parts, both.lengths)
@@ -272,24 +250,34 @@ def proved(
     return StepSolution(delta_q, lam, step, certificate, statistics, optimum.net)
 
 
-def warm_starts(both: StepInBothUnits, x: Array, y: Array) -> list[list[int]]:
-    """The rows that an answer shows to be active, of each group, counted in it.
+def starts(
+    both: StepInBothUnits, solver: Solver, claimed: Reply | None, start: Sequence[int]
+) -> list[list[int]]:
+    """The rows from which the exact method starts, of each group, counted in it.
 
     Parameters
     ----------
     both : StepInBothUnits
-    x, y : ndarray, shapes (n_v,) and (m,)
-        The backend's answer in natural units [-].
+    solver : Solver
+    claimed : Reply or None
+        What it claims to be a solution: the rows are those that it shows to be active.
+    start : sequence of int
+        Rows of the step from which to start without that.
     """
-    if len(both.parts) > 1 and both.si_step.m <= FEW:
+    groups = [group for group, _ in both.parts]
+    if claimed is None:
+        return [group.within(start) for group in groups]
+    x, y = claimed.answer
+    if solver.basic:
+        return [basic_rows(y[group.rows]) for group in groups]
+    if len(groups) > 1 and both.si_step.m <= FEW:
         form = both.natural_form
         rows = warm_rows(form.A, y, form.A @ x - form.b)
-        return [group.within(rows) for group, _ in both.parts]
-    starts = []
-    for (group, _), form in zip(both.parts, both.natural_forms, strict=True):
-        slack = form.A @ x[group.coordinates] - form.b
-        starts.append(warm_rows(form.A, y[group.rows], slack))
-    return starts
+        return [group.within(rows) for group in groups]
+    return [
+        warm_rows(form.A, y[group.rows], form.A @ x[group.coordinates] - form.b)
+        for group, form in zip(groups, both.natural_forms, strict=True)
+    ]
 
 
 def judged(both: StepInBothUnits, solver: Solver, reply: Reply, certify: str) -> StepSolution:
