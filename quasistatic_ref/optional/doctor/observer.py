@@ -89,14 +89,20 @@ class Doctor(Observer):
             "largest_boundary_layer": largest(recorder.noted("layer")) or 0.0,
         }
         del known["findings"], known["not_looked_at"]
-        late = LateHeader.unchecked(**known, run=(Notes(recorder, self.notes), trajectory))
+        header: Header
+        try:
+            run = Notes(recorder, self.notes), trajectory
+        except MemoryError as error:
+            header = Header(**known, findings=(), not_looked_at=_lost(error))
+        else:
+            header = LateHeader.unchecked(**known, run=run)
         if not self.printed:
-            return replace(trajectory, header=late)
-        trajectory = replace(trajectory, header=Header(**field_values(late)))
+            return replace(trajectory, header=header)
+        trajectory = replace(trajectory, header=Header(**field_values(header)))
         for finding in trajectory.findings:
             print(f"quasistatic-ref: {finding}", file=sys.stderr)
-        if late.not_looked_at:
-            print(f"quasistatic-ref: not looked at: {late.not_looked_at}", file=sys.stderr)
+        if header.not_looked_at:
+            print(f"quasistatic-ref: not looked at: {header.not_looked_at}", file=sys.stderr)
         return trajectory
 
 
@@ -150,7 +156,7 @@ class LateHeader(Header):
         try:
             return _looked_for(*self.run)
         except (MemoryError, QuasistaticError) as error:
-            return (), f"findings: {type(error).__name__} {error}".rstrip()
+            return (), _lost(error)
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
@@ -161,6 +167,11 @@ class LateHeader(Header):
     def not_looked_at(self) -> str:
         """As of a header."""
         return self._diagnosis[1]
+
+
+def _lost(error: Exception) -> str:
+    """The findings, as not looked at because of an error."""
+    return f"findings: {type(error).__name__} {error}".rstrip()
 
 
 def _header(values: dict[str, Any]) -> Header:

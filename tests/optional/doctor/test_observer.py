@@ -230,11 +230,12 @@ def test_a_file_from_before_there_were_findings_has_none(tmp_path):
     assert load_trajectory(tmp_path / "old.npz").findings == ()
 
 
-def test_an_error_in_the_findings_costs_the_findings_and_not_the_run(monkeypatch):
-    def fails(checks, of):
+@pytest.mark.parametrize("name", ["findings", "Notes"])
+def test_an_error_in_the_findings_costs_the_findings_and_not_the_run(name, monkeypatch):
+    def fails(*_):
         raise MemoryError("no room for (200, 600, 600)")
 
-    monkeypatch.setattr("quasistatic_ref.optional.doctor.observer.findings", fails)
+    monkeypatch.setattr(observer, name, fails)
     run = load_scenario("block_push", steps=2).run(progress=False)
     assert (len(run), run.findings) == (2, ())
     assert run.header.not_looked_at == "findings: MemoryError no room for (200, 600, 600)"
