@@ -1,4 +1,4 @@
-"""Bodies from scans: mass properties against formulas, strays, units, and what is refused."""
+"""Bodies from scans: mass properties against their solids', strays, units, what is refused."""
 
 from itertools import product
 
@@ -14,11 +14,12 @@ from quasistatic_ref.optional.scans.cloud import thinned
 from quasistatic_ref.optional.scans.lying import points_to_lie_on
 from quasistatic_ref.scenario.scenario import scenario_path
 from tests.closeness import assert_relative, assert_within
-from tests.oracles.scanned import SCANS, SOLIDS, on_block
+from tests.oracles.scanned import SCANS, SOLIDS, on_surface
 
 WITHIN, WITH_HOLES = 0.05, 0.10
 """Errors of mass properties that are asked for, over the extent or the largest moment."""
 MASS = 0.35
+CUBE = trimesh.creation.box((0.1, 0.1, 0.1))
 
 
 def body(folder, points, **more):
@@ -27,12 +28,12 @@ def body(folder, points, **more):
     return qr.scanned_body(path, **{"mass": MASS, "name": "thing", **more})
 
 
-def off(made, exact):
+def off(made, solid):
     """Largest error of centre and inertia, over the extent and the largest moment [-]."""
-    _, centre, gyration = exact
+    gyration = solid.moment_inertia / solid.volume
     extent = np.ptp(made.points, axis=0).max()
     moments = abs(made.inertia / MASS - gyration).max() / np.linalg.eigvalsh(gyration).max()
-    return float(max(np.linalg.norm(made.centre - centre) / extent, moments))
+    return float(max(np.linalg.norm(made.centre - solid.center_mass) / extent, moments))
 
 
 EACH = [
@@ -45,10 +46,9 @@ EACH = [
 
 @pytest.mark.parametrize(("solid", "scan"), EACH)
 def test_a_scan_has_the_centre_and_inertia_of_its_solid(solid, scan, tmp_path):
-    rng = np.random.default_rng(0)
-    points, exact = SOLIDS[solid](rng, 3000)
-    made = body(tmp_path, SCANS[scan](rng, points))
-    assert off(made, exact) < (WITH_HOLES if scan == "holed" else WITHIN)
+    points = on_surface(SOLIDS[solid], 5000, seed=0)
+    made = body(tmp_path, SCANS[scan](np.random.default_rng(0), points))
+    assert off(made, SOLIDS[solid]) < (WITH_HOLES if scan == "holed" else WITHIN)
     assert made.mass == MASS
     assert len(made.points) == 1000
     said = [note for note in made.notes if "5 stray points are left out" in note]
@@ -56,11 +56,11 @@ def test_a_scan_has_the_centre_and_inertia_of_its_solid(solid, scan, tmp_path):
 
 
 def test_a_scan_in_millimetres_is_asked_for_its_unit(tmp_path):
-    points, exact = SOLIDS["can"](np.random.default_rng(1), 3000)
+    points = on_surface(SOLIDS["can"], 3000, seed=1)
     with pytest.raises(InputError, match="is 115 m long if it is in metres; say its unit: --unit"):
         body(tmp_path, 1e3 * points)
     made = body(tmp_path, 1e3 * points, unit="mm")
-    assert off(made, exact) < WITHIN
+    assert off(made, SOLIDS["can"]) < WITHIN
     with pytest.raises(InputError, match="unit: is not a unit; did you mean 'mm'"):
         body(tmp_path, points, unit="mmm")
 
@@ -84,8 +84,7 @@ def test_the_papers_cloud_of_992_points_is_enough():
 
 def test_a_wide_gap_is_doubted(tmp_path):
     """A cup of 1,000 points has walls thinner than its points are apart: it seems to be full."""
-    points, _ = SOLIDS["mug"](np.random.default_rng(3), 1000)
-    made = body(tmp_path, points)
+    made = body(tmp_path, on_surface(SOLIDS["mug"], 1000, seed=3))
     assert [note for note in made.notes if "is it hollow, or has it holes?" in note]
 
 
@@ -105,9 +104,7 @@ def test_thinned_points_keep_the_corners_and_cover_the_rest():
 
     Else it would have been taken in place of one of them.
     """
-    rng = np.random.default_rng(6)
-    cube = np.array(np.meshgrid(*[[-0.05, 0.05]] * 3)).reshape(3, 8).T
-    points = np.concatenate([on_block(rng, 4000, (0.1, 0.1, 0.1)), cube])
+    points = np.concatenate([on_surface(CUBE, 4000, seed=6), CUBE.vertices])
     kept = thinned(points, 100)
     assert len(kept) == 100 == len(set(kept.tolist()))
     assert set(range(4000, 4008)) <= set(kept.tolist())
@@ -124,8 +121,7 @@ def test_as_many_points_as_a_cube_lies_on(each, expected):
     With `each` points at a corner, the first 3 `each` are those of three corners: one more is
     needed. Faces whose first corners are opposite need fewer.
     """
-    cube = np.array(np.meshgrid(*[[-0.05, 0.05]] * 3)).reshape(3, 8).T
-    k, ways, _ = points_to_lie_on(np.repeat(cube, each, axis=0), np.zeros(3))
+    k, ways, _ = points_to_lie_on(np.repeat(CUBE.vertices, each, axis=0), np.zeros(3))
     assert ways == 6
     assert k == expected
 
@@ -139,13 +135,12 @@ def test_ways_to_lie_do_not_hang_on_scale(scale):
 
 def test_the_command_writes_a_scene_that_runs(tmp_path, cli):
     """A can that stands where it was scanned stays there, and bears its weight."""
-    points, _ = SOLIDS["can"](np.random.default_rng(7), 3000)
-    np.save(tmp_path / "my can.npy", points)
+    np.save(tmp_path / "my can.npy", on_surface(SOLIDS["can"], 3000, seed=7))
     said = cli("body", tmp_path / "my can.npy", "--mass", "0.35", "--out", tmp_path)
     assert "my_can: k = " in said.err
     scene = tmp_path / "scene.toml"
     scene.write_text(said.out)
-    run = qr.load_scenario(scene).run(progress=False)
+    run = qr.load_scenario(scene).run()
     assert set(run["certificate"].tolist()) == {"exact"}
     assert not [one for one in run.findings if one.grave]
     assert abs(run["q"][-1] - run["q"][0]).max() < 1e-3
@@ -165,7 +160,7 @@ def test_a_box_has_four_contacts_and_lies_on_its_largest_face(tmp_path, cli):
     assert made.height == pytest.approx(0.02)
     said = cli("body", path, "--density", "1000", "--out", tmp_path)
     (tmp_path / "scene.toml").write_text(said.out)
-    run = qr.load_scenario(tmp_path / "scene.toml").run(progress=False)
+    run = qr.load_scenario(tmp_path / "scene.toml").run()
     assert abs(run["q"][-1] - run["q"][0]).max() < 1e-6
     assert not [one for one in run.findings if one.grave]
 
@@ -182,7 +177,7 @@ def test_a_mesh_is_weighed_where_and_as_large_as_its_file_places_it(tmp_path):
 
 
 def test_a_cloud_on_a_coarse_grid_is_told_so(tmp_path):
-    points = on_block(np.random.default_rng(8), 4000, (0.06, 0.06, 0.06))
+    points = on_surface(CUBE, 4000, seed=8)
     assert not [note for note in body(tmp_path, points).notes if "grid" in note]
     made = body(tmp_path, np.unique(points.round(2), axis=0))
     assert [note for note in made.notes if "on a grid of 10 mm" in note]
