@@ -5,11 +5,17 @@ import numpy as np
 from quasistatic_ref import ContactPair, PlacedShape
 from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.distance import joined_contacts, pair_closest_points
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.model.system import Kinematics
 
 
 def placed_shape(shape, link=0, R=None, t=(0.0, 0.0, 0.0), name="s"):
     return PlacedShape(name, link, np.eye(3) if R is None else R, np.array(t, dtype=float), shape)
+
+
+def in_world(shape, t=(0.0, 0.0, 0.0), R=None):
+    """A shape at a place of the world, straight unless it is turned."""
+    return ShapeInWorld(shape, np.eye(3) if R is None else R, np.array(t))
 
 
 def standing_links(*poses):

@@ -12,8 +12,8 @@
 import numpy as np
 
 from quasistatic_ref import ContactError
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
+from tests.contact.still import in_world
 from tests.oracles import closest
 
 STEP = 1e-3
@@ -36,11 +36,11 @@ def pair_errors(names, count):
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
     worst = {}
     refused = 0
-    here = ShapeInWorld(a, np.eye(3), np.zeros(3))
+    here = in_world(a)
     for R, t in closest.poses(count, 0):
         try:
-            found = solid_pair("pair", here, ShapeInWorld(b, R, t))
-            moved = solid_pair("pair", here, ShapeInWorld(b, R, t + STEP * found.n))
+            found = solid_pair("pair", here, in_world(b, t, R))
+            moved = solid_pair("pair", here, in_world(b, t + STEP * found.n, R))
         except ContactError:
             refused += 1
             continue

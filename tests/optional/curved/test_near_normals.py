@@ -2,33 +2,27 @@
 
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Cone, Cylinder, convex_hull
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.optional.curved.faces import face
 from tests.closeness import assert_within
+from tests.contact.still import in_world
+from tests.pages import ROOT
 from tests.tolerances import CURVED_PAIR
 
-ROOT = Path(__file__).parents[3]
 BOX = Box((0.05, 0.035, 0.025))
 CAN = Cylinder(0.03, 0.05)
 Z = np.array([0.0, 0.0, 1.0])
 
 
-def still(shape):
-    return ShapeInWorld(shape, np.eye(3), np.zeros(3))
-
-
 def test_a_side_ends_at_the_caps_though_the_normal_is_off_by_rounding():
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
-    at = ShapeInWorld(Cylinder(1.0, 0.5), R, np.zeros(3))
-    side = face(at, R @ [1.0, 0.0, 0.9e-11]).corners
+    side = face(in_world(Cylinder(1.0, 0.5), R=R), R @ [1.0, 0.0, 0.9e-11]).corners
     assert_within(side @ R, [[1.0, 0.0, -0.5], [1.0, 0.0, 0.5]], CURVED_PAIR)
 
 
@@ -39,8 +33,8 @@ def test_axes_that_are_nearly_parallel_have_a_normal_across_both(sine):
     cosine = np.sqrt(1 - sine**2)
     along_x = np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]])
     skew = np.array([[0.0, -sine, cosine], [0, cosine, sine], [-1, 0, 0]])
-    low = ShapeInWorld(Cylinder(0.1, 0.3), along_x, np.zeros(3))
-    top = ShapeInWorld(Cylinder(0.05, 0.4), skew, [x, 0, 0.16] + 0.2 * skew[:, 2])
+    low = in_world(Cylinder(0.1, 0.3), R=along_x)
+    top = in_world(Cylinder(0.05, 0.4), [x, 0, 0.16] + 0.2 * skew[:, 2], skew)
     found = solid_pair("p", low, top)
     assert_within(found.n, Z, CURVED_PAIR)
     assert_within(found.alpha, [x, 0.0, 0.1], 1e-10)
@@ -67,7 +61,7 @@ def test_a_corner_near_a_rim_and_almost_across_an_edge_has_its_own_normal(solid,
     R[:, 1:] = R[:, 1:] if np.linalg.det(R) > 0 else R[:, :0:-1]
     assert (n @ R > 0).all()
     t = corner + R @ BOX.half_extents
-    found = solid_pair("p", still(rimmed), ShapeInWorld(solid, R, t))
+    found = solid_pair("p", in_world(rimmed), in_world(solid, t, R))
     assert found.phi == pytest.approx(gap, abs=1e-15)
     np.testing.assert_allclose(found.n, n, atol=1e-15 / gap + 1e-9)
 

@@ -6,14 +6,13 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Cone, Cylinder
 from quasistatic_ref.contact.crossings import Crossings
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.optional.curved.rims import curve_crossings
 from tests.closeness import assert_within
+from tests.contact.still import in_world
 from tests.tolerances import ROUNDING
 
 UP = np.array([0.0, 0.0, 1.0])
-STRAIGHT = np.eye(3)
 WORLD = Rotation.from_rotvec([0.7, -0.4, 1.9]).as_matrix()
 AT = np.array([0.3, -0.2, 0.5])
 TILTED = Rotation.from_rotvec([[0.1, 0.05, 0.3], [-0.08, 0.12, 1.0]]).as_matrix()
@@ -23,11 +22,12 @@ LOWER, CURVES, EDGES = 1, 3, 12
 """Numbers of the curves of a solid of revolution, how many it has, and a box."""
 
 
-def moved_crossings(a, b, alpha, beta, n=UP, R=STRAIGHT, t=(0, 0, 0)):
-    """Crossings of solids that are moved to elsewhere, and back again."""
-    a, b = (ShapeInWorld(one.shape, R @ one.R, R @ one.t + t) for one in (a, b))
-    found = curve_crossings(a, b, R @ alpha + t, R @ beta + t, R @ n)
-    return Crossings((found.alpha - t) @ R, (found.beta - t) @ R, found.number)
+def moved_crossings(a, b, x, n=UP):
+    """Crossings of solids about a point that are moved to elsewhere, and back again."""
+    a, b = (in_world(one.shape, WORLD @ one.t + AT, WORLD @ one.R) for one in (a, b))
+    there = WORLD @ x + AT
+    found = curve_crossings(a, b, there, there, WORLD @ n)
+    return Crossings((found.alpha - AT) @ WORLD, (found.beta - AT) @ WORLD, found.number)
 
 
 def holds(found, expected):
@@ -44,10 +44,10 @@ def holds(found, expected):
 @pytest.mark.parametrize("place", [(0.17, 0.02, 0.03), (0.17, 0.12, 0.03), (0.0, 0.12, 0.03)])
 def test_edges_cross_the_rim_of_a_disc_where_a_quadratic_says(place, shape, swapped):
     R, S = TILTED
-    low = ShapeInWorld(TABLE, R, np.zeros(3))
+    low = in_world(TABLE, R=R)
     axis = S[:, 2]
     c = np.array(place)
-    top = ShapeInWorld(shape, S, c + shape.half_length * axis)
+    top = in_world(shape, c + shape.half_length * axis, S)
     flat = polytope(TABLE)
     expected = []
     for edge, ends in enumerate(flat.vertices[flat.edges]):
@@ -74,23 +74,23 @@ def test_edges_cross_the_rim_of_a_disc_where_a_quadratic_says(place, shape, swap
     assert expected
     x = R @ [0.1, 0.1, 0.01]
     a, b, n = (top, low, -UP) if swapped else (low, top, UP)
-    holds(moved_crossings(a, b, x, x, n, WORLD, AT), expected)
+    holds(moved_crossings(a, b, x, n), expected)
 
 
 def test_rims_cross_where_their_circles_do():
     """Triangles of sides 5, 12, 13 and 9, 12, 15."""
-    low = ShapeInWorld(Cylinder(0.13, 0.01), STRAIGHT, np.zeros(3))
-    top = ShapeInWorld(Cylinder(0.15, 0.01), STRAIGHT, np.array([0.14, 0.0, 0.02]))
+    low = in_world(Cylinder(0.13, 0.01))
+    top = in_world(Cylinder(0.15, 0.01), (0.14, 0.0, 0.02))
     x = np.array([0.05, 0.0, 0.01])
-    found = moved_crossings(low, top, x, x, R=WORLD, t=AT)
+    found = moved_crossings(low, top, x)
     expected = [[0.05, -0.12, 0.01], [0.05, 0.12, 0.01]]
     assert_within(found.alpha[found.alpha[:, 1].argsort()], expected, ROUNDING)
 
 
 def test_an_edge_that_ends_on_a_rim_crosses_it_there():
     """A circle of 1/8 about (1/4, 1/8) through the corner (1/4, 1/4), without rounding."""
-    table = ShapeInWorld(Box((0.25, 0.25, 0.0625)), STRAIGHT, np.zeros(3))
-    puck = ShapeInWorld(Cylinder(0.125, 0.0625), STRAIGHT, np.array([0.25, 0.125, 0.125]))
+    table = in_world(Box((0.25, 0.25, 0.0625)))
+    puck = in_world(Cylinder(0.125, 0.0625), (0.25, 0.125, 0.125))
     x = puck.t - 0.0625 * UP
     found = curve_crossings(table, puck, x, x, UP)
     assert sorted(found.alpha.tolist()) == [[0.25, 0.0, 0.0625], [0.25, 0.25, 0.0625]]
