@@ -37,14 +37,14 @@ that are up to a hundred times the slip."""
 @pytest.fixture(scope="module")
 def plain():
     """The first 40 steps of block_push."""
-    return load_scenario("block_push", steps=40, law="coulomb").run(progress=False)
+    return load_scenario("block_push", steps=40, law="coulomb").run()
 
 
 def test_a_run_under_coulombs_law_lifts_nothing_off(plain):
     assert plain.header.law == "coulomb"
     s = plain["s"].max()
     assert plain.header.largest_boundary_layer < RISE * s
-    rising = load_scenario("block_push", steps=40, fast=True).run(progress=False)
+    rising = load_scenario("block_push", steps=40, fast=True).run()
     assert_relative(rising.header.largest_boundary_layer, s, 0.2)
     assert rising.header.law == "convex"
     assert "s" not in rising.arrays
@@ -120,7 +120,7 @@ def test_where_no_solution_is_found_a_run_ends_and_claims_nothing():
         r"that there is none: s is still off by 1e-06 m; take a smaller h, or law = \"convex\"$"
     )
     with pytest.raises(RunFailed, match=message) as failed:
-        rollout(narrow, narrow.system.q_start, [], 3, force=lambda t, q: push, progress=False)
+        rollout(narrow, narrow.system.q_start, [], 3, force=lambda t, q: push)
     assert failed.value.trajectory.steps == 0
     assert failed.value.step.contacts.phi == pytest.approx(1e-6)  # the step as it was posed
 

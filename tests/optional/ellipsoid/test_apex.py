@@ -12,10 +12,8 @@ from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 
 def body_on_one_place(force, mu_v, mu_omega=0.0, h=0.5, lever=1.0):
     """A body that moves along x, y, z and turns about z, on contacts that are all in one place."""
-    each = (len(mu_v), 1, 1)
-    at = contacts_of(
-        0.0, np.tile(np.eye(3), each), np.tile(lever * np.eye(4), each), mu_v, mu_omega, rows=6
-    )
+    frames, J = ([of] * len(mu_v) for of in (np.eye(3), lever * np.eye(4)))
+    at = contacts_of(0.0, frames, J, mu_v, mu_omega, rows=6)
     return free_step(np.eye(4), [*force, 0.0], at, h).replace(cone="ellipsoid")
 
 

@@ -10,10 +10,9 @@ from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.optional.gap import fractions
 
 
-def step_of(mu_v=(0.5, 0.25), mu_omega=(0.125, 0.0)):
+def step_of():
     """A body with two contacts of six rows, and a row of the user's own."""
-    J = np.tile(np.eye(4, 6), (2, 1, 1))
-    contacts = contacts_of(0.0, np.tile(np.eye(3), (2, 1, 1)), J, mu_v, mu_omega, 6)
+    contacts = contacts_of(0.0, [np.eye(3)] * 2, [np.eye(4, 6)] * 2, (0.5, 0.25), (0.125, 0.0), 6)
     step = free_step(np.eye(6), np.zeros(6), contacts, 0.01).replace(cone="ellipsoid")
     return step.replace(extra=Extra(("own",), np.eye(6)[:1], np.zeros(1)))
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import Certificate, solve_step, verify_answer
+from quasistatic_ref import Certificate, solve_step, verify, verify_answer
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.lab.scenes.contacts import NUMBERS
+from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
 from quasistatic_ref.lab.scenes.slider import push, push_step
 from quasistatic_ref.optional.ellipsoid.enclosure import GAP, RESERVE, checked_pair, enclosure
@@ -44,25 +44,19 @@ def test_what_a_push_claims_is_proved_by_the_interior_point():
     # interior point's own bound twice over, as long as its gap is below RESERVE / 4.
     for result in pushed_block().run(8):
         step = result.step
-        answer = result.solution
         pair = checked_pair(step)
         size = scaled_blocks(step, StepForm(step)).size
         assert pair.gap < RESERVE / 4 * size * size
-        assert verify_answer(step, answer.delta_q, answer.certificate.active, answer.lam,
-                      answer.certificate)  # fmt: skip
-    assert answer.certificate.kind == "enclosure"
+        assert verify(result.solution)
+    assert result.solution.certificate.kind == "enclosure"
     assert RESERVE > 4 * GAP
 
 
 def test_contacts_stick_by_dependent_rows_while_another_slides():
     # Four soft contacts at one point stick: sixteen rows of rank four. The push is shared by them.
     step = planar_push()
-    c = step.contacts
-    index = np.array([0, 1, 1, 1])
-    numbers = {name: getattr(c, name)[index] for name in NUMBERS}
-    many = changed(c, name=("support", "a", "b", "c"), **numbers)
     one, _ = enclosure_from_clarabel(step)
-    step = step.replace(contacts=many)
+    step = step.replace(contacts=repeated(step.contacts, [0, 1, 1, 1]))
     found, _ = enclosure_from_clarabel(step)
     np.testing.assert_array_equal(found.delta_q, one.delta_q)
     lam = found.lam.reshape(4, 4)
