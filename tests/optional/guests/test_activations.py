@@ -1,11 +1,11 @@
 """Servos whose force follows an activation, and the targets that move one."""
 
-import mujoco
 import numpy as np
 import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.errors import ModelError
+from tests.optional.guests.models import model_of, posed
 
 SLIDER = """<mujoco><worldbody><body name="b"><joint name="j" type="slide" axis="1 0 0"/>
 <geom size="0.05" mass="1"/></body></worldbody><actuator>{}</actuator></mujoco>"""
@@ -32,10 +32,9 @@ SERVOS = {
 
 
 def run(folder, actuator):
-    model = mujoco.MjModel.from_xml_string(SLIDER.format(actuator))
+    model = model_of(SLIDER.format(actuator))
     (folder / "t.csv").write_text("t,a\n0,0\n0.1,0.2\n")
-    scene = qr.mujoco_scenario(model, targets=folder / "t.csv", steps=60)
-    return scene.run(progress=False)
+    return qr.mujoco_scenario(model, targets=folder / "t.csv", steps=60).run()
 
 
 @pytest.mark.parametrize(("actuator", "end"), SERVOS.values(), ids=SERVOS)
@@ -44,20 +43,17 @@ def test_a_servo_with_an_activation_reaches_its_control(tmp_path, actuator, end)
 
 
 def test_an_integrator_starts_from_the_activation_of_a_state_and_runs_twice_alike():
-    model = mujoco.MjModel.from_xml_string(SLIDER.format(INTEGRATED.format("-1 1", "")))
-    data = mujoco.MjData(model)
-    data.act[0] = 0.5
-    scene = qr.mujoco_scenario(model, data, targets=lambda t: {"a": -0.1}, steps=20)
-    first, second = (scene.run(progress=False)["q"] for _ in range(2))
+    state = posed(SLIDER.format(INTEGRATED.format("-1 1", "")), act=0.5)
+    scene = qr.mujoco_scenario(*state, targets=lambda t: {"a": -0.1}, steps=20)
+    first, second = (scene.run()["q"] for _ in range(2))
     assert first[-1, 0] == pytest.approx(0.5 - 0.01 * 20 * 0.1, abs=1e-9)
     assert np.array_equal(first, second)
 
 
 def test_a_muscle_is_refused_by_name():
     muscle = '<muscle name="m" joint="j" lengthrange="-1 1"/>'
-    model = mujoco.MjModel.from_xml_string(SLIDER.format(muscle))
     with pytest.raises(ModelError, match=r"actuator\[m\]\.dyntype: makes the activation follow"):
-        qr.mujoco_scenario(model)
+        qr.mujoco_scenario(model_of(SLIDER.format(muscle)))
 
 
 def test_a_column_that_changes_no_force_is_a_finding(tmp_path):

@@ -8,10 +8,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.optional.guests.tolerances import FULL_RANK
-from quasistatic_ref.solve.solve import solve_step
-
-H = 0.01
-GRAVITY = 9.81
+from tests.optional.guests.models import GRAVITY, H, mjcf, moved, posed
 
 
 def turned(seed, world, more="", options=""):
@@ -22,11 +19,8 @@ def turned(seed, world, more="", options=""):
     mujoco.mju_rotVecQuat(gravity, np.array([0, 0, -GRAVITY]), q)
     text = " ".join(map(str, gravity.tolist()))
     quat = " ".join(map(str, q.tolist()))
-    model = mujoco.MjModel.from_xml_string(
-        f'<mujoco><size memory="1M"/><option gravity="{text}" {options}/>'
-        f'<worldbody><frame quat="{quat}">{world}</frame></worldbody>{more}</mujoco>'
-    )
-    data = mujoco.MjData(model)
+    options = f'<size memory="1M"/><option gravity="{text}" {options}/>'
+    model, data = posed(mjcf(f'<frame quat="{quat}">{world}</frame>', more, options))
     mujoco.mj_forward(model, data)
     return model, data
 
@@ -46,13 +40,11 @@ FALL = H**2 * 2 * GRAVITY * 0.2 / I_YY
 @pytest.mark.parametrize("joint", ['axis="0 1 0"', 'type="ball"'])
 def test_a_contact_at_the_pivot_bears_nothing(seed, joint):
     """Both capsules have an end at the pivot: the contact's point is there, its lever rounding."""
-    step, coordinates = mujoco_step(*turned(seed, PENDULUM.format(joint)), H)
-    answer = solve_step(step)
+    _, answer, notes = moved(*turned(seed, PENDULUM.format(joint)))
     assert np.linalg.norm(answer.delta_q) == pytest.approx(FALL, rel=1e-9)
     assert answer.wrench.sum() == 0.0
-    note = " ".join(coordinates.left_out)
-    assert "contact[0: post/arm]: left out: joints or equalities hold its bodies" in note
-    assert "contact[0: post/arm]: its bodies penetrate by 40 mm" in note
+    assert "contact[0: post/arm]: left out: joints or equalities hold its bodies" in notes
+    assert "contact[0: post/arm]: its bodies penetrate by 40 mm" in notes
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -64,10 +56,10 @@ def test_a_limit_that_no_joint_moves_bears_nothing(seed):
     )
     scene = PENDULUM.replace('mass="0"/>', 'mass="0" contype="0"/>').format('axis="0 1 0"')
     model, data = turned(seed, scene, more)
-    step, coordinates = mujoco_step(model, data, H)
-    assert solve_step(step).delta_q[0] == pytest.approx(FALL, rel=1e-9)
-    assert any("limit of tendon[cord]: left out" in note for note in coordinates.left_out)
-    run = qr.mujoco_scenario(model, data, h=H, steps=1).run(progress=False)
+    one = moved(model, data)
+    assert one.by[0] == pytest.approx(FALL, rel=1e-9)
+    assert "limit of tendon[cord]: left out" in one.notes
+    run = qr.mujoco_scenario(model, data, h=H, steps=1).run()
     assert run.q[1, 0] == pytest.approx(FALL, rel=1e-9)
 
 
@@ -88,15 +80,14 @@ def test_a_planar_four_bar_falls_in_a_turned_base(seed, cone):
     pivots is (1 + 1 + 3) g times the horizontal lever.
     """
     more = '<equality><connect body1="coupler" body2="right" anchor=".3 0 0"/></equality>'
-    step, coordinates = mujoco_step(*turned(seed, FOUR_BAR, more, f'cone="{cone}"'), H)
+    once = moved(*turned(seed, FOUR_BAR, more, f'cone="{cone}"'))
     turn = H**2 * 5 * GRAVITY * 0.12 / (5 * 0.2**2 + 2e-3)
-    moved = coordinates.T @ solve_step(step).delta_q
-    assert moved == pytest.approx([turn, -turn, turn], rel=1e-9)
-    assert any(note.startswith("equality[0]: left out, in part") for note in coordinates.left_out)
-    twice = more.replace("</equality>", more.removeprefix("<equality>"))
-    again, coordinates = mujoco_step(*turned(seed, FOUR_BAR, twice, f'cone="{cone}"'), H)
-    assert coordinates.T @ solve_step(again).delta_q == pytest.approx(moved, rel=1e-12)
-    assert any(note.startswith("equality[1]: left out") for note in coordinates.left_out)
+    assert once.by == pytest.approx([turn, -turn, turn], rel=1e-9)
+    assert "equality[0]: left out, in part" in once.notes
+    more = more.replace("</equality>", more.removeprefix("<equality>"))
+    twice = moved(*turned(seed, FOUR_BAR, more, f'cone="{cone}"'))
+    assert twice.by == pytest.approx(once.by, rel=1e-12)
+    assert "equality[1]: left out" in twice.notes
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -115,13 +106,10 @@ def test_a_contact_at_the_anchor_of_an_equality_bears_nothing(seed):
     across = data.geom_xmat[0].reshape(3, 3)[:, 2]
     torque -= across * (across @ torque)
     data.xfrc_applied[1, 3:] = torque
-    step, coordinates = mujoco_step(model, data, H)
-    turn = coordinates.T @ solve_step(step).delta_q
-    about = data.xmat[1].reshape(3, 3) @ turn[3:]
+    one = moved(model, data)
+    about = data.xmat[1].reshape(3, 3) @ one.by[3:]
     assert about == pytest.approx(H**2 * torque / (7 / 5 * 2 * 0.1**2), rel=1e-9)
-    assert any(
-        "contact[0: body[world]/body[ball]]: left out" in note for note in coordinates.left_out
-    )
+    assert "contact[0: body[world]/body[ball]]: left out" in one.notes
 
 
 @pytest.mark.parametrize(("share", "bears"), [(0.5, False), (2.0, True)])
@@ -133,13 +121,12 @@ def test_a_lever_counts_from_1e_9_of_its_terms(share, bears):
     """
     c, r, m = 0.3, 0.1, 2.0
     e = share * FULL_RANK * (2 * c + r)
-    text = f"""<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 {r}">
+    world = f"""<geom type="plane" size="1 1 1"/><body pos="0 0 {r}">
     <joint axis="0 1 0" pos="{-e} 0 0"/><inertial pos="{c} 0 0" mass="{m}" diaginertia="1 1 1"/>
-    <geom size="{r}"/></body></worldbody></mujoco>"""
-    model = mujoco.MjModel.from_xml_string(text)
-    step, coordinates = mujoco_step(model, mujoco.MjData(model), H)
-    forces = solve_step(step).wrench[:, 2]
-    assert any("left out" in note for note in coordinates.left_out) is not bears
+    <geom size="{r}"/></body>"""
+    _, answer, notes = moved(*posed(mjcf(world)))
+    forces = answer.wrench[:, 2]
+    assert ("left out" in notes) is not bears
     assert forces.tolist() == (pytest.approx([m * GRAVITY * c / e], rel=1e-6) if bears else [])
 
 
@@ -155,18 +142,15 @@ def test_a_difference_counts_from_1e_9_of_its_terms(held, share, holds):
     ball = f'<geom size=".1" mass="{m}" contype="0"/>'
     cart = '<body><joint name="{}" type="slide" axis="1 0 0"/>' + ball + "</body>"
     limit = 'range="-1 0"' if "limit" in held else ""
-    model = mujoco.MjModel.from_xml_string(
-        f"""<mujoco><worldbody>{cart.format("y")}{cart.format("x")}</worldbody>
-        <tendon><fixed name="t" {limit}><joint joint="x" coef="1"/><joint joint="y" coef="-1"/>
-        </fixed></tendon><equality><joint joint1="x" joint2="y" polycoef="0 {1 + e!r} 0 0 0"/>
-        </equality>{held.replace("<limit/>", "")}</mujoco>"""
-    )
-    data = mujoco.MjData(model)
-    data.qfrc_applied[0] = push
-    step, coordinates = mujoco_step(model, data, H)
-    y = (coordinates.T @ solve_step(step).delta_q)[0]
-    assert y == pytest.approx(0.0 if holds else H**2 * push / (m * (1 + e) ** 2 + m), rel=1e-12)
-    assert any("left out" in note for note in coordinates.left_out) is not holds
+    rest = f"""<tendon><fixed name="t" {limit}><joint joint="x" coef="1"/>
+    <joint joint="y" coef="-1"/></fixed></tendon><equality>
+    <joint joint1="x" joint2="y" polycoef="0 {1 + e!r} 0 0 0"/></equality>"""
+    world = cart.format("y") + cart.format("x")
+    text = mjcf(world, rest + held.replace("<limit/>", ""))
+    one = moved(*posed(text, qfrc_applied=[push, 0.0]))
+    y = 0.0 if holds else H**2 * push / (m * (1 + e) ** 2 + m)
+    assert one.by[0] == pytest.approx(y, rel=1e-12)
+    assert ("left out" in one.notes) is not holds
 
 
 @pytest.mark.parametrize("apart", [0.0, 1e-7, 0.2])
@@ -179,19 +163,13 @@ def test_equalities_that_contradict_each_other_are_refused_where_a_step_closes_t
         f'<joint name="{name}" joint1="s" polycoef="{at!r} 0 0 0 0"/>'
         for name, at in (("one", x), ("two", x - apart))
     )
-    model = mujoco.MjModel.from_xml_string(
-        f"<mujoco><worldbody><body>{ball}</body>{free}</worldbody>"
-        f"<equality>{held}</equality></mujoco>"
-    )
-    data = mujoco.MjData(model)
-    mujoco_step(model, data, H)  # as they stand both hold
+    state = posed(mjcf(f"<body>{ball}</body>{free}", f"<equality>{held}</equality>"))
+    mujoco_step(*state, H)  # as they stand both hold
     if apart:
         with pytest.raises(ModelError, match=r"equality\[two\]: contradicts other equalities"):
-            mujoco_step(model, data, H, "as is")
+            mujoco_step(*state, H, "as is")
     else:
-        step, coordinates = mujoco_step(model, data, H, "as is")
-        moved = coordinates.T @ solve_step(step).delta_q
-        assert moved[0] == pytest.approx(x, rel=1e-12)
+        assert moved(*state, "as is").by[0] == pytest.approx(x, rel=1e-12)
 
 
 GEOM = '<geom size=".1"/>'
@@ -210,9 +188,7 @@ TIED = '<body><joint name="j"/><geom size=".1"/></body>'
 )
 def test_a_model_in_which_nothing_can_move_is_refused(bodies, words):
     tie = '<equality><joint joint1="j"/></equality>' if bodies == TIED else ""
-    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{bodies}</worldbody>{tie}</mujoco>")
-    data = mujoco.MjData(model)
-    for take in (lambda: mujoco_step(model, data, H), lambda: qr.mujoco_scenario(model),
-                 lambda: qr.mujoco_opinion(model, data)):  # fmt: skip
+    state = posed(mjcf(bodies, tie))
+    for take in (lambda *of: mujoco_step(*of, H), qr.mujoco_scenario, qr.mujoco_opinion):
         with pytest.raises(ModelError, match=words):
-            take()
+            take(*state)

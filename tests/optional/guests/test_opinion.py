@@ -11,13 +11,12 @@ import quasistatic_ref as qr
 from quasistatic_ref.lab.commands.schema import opinion_schema
 from quasistatic_ref.optional.guests.settled import settled
 from tests.helpers import one_sentence
+from tests.optional.guests.models import GRAVITY, mjcf, model_of, posed
 from tests.pages import ROOT, downloads, flat, printed_blocks
 
 PAGE = (ROOT / "docs/guides/does_my_contact_hold.md").read_text("utf-8")
 NOSLIP = 'impratio="10" noslip_iterations="10"'
 WEAK = {"left": 0.001, "right": 0.001}
-GRAVITY = 9.81
-
 
 FLOOR = '<geom name="floor" type="plane" size="5 5 1"/>'
 BOX = '<geom name="box" type="box" size=".1 .1 .1" mass="1"/>'
@@ -25,14 +24,9 @@ UP = '<joint name="up" type="slide" axis="0 0 1"'
 FREE = '<body name="b" pos="0 0 .1"><freejoint/>'
 
 
-def scene(world, more="", options=""):
-    """MJCF text."""
-    return f"<mujoco>{options}<worldbody>{world}</worldbody>{more}</mujoco>"
-
-
 def opinion(text, seconds=2.0, keyframe=None, control=None):
     """The opinion on a scene that has settled, which knows where it started."""
-    model = mujoco.MjModel.from_xml_string(text)
+    model = model_of(text)
     start = settled(model, 0.0, keyframe, control)
     return qr.mujoco_opinion(model, settled(model, seconds, keyframe, control), start=start)
 
@@ -126,7 +120,7 @@ PUSH = '<actuator><position name="x" joint="x" kp="100"/></actuator>'
 def test_a_healthy_scene_has_no_finding(name):
     pushed = "pushed" in name
     options = '<option cone="elliptic" impratio="100"/>'
-    text = scene(FLOOR + HEALTHY[name], PUSH if pushed else "", options)
+    text = mjcf(FLOOR + HEALTHY[name], PUSH if pushed else "", options)
     answer = opinion(text, control={"x": 0.025} if pushed else None)
     assert answer.contacts
     assert answer.findings == ()
@@ -134,7 +128,7 @@ def test_a_healthy_scene_has_no_finding(name):
 
 def test_bodies_in_each_other_are_found_with_their_depth_and_forces():
     """A box of 1 kg/dm^3 that begins 5 mm deep, its weight by hand."""
-    (finding,) = opinion(scene(FLOOR + free("box", BRICK, "0 0 .035")), 0).findings
+    (finding,) = opinion(mjcf(FLOOR + free("box", BRICK, "0 0 .035")), 0).findings
     assert (finding.name, finding.numbers) == ("penetrates", {"depth_mm": pytest.approx(5.0)})
     weight = 1000 * 0.1 * 0.12 * 0.08 * GRAVITY
     assert "box and world penetrate by 5 mm, and are pushed apart with" in finding.cause
@@ -150,23 +144,22 @@ def test_what_rests_by_rolling_friction_alone_is_found():
         "ball", f'size=".1" {rolls}', "0 0 .1"
     )
     options = f'<option gravity="{g}" cone="elliptic" {NOSLIP}/>'
-    (finding,) = opinion(scene(world, options=options)).findings
+    (finding,) = opinion(mjcf(world, options=options)).findings
     assert (finding.name, "ball rests in MuJoCo" in finding.cause) == ("moves", True)
     assert "rolling friction" in finding.remedy
 
 
 def test_the_command_prints_json_of_the_schema_draws_and_ends_with_1(tmp_path, cli):
-    scene = tmp_path / "block.xml"
-    scene.write_text(SCENES["block.xml"])
-    command = ["opinion", str(scene), "--settle", "0.5", "--json", "--out", str(tmp_path / "out")]
-    record = json.loads(cli(*command, status=1).out)
+    (tmp_path / "block.xml").write_text(SCENES["block.xml"])
+    command = ["opinion", tmp_path / "block.xml", "--settle", 0.5]
+    record = json.loads(cli(*command, "--json", "--out", tmp_path / "out", status=1).out)
     Draft4Validator.check_schema(opinion_schema())
     Draft4Validator(opinion_schema()).validate(record)
     assert [one["name"] for one in record["findings"]] == ["creeps"]
     made = {path.name: path.stat().st_size for path in (tmp_path / "out").iterdir()}
     assert {*made} == {"opinion.png", "opinion.pdf", "opinion.json"}
     assert min(made.values()) > 1000
-    assert "no finding" in cli(*command[:4], "--tolerance", "0.01").out
+    assert "no finding" in cli(*command, "--tolerance", 0.01).out
 
 
 REFUSED = {
@@ -184,8 +177,7 @@ REFUSED = {
 def test_what_cannot_be_asked_ends_with_2_and_is_named(named, tmp_path, cli):
     field = 'stiffness="1" springyield="1"' if "yield" in named else ""
     scene = tmp_path / "scene.xml"
-    body = f'<body><joint name="x" {field}/><geom size=".1"/></body>'
-    scene.write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
+    scene.write_text(mjcf(f'<body><joint name="x" {field}/><geom size=".1"/></body>'))
     assert f"{named}:" in one_sentence(cli("opinion", scene, *REFUSED[named], status=2).err)
 
 
@@ -214,20 +206,19 @@ def groove(angle, mu):
         f'<geom name="side{k}" type="plane" size="5 5 1" euler="0 {k * angle} 0"/>' for k in (-1, 1)
     )
     height = 0.0999 / np.cos(np.radians(angle))
-    ball = f'<body name="ball" pos="0 0 {height}"><freejoint/><geom size=".1" mass="1"/></body>'
-    options = f'<default><geom friction="{mu}"/></default>'
-    return scene(planes + ball, options=options)
+    ball = free("ball", 'size=".1" mass="1"', f"0 0 {height}")
+    return mjcf(planes + ball, options=f'<default><geom friction="{mu}"/></default>')
 
 
 SHARED = {
     "a groove of 60 degrees": groove(60, 0.6),
-    "a weld": scene(
+    "a weld": mjcf(
         f"{FLOOR}{FREE}{BOX}</body>", '<equality><weld body1="b" body2="world"/></equality>'
     ),
-    "friction of a joint": scene(
+    "friction of a joint": mjcf(
         f'{FLOOR}<body name="b" pos="0 0 .1">{UP} frictionloss="9"/>{BOX}</body>'
     ),
-    "the limit of a joint": scene(
+    "the limit of a joint": mjcf(
         f'{FLOOR}<body name="b" pos="0 0 .1">{UP} limited="true" range="-.00001 1"/>{BOX}</body>'
     ),
 }
@@ -258,7 +249,7 @@ def test_what_a_damper_bears_is_a_load(by):
     joint, more = CARRIED[by]
     lift = f'<body name="lift">{UP} {joint}/>{LIFT}</body>'
     box = f'<body name="b" pos="0 0 .12"><freejoint/>{BOX}</body>'
-    answer = opinion(scene(lift + box, more, '<option integrator="implicitfast"/>'))
+    answer = opinion(mjcf(lift + box, more, '<option integrator="implicitfast"/>'))
     assert answer.findings == ()
     assert sum(c.exact.normal for c in answer.contacts) == pytest.approx(GRAVITY, rel=0.01)
     assert any("dampers" in sentence for sentence in answer.left_out)
@@ -272,7 +263,7 @@ def test_what_sleeps_is_looked_at_as_if_awake():
     """It creeps by 0.97 mm/s, as the same block does that may not sleep."""
     asleep = SLOPE.format("", '<flag sleep="enable"/>')
     speeds = [
-        opinion(scene(ON_SLOPE, options=options)).findings[0].numbers["slip_mm_s"]
+        opinion(mjcf(ON_SLOPE, options=options)).findings[0].numbers["slip_mm_s"]
         for options in (asleep, SLOPE.format("", ""))
     ]
     assert speeds == pytest.approx([0.97] * 2, rel=0.02)
@@ -281,11 +272,11 @@ def test_what_sleeps_is_looked_at_as_if_awake():
 @pytest.mark.parametrize("iterations", [0, 10])
 def test_in_the_pyramid_the_elliptic_cone_is_named_first(iterations):
     options = SLOPE.format(f'noslip_iterations="{iterations}"', "")
-    answer = opinion(scene(ON_SLOPE, options=options))
+    answer = opinion(mjcf(ON_SLOPE, options=options))
     (creep,) = answer.findings
     assert creep.remedy.startswith('set option cone="elliptic" first')
     elliptic = SLOPE.format('cone="elliptic" noslip_iterations="10" impratio="10"', "")
-    assert opinion(scene(ON_SLOPE, options=elliptic)).findings == ()
+    assert opinion(mjcf(ON_SLOPE, options=elliptic)).findings == ()
 
 
 def test_the_number_of_a_creep_is_its_slip():
@@ -297,20 +288,18 @@ def test_the_number_of_a_creep_is_its_slip():
     more = '<actuator><motor joint="x" name="push"/></actuator>'
     more += '<keyframe><key name="k" ctrl="3"/></keyframe>'
     options = '<option cone="elliptic" impratio="100000"/>'
-    text = scene(f'{floor}<body name="b" pos="0 0 .1">{joints}{box}</body>', more, options)
+    text = mjcf(f'{floor}<body name="b" pos="0 0 .1">{joints}{box}</body>', more, options)
     (creep,) = opinion(text, 0.3, "k").findings
-    model = mujoco.MjModel.from_xml_string(text)
-    slip = 1e3 * settled(model, 0.3, "k").qvel[0]
+    slip = 1e3 * settled(model_of(text), 0.3, "k").qvel[0]
     assert creep.numbers == {"slip_mm_s": pytest.approx(slip)}
     assert slip == pytest.approx(3.2, rel=0.01)
 
 
 def stack(light, heavy):
     """A box on another."""
-    one = f'<geom name="light" type="box" size=".1 .1 .1" mass="{light}"/>'
-    two = f'<geom name="heavy" type="box" size=".1 .1 .1" mass="{heavy}"/>'
-    above = '<body name="c" pos="0 0 .3"><freejoint/>'
-    return scene(f"{FLOOR}{FREE}{one}</body>{above}{two}</body>")
+    box = 'type="box" size=".1 .1 .1" mass="{}"'
+    two = free("light", box.format(light), "0 0 .1") + free("heavy", box.format(heavy), "0 0 .3")
+    return mjcf(FLOOR + two)
 
 
 def test_bodies_that_a_load_presses_into_each_other_are_found():
@@ -325,11 +314,8 @@ def test_bodies_that_a_load_presses_into_each_other_are_found():
 def test_bodies_at_one_place_are_found_at_the_start(shape):
     """Twice the half size of 100 mm, whatever MuJoCo makes of them."""
     geom = f'type="{shape}" size=".1 .1 .1" mass="1"'
-    bodies = "".join(
-        f'<body name="{name}" pos="0 0 .5"><freejoint/><geom name="{name}" {geom}/></body>'
-        for name in ("one", "two")
-    )
-    answer = opinion(scene(FLOOR + bodies)).findings
+    bodies = "".join(free(name, geom, "0 0 .5") for name in ("one", "two"))
+    answer = opinion(mjcf(FLOOR + bodies)).findings
     (start,) = [one for one in answer if "at the start" in one.sentence]
     assert (start.name, start.cause[:9]) == ("penetrates", "one/two: ")
     assert start.numbers["depth_mm"] == pytest.approx(200, rel=1e-6)
@@ -338,13 +324,9 @@ def test_bodies_at_one_place_are_found_at_the_start(shape):
 def test_a_rod_through_a_box_that_mujoco_lists_no_contact_of_is_found():
     """It goes out across itself and an edge: by its radius, and by the box along that normal."""
     half, radius = np.array([0.1, 0.05, 0.2]), 0.01
-    rod = f'<geom name="rod" type="capsule" size="{radius} .3" quat=".84 -.154 -.261 .45"/>'
-    box = f'<geom name="box" type="box" size="{" ".join(map(str, half))}"/>'
-    bodies = "".join(
-        f'<body name="{name}" pos="0 0 .5"><freejoint/>{geom}</body>'
-        for name, geom in (("rod", rod), ("box", box))
-    )
-    model = mujoco.MjModel.from_xml_string(scene(bodies))
+    rod = f'type="capsule" size="{radius} .3" quat=".84 -.154 -.261 .45"'
+    box = f'type="box" size="{" ".join(map(str, half))}"'
+    model = model_of(mjcf(free("rod", rod, "0 0 .5") + free("box", box, "0 0 .5")))
     data = settled(model, 0.0)
     answer = qr.mujoco_opinion(model, data)
     assert answer.contacts == ()
@@ -363,24 +345,23 @@ def test_bodies_that_may_overlap_are_not_found():
     """By MuJoCo's own filters: excluded, of other groups of contacts, or one the other's parent."""
     body = '<body name="{}" pos="0 0 .1"><freejoint/><geom type="box" size=".1 .1 .1" {}/></body>'
     two = body.format("b", "") + body.format("c", 'contype="2" conaffinity="2"')
-    assert opinion(scene(two), 0.0).findings == ()
+    assert opinion(mjcf(two), 0.0).findings == ()
     two = body.format("b", "") + body.format("c", "")
     exclude = '<contact><exclude body1="b" body2="c"/></contact>'
-    assert opinion(scene(two, exclude), 0.0).findings == ()
+    assert opinion(mjcf(two, exclude), 0.0).findings == ()
 
 
 def test_names_with_colons_stay_whole():
     floor = FLOOR.replace('"floor"', '"the: floor"')
     box = BOX.replace('name="box"', 'name="a: box"')
-    (creep,) = opinion(scene(f"{floor}{FREE}{box}</body>", options=SLOPE.format("", ""))).findings
+    (creep,) = opinion(mjcf(f"{floor}{FREE}{box}</body>", options=SLOPE.format("", ""))).findings
     assert creep.cause.startswith("the: floor/a: box: b slips")
 
 
 @pytest.mark.parametrize("field", ["qpos", "qvel", "ctrl", "xfrc_applied"])
 def test_a_state_that_is_not_finite_is_named(field):
     motor = '<actuator><motor name="v" joint="up"/></actuator>'
-    model = mujoco.MjModel.from_xml_string(scene(f"<body>{UP}/>{BOX}</body>", motor))
-    data = mujoco.MjData(model)
+    model, data = posed(mjcf(f"<body>{UP}/>{BOX}</body>", motor))
     getattr(data, field).flat[-1] = np.nan
     for ask in (qr.mujoco_opinion, lambda *of: qr.mujoco_step(*of, h=0.01)):
         with pytest.raises(qr.ModelError, match=rf"data\.{field}: must contain finite numbers"):

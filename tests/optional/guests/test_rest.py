@@ -21,8 +21,8 @@ import pytest
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.solve.solve import solve_step
+from tests.optional.guests.models import H, posed
 
-H = 0.01
 SEEDS = 0, pytest.param(1, marks=pytest.mark.long)
 SETTLED = 1e-5
 """rho of a state at rest, over the largest load, in the norm of H^-1. This is all that is asked of
@@ -212,11 +212,7 @@ def random_model(case, cone, soft, seed):
         f"<worldbody>{case.world}</worldbody>{case.more}</mujoco>"
     )
     text = text.format(a=a, b=b, k=k, u=9.8 * u, v=9.8 * v, w=20 * a)  # w: twice the weight
-    model = mujoco.MjModel.from_xml_string(text)
-    data = mujoco.MjData(model)
-    for name, value in case.values.items():
-        getattr(data, name)[:] = value
-    return model, data
+    return posed(text, **case.values)
 
 
 def settle(model, data):

@@ -14,6 +14,7 @@ from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.optional.guests.scene import mujoco_scenario
 from quasistatic_ref.simulate.trajectory import load_trajectory
 from tests.closeness import assert_close
+from tests.optional.guests.models import model_of, posed
 from tests.tolerances import ROUNDING
 
 G, KP, RANGE, RUB, MASS = 9.81, 2000.0, 6.0, 0.1, 0.1
@@ -43,8 +44,7 @@ SCENE = f"""<mujoco><size memory="1M"/><default><default class="pad">
 
 
 def model(text=SCENE):
-    """A model of MuJoCo's."""
-    return mujoco.MjModel.from_xml_string(text)
+    return model_of(text)
 
 
 def grasp(t):
@@ -56,7 +56,7 @@ def grasp(t):
 def lifted():
     """The scene, and a run of it."""
     scene = mujoco_scenario(model(), targets=grasp, steps=24)
-    return scene, scene.run(progress=False)
+    return scene, scene.run()
 
 
 def test_a_gripper_lifts_what_it_holds(lifted):
@@ -78,24 +78,20 @@ def test_the_step_is_that_of_the_state():
     text = SCENE.replace('<equality><joint joint1="r" joint2="l"/></equality>', "").replace(
         "</actuator>", '<position joint="r" kp="300"/></actuator>'
     )
-    of_both = model(text)
-    data = mujoco.MjData(of_both)
-    data.ctrl[:] = [0.01, 0.013, 0.02]
-    data.qpos[1:3] = 0.0175
-    scene = mujoco_scenario(of_both, data)
+    state = posed(text, ctrl=[0.01, 0.013, 0.02])
+    state[1].qpos[1:3] = 0.0175
+    scene = mujoco_scenario(*state)
     step = scene.simulator().step(scene.system.q_start, scene.target(0.01, scene.system.q_start))
-    expected, _ = mujoco_step(of_both, data, scene.h, depth="as is")
+    expected, _ = mujoco_step(*state, scene.h, depth="as is")
     for name in ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"):
-        np.testing.assert_allclose(getattr(step.step, name), getattr(expected, name), atol=1e-14)
+        assert_close(getattr(step.step, name), getattr(expected, name), ROUNDING)
     mine, theirs = step.step.contacts, expected.contacts
     near = np.flatnonzero(mine.phi < 0)
     assert len(near) == len(theirs.phi) == 2
     near = near[np.lexsort(mine.n[near].round(3).T)]
     order = np.lexsort(theirs.n.round(3).T)
     for name in ("phi", "J", "rows"):
-        np.testing.assert_allclose(
-            getattr(mine, name)[near], getattr(theirs, name)[order], atol=1e-14
-        )
+        assert_close(getattr(mine, name)[near], getattr(theirs, name)[order], ROUNDING)
 
 
 class Listening:
@@ -203,7 +199,7 @@ def test_joints_without_servos_have_springs_and_fields_their_names():
     text = SCENE[: SCENE.index("<equality>")] + "</mujoco>"
     stiff = {"stiffness.lift": 1000.0, "stiffness.l": 1e6, "stiffness.r": 1e6}
     scene = mujoco_scenario(model(text), settings=stiff, targets=lambda t: {"lift": 0.01}, steps=1)
-    run = scene.run(progress=False)
+    run = scene.run()
     assert scene.system.of(run.q[-1], "hand/lift") == pytest.approx(0.01 - HAND * G / 1000)
     with pytest.raises(InputError, match="has a servo"):
         mujoco_scenario(model(), settings={"stiffness.lift": 1.0})

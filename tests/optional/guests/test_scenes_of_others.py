@@ -30,7 +30,7 @@ def test_equalities_in_the_elliptic_cone_take_the_pyramid_with_a_note():
     assert made.cone == "pyramid"
     (note,) = made.system.notes
     assert note.startswith('option.cone: elliptic; "pyramid" is taken, since equality[0] is')
-    assert len(made.run(progress=False)) == 2
+    assert len(made.run()) == 2
     with pytest.raises(ModelError, match=r"equality\[0\]: is two rows"):
         scene(ON_FLOOR, WELD, ELLIPTIC, cone="ellipsoid")
     assert not scene(ON_FLOOR, "", ELLIPTIC).system.notes
@@ -66,7 +66,7 @@ def test_what_a_mocap_body_carries_is_borne():
         '<body name="table" mocap="true"><geom type="box" size="1 1 0.1" pos="0 0 -0.1"/></body>'
     )
     box = FREE.format("0 0 0.05", BOX.format("", ""))
-    run = scene(table + box, steps=3).run(progress=False)
+    run = scene(table + box, steps=3).run()
     assert not run.findings
     assert np.abs(run["q"][-1] - run["q"][0]).max() < 1e-9
 
@@ -86,7 +86,7 @@ def test_keyframes_that_move_a_mocap_body_are_refused_by_name(up):
 
 def test_what_nothing_may_touch_is_told_in_words_of_mjcf():
     apart = BOX.format("", ' contype="0" conaffinity="0"')
-    (finding,) = scene(FLOOR + FREE.format("0 0 0.05", apart), steps=2).run(progress=False).findings
+    (finding,) = scene(FLOOR + FREE.format("0 0 0.05", apart), steps=2).run().findings
     assert "let geoms of box and what should bear it touch (contype" in finding.remedy
     assert "no pair of geoms joins box" in finding.cause
     assert "contacts." not in finding.sentence
@@ -94,13 +94,13 @@ def test_what_nothing_may_touch_is_told_in_words_of_mjcf():
 
 def test_other_findings_name_the_pair_and_no_table_of_a_scenario():
     made = scene(ON_FLOOR.replace('name="floor"', 'name="floor" friction="30"'), steps=2)
-    (finding,) = made.run(progress=False).findings
+    (finding,) = made.run().findings
     assert "check mu_v of contact[world-box(floor, geom1)]" in finding.remedy
 
 
 def test_a_high_body_falls_without_a_distance_that_is_none():
     ball = FREE.format("0 0 0.5", '<geom size="0.05"/>')
-    findings = scene(FLOOR + ball, steps=20).run(progress=False).findings
+    findings = scene(FLOOR + ball, steps=20).run().findings
     assert [one.name for one in findings] == ["starts in the air", "free fall"]
     assert "lower box by 450 mm" in findings[0].remedy
     assert "e+09" not in findings[1].sentence
@@ -112,7 +112,7 @@ def test_a_built_in_mesh_whose_parameters_are_large_numbers_runs(tmp_path):
     body = FREE.format("0 0 0.05", BOX.format("", "") + geom)
     asset = '<asset><mesh name="w" builtin="wedge" params="37 37 45 45 0"/></asset>'
     file.write_text(f"<mujoco>{asset}<worldbody>{FLOOR}{body}</worldbody></mujoco>")
-    assert len(qr.mujoco_scenario(compiled_model(file), steps=2).run(progress=False)) == 2
+    assert len(qr.mujoco_scenario(compiled_model(file), steps=2).run()) == 2
 
 
 def many(count, memory="50M"):
@@ -169,8 +169,8 @@ def test_a_body_without_a_joint_that_overlaps_its_children_is_named(between):
     torso = '<body name="torso" pos="0 0 1">{}<geom size="0.1" mass="1"/>{}</body>'
     words = r"no solution: .*; body\[torso\] has no joint.*overlaps body\[leg\] by up to 41.9 mm"
     with pytest.raises(qr.RunFailed, match=words):
-        scene(torso.format("", leg), steps=1).run(progress=False)
+        scene(torso.format("", leg), steps=1).run()
     free = scene(torso.format("<freejoint/>", leg), steps=1)
     assert free.system.notes == ()
     if not between:  # MuJoCo leaves out parents and children, of what is not part of the world
-        free.run(progress=False)
+        free.run()
