@@ -10,6 +10,7 @@ from quasistatic_ref import (
     Cylinder,
     FastSimulator,
     HalfSpace,
+    PointCloud,
     Simulator,
     Sphere,
     System,
@@ -24,6 +25,7 @@ G = 9.81
 NONE = np.zeros(0)
 FLOOR = HalfSpace((0.0, 0.0, 1.0), 0.0)
 BOX = Box((0.1, 0.1, 0.05))
+POINT = PointCloud(np.zeros((1, 3)))
 
 
 def one_sided_derivative(function, step=1e-6):
@@ -33,23 +35,26 @@ def one_sided_derivative(function, step=1e-6):
     return 2 * near - far
 
 
+def touching(system, fixed, own, k=1, mu=(0.5, 0.01)):
+    """(simulator, q) of a system, one shape of which is on one that is fixed."""
+    pair = ContactPair("c0", fixed, own, *mu, 6, k)
+    return Simulator(system, [pair], h=H, K_q=1.0), system.q_start
+
+
 def free(shape, xyz, fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="floating"):
     """(simulator, q) of one free body on a shape that is fixed at the world's origin."""
     solid = shape if isinstance(shape, Box | Sphere | Cylinder | Capsule) else Sphere(0.05)
     system = System([Body.of_shape("body", solid, 0.3, xyz=xyz, rpy=rpy, base=base)])
     own = placed_shape(shape, system.link("body"))
-    pair = ContactPair("c0", placed_shape(fixed), own, *mu, 6, k)
-    simulator = Simulator(system, [pair], h=H, K_q=np.zeros((0, 0)))
-    return FastSimulator(simulator), system.q_start
+    simulator, q = touching(system, placed_shape(fixed), own, k, mu)
+    return FastSimulator(simulator), q
 
 
 def vector_scene(name, **settings):
     """(simulator, q, q_bar_a) of a vector of derivatives, with other settings of the simulator."""
     (case,) = [case for case in cases("derivative") if case.id == f"derivative/{name}"]
     posed = posed_case(case.input)
-    own = posed.simulator
-    given = {"h": own.h, "K_q": own.K_q, "gravity": own.gravity, "cone": own.cone}
-    return Simulator(own.system, own.pairs, **(given | settings)), posed.q, posed.q_bar_a
+    return Simulator(**posed.simulator.settings() | settings), posed.q, posed.q_bar_a
 
 
 def falling_ball(gap=0.0):
@@ -58,5 +63,5 @@ def falling_ball(gap=0.0):
 
 
 def verdict(simulator, q, force=0.0):
-    found = derivatives(simulator, q, np.zeros(0), force)
+    found = derivatives(simulator, q, NONE, force)
     return found, {why.kind for why in found.reasons}

@@ -7,7 +7,6 @@ from quasistatic_ref import (
     Body,
     Box,
     Capsule,
-    ContactPair,
     Cylinder,
     Ellipsoid,
     PointCloud,
@@ -16,14 +15,23 @@ from quasistatic_ref import (
     System,
     convex_hull,
     derivatives,
-    load_scenario,
 )
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.tolerances import TIED
 from tests.closeness import assert_within
 from tests.contact.still import placed_shape
 from tests.model.urdf.urdf_texts import joint, link, robot
-from tests.optional.derivatives.free_bodies import BOX, FLOOR, H, free, verdict
+from tests.optional.derivatives.free_bodies import (
+    BOX,
+    FLOOR,
+    NONE,
+    POINT,
+    H,
+    free,
+    touching,
+    verdict,
+)
+from tests.oracles.differences import after
 
 WHEEL = robot(link("rail"), link("wheel"), joint("turn", "rail", "wheel", "continuous", "0 0 1"))
 RAIL = robot(link("rail"), link("slider"), joint("slide", "rail", "slider", "prismatic", "0 0 1"))
@@ -32,37 +40,30 @@ RAIL = robot(link("rail"), link("slider"), joint("slide", "rail", "slider", "pri
 LOPSIDED = """<robot name="box"><link name="box"><inertial><origin xyz=".02 .02 0"/>
 <mass value="1"/><inertia ixx="2e-3" iyy="2e-3" izz="2e-3" ixy="0" ixz="0" iyz="0"/></inertial>
 <collision><geometry><box size=".1 .1 .1"/></geometry></collision></link></robot>"""
-FLOOR_BOX = {"box": {"size": [0.6, 0.6, 0.1]}, "pose": {"xyz": [0, 0, -0.05]}}
+SLAB = Box((0.3, 0.3, 0.05))
 
 
 def test_a_turn_by_rounding_changes_no_corner_of_a_box_that_lies_flat():
     """With the middle of an edge in a corner's place, a turn of -1e-6 made a jump of 2.1e-3."""
-    body = {"urdf": LOPSIDED, "base": "floating", "pose": {"xyz": [0, 0, 0.05]}}
-    pair = {"alpha": "floor", "beta": "box", "mu_v": 0.5, "rows": 4, "k": 4}
-    scene = {"h": 0.01, "steps": 1, "gravity": [0, 0, -9.81], "bodies": {"box": body}}
-    scene |= {"shapes": {"floor": FLOOR_BOX}, "contacts": {"floor": pair}}
-    scenario = load_scenario(scene)
-    simulator = scenario.simulator()
-    q = scenario.system.q_start
-    found = derivatives(simulator, q, np.zeros(0))
+    system = System([Body("box", LOPSIDED, "floating", xyz=(0, 0, 0.05))])
+    floor = placed_shape(SLAB, t=(0, 0, -0.05))
+    simulator, q = touching(system, floor, system.shapes[0], 4, (0.5, 0.0))
+    found = derivatives(simulator, q, NONE)
     assert found.differentiable
     for turn in np.eye(6)[3:5]:
         for eps in (1e-6, -1e-6):
-            moved = simulator.step(scenario.system.integrate(q, eps * turn), np.zeros(0)).q
-            change = scenario.system.difference(found.result.q, moved) / eps
+            change = after(simulator, found.result.q, system.integrate(q, eps * turn), NONE) / eps
             assert_within(change, found.dq_dq @ turn, 1e-5)
 
 
 DOWN = np.array([0, 0, -1.0, 0, 0, 0])
 PILL = Capsule(0.03, 0.05)
-SLAB = Box((0.3, 0.3, 0.05))
 BAR = Box((0.02, 0.2, 0.05))
 BAR_ACROSS = Box((0.2, 0.02, 0.05))
 PYRAMID = convex_hull([[0.1, 0.1, 0], [0.1, -0.1, 0], [-0.1, 0.1, 0], [-0.1, -0.1, 0], [0, 0, 0.1]])
 PYRAMID_ON_ITS_TIP = convex_hull(-PYRAMID.vertices)
 TRIANGLE = ((-0.2, -0.2), (0.05, -0.05), (-0.05, 0.05))
 PRISM = convex_hull([[x, y, z] for x, y in TRIANGLE for z in (-0.05, 0.05)])
-POINT = PointCloud(np.zeros((1, 3)))
 
 
 def five_points(higher=0.0):
@@ -82,8 +83,7 @@ def on_a_rail(fixed, shape, t, k):
     """A body that can only rise."""
     system = System([Body("rail", RAIL)])
     lying = placed_shape(shape, system.link("rail/slider"), t=t)
-    pair = ContactPair("c0", placed_shape(fixed), lying, 0.5, 0.0, 4, k)
-    return Simulator(system, [pair], h=H, K_q=np.zeros((0, 0))), system.q_start
+    return touching(system, placed_shape(fixed), lying, k)
 
 
 KINKS = {
@@ -223,7 +223,7 @@ TURNING = {
 
 @pytest.mark.parametrize("turning", TURNING)
 def test_a_target_half_a_turn_away_is_named(turning):
-    body, q, half, other = (np.array(x) if isinstance(x, list) else x for x in TURNING[turning])
+    body, q, half, other = TURNING[turning]
     # A body that is not actuated has no target.
     system = System([body, Body.of_shape("ball", Sphere(0.05), 0.3)])
     simulator = Simulator(system, [], h=H, K_q=np.eye(system.n_a))

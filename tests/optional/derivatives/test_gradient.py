@@ -24,13 +24,9 @@ def test_along_a_direction_a_weak_row_holds_or_lets_go(way):
     found, _ = verdict(simulator, q)
     e = np.array(way)
     move = simulator.system.integrate
-    there = one_sided_derivative(
-        lambda t: after(simulator, found.result.q, move(q, t * e), np.zeros(0))
-    )
+    there = one_sided_derivative(lambda t: after(simulator, found.result.q, move(q, t * e), NONE))
     assert np.abs(found.along(q=e) - there).max() <= DIFFERENCE_OF_STEPS * np.abs(e).max()
-    push = one_sided_derivative(
-        lambda t: after(simulator, found.result.q, q, np.zeros(0), t * e), 1e-4
-    )
+    push = one_sided_derivative(lambda t: after(simulator, found.result.q, q, NONE, t * e), 1e-4)
     assert np.abs(found.along(tau=e) - push).max() <= DIFFERENCE_OF_STEPS * H**2 / 0.3
 
 

@@ -8,13 +8,11 @@ from quasistatic_ref.lab.scenes.nudge import RADIUS, body_at_rest
 from quasistatic_ref.optional.derivatives.step import barrier as newton
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
-from tests.closeness import assert_relative
+from tests.closeness import assert_relative, assert_within
 from tests.helpers import point_on_floor
-from tests.optional.derivatives.free_bodies import vector_scene
+from tests.optional.derivatives.free_bodies import NONE, vector_scene
 from tests.oracles.differences import rate, unit
 from tests.tolerances import ACTIVE_SET, CLOSED_FORM, DIFFERENCE_OF_STEPS
-
-NONE = np.zeros(0)
 
 
 @pytest.mark.parametrize("name", ["ellipsoid_capsule_0", "box_cloud_1", "cone_convex_0"])
@@ -26,21 +24,18 @@ def test_r36_derivatives_of_a_smoothed_push_agree_with_differences(name, kappa, 
     system = simulator.system
     e = unit(rng, system.n_v)
 
-    def moved(t):
-        end = smoothed(simulator, system.integrate(q, t * e), q_bar_a, kappa).result.q
-        return system.difference(found.result.q, end)
+    def end(q, force=0.0):
+        return system.difference(
+            found.result.q, smoothed(simulator, q, q_bar_a, kappa, force).result.q
+        )
 
-    there = rate(moved, 1e-6)
+    moved = rate(lambda t: end(system.integrate(q, t * e)), 1e-6)
     size = np.abs(found.dq_dq).max()
-    assert np.abs(found.dq_dq @ e - there).max() <= 10 * DIFFERENCE_OF_STEPS * size
-    np.testing.assert_allclose(found.along(q=e), found.dq_dq @ e, atol=1e-9 * size)
-
-    def pressed(t):
-        end = smoothed(simulator, q, q_bar_a, kappa, t * e).result.q
-        return system.difference(found.result.q, end)
-
+    assert_within(found.dq_dq @ e, moved, 10 * DIFFERENCE_OF_STEPS * size)
+    assert_within(found.along(q=e), found.dq_dq @ e, 1e-9 * size)
+    pressed = rate(lambda t: end(q, t * e), 1e-4)
     size = np.abs(found.dq_dtau).max()
-    assert np.abs(found.dq_dtau @ e - rate(pressed, 1e-4)).max() <= 10 * DIFFERENCE_OF_STEPS * size
+    assert_within(found.dq_dtau @ e, pressed, 10 * DIFFERENCE_OF_STEPS * size)
 
 
 def pressed_point(scale):

@@ -13,21 +13,26 @@ from quasistatic_ref import (
     derivatives,
     smoothed,
 )
-from quasistatic_ref.lab.scenes.nudge import RADIUS, H, body_at_rest, points
+from quasistatic_ref.lab.scenes.nudge import RADIUS, body_at_rest, points
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step_jax import smoothed_jax, step_jax
-from tests.closeness import assert_relative
+from tests.closeness import assert_relative, assert_within
 from tests.extras import reason as needs
-from tests.optional.derivatives.free_bodies import BOX, FLOOR, free, vector_scene
-from tests.tolerances import JAX_GRADIENT, JAX_STEP
+from tests.optional.derivatives.free_bodies import (
+    BOX,
+    FLOOR,
+    NONE,
+    falling_ball,
+    free,
+    vector_scene,
+)
+from tests.tolerances import JAX_GRADIENT, JAX_STEP, ROUNDING
 
 jax = pytest.importorskip("jax", reason=needs("jax"))
 pytestmark = pytest.mark.extra("jax")
 check_grads = import_module("jax.test_util").check_grads
 
-G = 9.81
-NONE = np.zeros(0)
 UP = np.eye(6)[2]
 
 
@@ -104,13 +109,8 @@ def test_gradients_of_smoothed_steps_in_sequence_pass_the_check_of_jax():
     check_against_differences(lambda goals: run(goals)[0], goals)
 
 
-def kink():
-    """A ball that just reaches the floor."""
-    return body_at_rest(Sphere(RADIUS), RADIUS + H**2 * G)
-
-
 def test_at_a_kink_the_step_is_there_and_its_gradient_is_an_error():
-    simulator, q = kink()
+    simulator, q = falling_ball()
     step = step_jax(simulator)
     q_next, verdict = step(q, NONE)
     assert (np.asarray(q_next) == simulator.step(q, NONE).q).all()
@@ -138,7 +138,7 @@ def test_a_kink_that_does_not_concern_what_is_asked_for_is_only_said():
 
 @pytest.mark.parametrize(("way", "slope"), [(UP, 1.0), (-UP, 0.0)])
 def test_one_sided_gradients_are_those_of_the_side_that_is_named(way, slope):
-    simulator, q = kink()
+    simulator, q = falling_ball()
     step = step_jax(simulator, "one-sided", towards={"q": way})
     (height, verdict), by_q = jax.value_and_grad(
         lambda q: (step(q, NONE)[0][2], step(q, NONE)[1]), has_aux=True
@@ -146,11 +146,11 @@ def test_one_sided_gradients_are_those_of_the_side_that_is_named(way, slope):
     assert float(height) == simulator.step(q, NONE).q[2]
     assert verdict.any()
     # Above the kink it falls as a free body does; below it ends on the floor.
-    np.testing.assert_allclose(by_q[2], slope, atol=1e-12)
+    assert_within(by_q[2], slope, ROUNDING)
 
 
 def test_smoothed_gradients_at_kinks_leave_the_step_exact():
-    simulator, q = kink()
+    simulator, q = falling_ball()
     step = step_jax(simulator, "smoothed", kappa=1e-9)
     height, by_q = jax.value_and_grad(lambda q: step(q, NONE)[0][2])(q)
     assert float(height) == simulator.step(q, NONE).q[2]
@@ -159,7 +159,7 @@ def test_smoothed_gradients_at_kinks_leave_the_step_exact():
 
 
 def test_a_wrong_question_is_refused_in_a_sentence():
-    simulator, q = kink()
+    simulator, q = falling_ball()
     with pytest.raises(InputError, match="kinks: must be one of raise, one-sided, smoothed"):
         step_jax(simulator, "ignore")
     with pytest.raises(InputError, match="kappa: goes with kinks='smoothed'"):

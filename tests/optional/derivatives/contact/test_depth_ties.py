@@ -10,7 +10,6 @@ from quasistatic_ref import (
     Cone,
     Cylinder,
     Ellipsoid,
-    PointCloud,
     Sphere,
     convex_hull,
 )
@@ -19,11 +18,11 @@ from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
 from quasistatic_ref.optional.derivatives.tolerances import TIED
 from tests.contact.still import pair, placed_shape
+from tests.optional.derivatives.free_bodies import POINT
 
 TURNED = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
 AT = np.array([0.5, -0.4, 0.3])
 STILL = np.eye(3), np.zeros(3)
-POINT = PointCloud(np.zeros((1, 3)))
 AWAY = 1e-6
 """[m], beyond TIED of any size here."""
 
