@@ -115,7 +115,7 @@ def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
     h = scenario.h
     n_a = scenario.system.n_a
     simulator = scenario.simulator(lambda q: velocity_limit(h, np.full(n_a, 1e-3)))
-    trajectory = rollout(simulator, scenario.system.q_start, scenario.targets, 8, progress=False)
+    trajectory = rollout(simulator, scenario.system.q_start, scenario.targets, 8)
     assert set(trajectory["certificate"].tolist()) == {"exact"}
     np.testing.assert_array_less(np.abs(trajectory["delta_q"][:, :n_a]), 1e-3 * h * (1 + ROUNDING))
     read = load_trajectory(save_trajectory(tmp_path / "run.npz", trajectory))

@@ -14,13 +14,13 @@ from quasistatic_ref import (
     Extension,
     Extra,
     RunFailed,
-    StepData,
     StepDataError,
     solve_step,
 )
 from quasistatic_ref.certify.groups import groups
 from quasistatic_ref.certify.solution_files import solution_text
 from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.extensions.extended import posed
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.trajectory import load_trajectory, save_trajectory
@@ -28,6 +28,8 @@ from quasistatic_ref.solve.backends import REQUIRED
 from quasistatic_ref.step.files import step_from_record, step_text
 from tests.closeness import assert_relative
 from tests.helpers import pinch, point_on_floor, random_step, verify_refusal
+from tests.oracles.rational_kkt import exact
+from tests.oracles.records import value_at, with_value
 from tests.tolerances import OPTIMUM
 from validation import check_solution as checker
 
@@ -47,13 +49,11 @@ def by_hand():
 
     (m / h + 2 W) delta_q = h f + 2 W t, but delta_q_z = c: lam = h f_z + 2 W t_z - (m / h + 2 W) c.
     """
-    h, w = Fraction(H), Fraction(W)
-    stiff = Fraction(M) / h + 2 * w
-    load = [
-        h * Fraction(f) + Fraction(float(2 * W * t)) for f, t in zip(FORCE, TARGET, strict=True)
-    ]
-    x = [v / stiff for v in load]
-    return [float(x[0]), float(x[1]), CEILING], float(load[2] - stiff * Fraction(CEILING))
+    h, m, w = exact([H, M, W])
+    stiff = m / h + 2 * w
+    load = h * exact(FORCE) + exact(2 * W * TARGET)
+    x, y, _ = (load / stiff).astype(float)
+    return [x, y, CEILING], float(load[2] - stiff * Fraction(CEILING))
 
 
 @pytest.mark.parametrize("backend", REQUIRED)
@@ -74,20 +74,16 @@ def quadratic_terms(step):
     S = np.diag(np.arange(1.0, n + 1)) + 0.5
     H_of_C, g_of_C = 2 * C.T @ C, 2 * C.T @ d
 
-    def with_variable(s):
-        z = cp.Variable(2)
-        return [z == C @ s.delta_q - d, cp.sum_squares(z)]
-
-    def with_signed_variable(s):
-        z = cp.Variable(2, nonpos=True)
+    def of_variable(s, **sign):
+        z = cp.Variable(2, **sign)
         return [z == C @ s.delta_q - d, cp.sum_squares(z)]
 
     return {
         "squares": (lambda s: [cp.sum_squares(C @ s.delta_q - d)], H_of_C, g_of_C),
         "a form": (lambda s: [cp.quad_form(s.delta_q, S)], 2 * S, np.zeros(n)),
         "a line": (lambda s: [C[0] @ s.delta_q], np.zeros((n, n)), -C[0]),
-        "a variable bound by equations": (with_variable, H_of_C, g_of_C),
-        "a variable with a sign": (with_signed_variable, H_of_C, g_of_C),
+        "a variable bound by equations": (of_variable, H_of_C, g_of_C),
+        "a variable with a sign": (lambda s: of_variable(s, nonpos=True), H_of_C, g_of_C),
     }  # fmt: skip
 
 
@@ -145,30 +141,29 @@ def test_other_costs_and_variables_are_solved_as_conic_programs(rng, terms):
         solve_step(step, "piqp", extension=Extension(terms))
 
 
+def with_cost(step, **cost):
+    """A step with a cost of a user's own, and no rows."""
+    return step.replace(extra=Extra((), np.zeros((0, step.n_v)), [], **cost))
+
+
 def two_points(coupling):
     """Two free points, which nothing joins but a cost of `coupling` |x - y|^2."""
     H_cost = 2 * coupling * np.kron([[1.0, -1.0], [-1.0, 1.0]], np.eye(3))
-    step = StepData(
-        h=H, K_q=np.zeros((0, 0)), M_u=M * np.eye(6), tau_a=[], tau_u=[*FORCE, 0.0, 0.0, 0.0],
-        delta_q_bar_a=[], contacts=no_contacts(6),
-    )  # fmt: skip
-    return step.replace(extra=Extra((), np.zeros((0, 6)), [], H=H_cost))
+    step = free_step(M * np.eye(6), [*FORCE, 0.0, 0.0, 0.0], no_contacts(6), H)
+    return with_cost(step, H=H_cost)
 
 
 def test_a_cost_couples_two_bodies():
     """With stiff = m / h and k = 2 coupling: x + y = h f / stiff, x - y = h f / (stiff + 2 k)."""
     step = two_points(W)
     assert len(groups(step)) == 3  # one for each axis
-    h = Fraction(H)
-    stiff = Fraction(M) / h
-    both = [h * Fraction(f) / stiff for f in FORCE]
-    apart = [h * Fraction(f) / (stiff + 4 * Fraction(W)) for f in FORCE]
-    x = [float((s + d) / 2) for s, d in zip(both, apart, strict=True)]
-    y = [float((s - d) / 2) for s, d in zip(both, apart, strict=True)]
+    h, m, w = exact([H, M, W])
+    both, apart = (h * exact(FORCE) / stiff for stiff in (m / h, m / h + 4 * w))
+    expected = np.concatenate([both + apart, both - apart]) / 2
     for backend in REQUIRED:
         solution = solve_step(step, backend)
         assert solution.certificate.kind == "exact"
-        assert solution.delta_q.tolist() == [*x, *y]
+        assert solution.delta_q.tolist() == expected.astype(float).tolist()
     assert len(groups(two_points(0.0))) == 6
 
 
@@ -183,11 +178,8 @@ def refused_by(folder, step, solution):
     """Whether `verify` and the checker refuse a step with a solution that says it is of it."""
     text = step_text(step_from_record(step))
     solution = solution | {"step_sha256": sha256(text.encode()).hexdigest()}
-    texts = text, json.dumps(solution)
-    by_verify = verify_refusal(folder, *texts) is not None
-    paths = folder / "s.json", folder / "x.json"
-    for path, text in zip(paths, texts, strict=True):
-        path.write_text(text)
+    by_verify = verify_refusal(folder, text, json.dumps(solution)) is not None
+    paths = folder / "step.json", folder / "solution.json"  # which that has written
     return by_verify, checker.main(*map(str, paths)) == 1
 
 
@@ -198,11 +190,10 @@ def test_verify_and_the_checker_read_the_cost(tmp_path):
     assert list(record["extra"]) == ["names", "A", "b", "H", "g"]
     assert step_from_record(record) == step
     assert refused_by(tmp_path, record, solution) == (False, False)
-    record["extra"]["g"][-1] += 0.5
-    assert refused_by(tmp_path, record, solution) == (True, True)
-    record["extra"]["g"][-1] -= 0.5
-    record["extra"]["H"][-1][-1] += 0.5
-    assert refused_by(tmp_path, record, solution) == (True, True)
+    for place in (("H", -1, -1), ("g", -1)):
+        value = value_at(record["extra"], place) + 0.5
+        changed = with_value(record, ("extra", *place), value)
+        assert refused_by(tmp_path, changed, solution) == (True, True)
     del record["extra"]["H"], record["extra"]["g"]
     assert refused_by(tmp_path, record, solution) == (True, True)
 
@@ -232,7 +223,7 @@ REFUSED = {
 def test_a_cost_that_is_not_convex_or_of_the_step_is_refused(H_cost, words):
     step = point_on_floor()
     with pytest.raises(StepDataError, match=words):
-        step.replace(extra=Extra((), np.zeros((0, 3)), [], H=H_cost))
+        with_cost(step, H=H_cost)
 
 
 def test_a_cost_too_large_for_float64_beside_h_is_solved_as_before():
@@ -251,7 +242,7 @@ def spring(q):
 def test_a_run_with_a_cost_is_recorded_and_replayed(tmp_path, settings):
     scenario = qr.load_scenario("sphere_spin", ["steps=3", *settings])
     simulator = scenario.simulator(spring)
-    run = rollout(simulator, scenario.system.q_start, scenario.targets, 3, progress=False)
+    run = rollout(simulator, scenario.system.q_start, scenario.targets, 3)
     back = load_trajectory(save_trajectory(tmp_path / "run.npz", run))
     assert back == run
     step = back.step_data(2)
@@ -262,7 +253,7 @@ def test_a_run_with_a_cost_is_recorded_and_replayed(tmp_path, settings):
         np.testing.assert_array_equal(solve_step(step, "daqp").delta_q, run["delta_q"][2])
         assert set(run["certificate"].tolist()) == {"exact"}
         fast = qr.FastSimulator(simulator)
-        other = rollout(fast, scenario.system.q_start, scenario.targets, 3, progress=False)
+        other = rollout(fast, scenario.system.q_start, scenario.targets, 3)
         for name in ("q", "delta_q", "H", "g", "extra_H", "extra_g"):
             np.testing.assert_array_equal(other[name], run[name])
 
@@ -276,13 +267,12 @@ def test_every_step_of_a_run_has_a_cost_or_none():
 
     simulator = scenario.simulator(at_first)
     with pytest.raises(RunFailed, match="no quadratic cost in step 1, the step before has one"):
-        rollout(simulator, first, scenario.targets, 2, progress=False)
+        rollout(simulator, first, scenario.targets, 2)
 
 
 def test_forces_of_a_step_with_a_cost_balance_its_load():
     """A ball of weight m g whose cost pushes it down with W / h as well: f_n = m g + W / h."""
     step = point_on_floor(m=M, force=(0.0, 0.0, -M * 9.81), h=H)
-    push = Extra((), np.zeros((0, 3)), [], g=[0.0, 0.0, -H * 2.0])
-    solution = solve_step(step.replace(extra=push))
+    solution = solve_step(with_cost(step, g=[0.0, 0.0, -H * 2.0]))
     assert_relative(solution.wrench[0, 2], M * 9.81 + 2.0, OPTIMUM)
     assert_relative(solution.forces[0, 2], M * 9.81 + 2.0, 1e-5)

@@ -143,7 +143,7 @@ def test_an_l_is_pushed_along_a_wall_on_its_support(tmp_path):
     mu = 0.4
     w = 0.25
     x = H**2 * (4.0 - mu * m * G - w * 2.0) / (m * (1 + w**2) + 1e-6 * m * mu**2)
-    run = scene(tmp_path, PUSHED).run(progress=False)
+    run = scene(tmp_path, PUSHED).run()
     expected = [x, w * x, 0.0]
     np.testing.assert_allclose(run["delta_q"][0], expected, rtol=ROUNDING, atol=ROUNDING * x)
     assert set(run["certificate"].tolist()) == {"exact"}

@@ -34,11 +34,17 @@ def scene(urdf, joint_limits="urdf", **fields):
     return {"h": H, "steps": 3, "gravity": [0, 0, 0], "bodies": {"c": body}}
 
 
+def actuated(*targets):
+    """Fields of a drawer on a spring of 100 N/m with targets at 0, 0.01 s and so on."""
+    table = [{"t": H * k, "slide": target} for k, target in enumerate(targets)]
+    return {"actuated": ["slide"], "K_q": {"slide": 100.0}, "targets": table}
+
+
 def pushed_drawer(scenario, force, steps, extension=None):
     """A run under a constant generalised force on the joint [N]."""
     simulator = scenario.simulator(extension)
     q = scenario.system.q_start
-    return qr.rollout(simulator, q, [], steps, force=np.array([force]), progress=False)
+    return qr.rollout(simulator, q, [], steps, force=np.array([force]))
 
 
 @pytest.mark.parametrize("fast", [False, True])
@@ -99,20 +105,13 @@ def test_a_joint_may_be_beyond_its_limit_by_little(lower, upper, beyond, found):
     """By a thousandth of its way, and 0.1 mm at most; so may its target."""
     text = drawer(lower, upper)
     moved = pushed_drawer(qr.load_scenario(scene(text, None)), -beyond * M / H**2, 1)
-    targets = [{"t": 0, "slide": -beyond}]
-    fields = {"actuated": ["slide"], "K_q": {"slide": 100.0}, "targets": targets}
-    aimed = qr.load_scenario(scene(text, None, **fields)).run(progress=False)
+    aimed = qr.load_scenario(scene(text, None, **actuated(-beyond))).run()
     for run, name in ((moved, "joint beyond a limit"), (aimed, "target beyond a limit")):
         assert any(one.name == name for one in run.findings) == found
 
 
 def test_a_target_beyond_a_limit_by_little_is_said_with_the_digits_that_differ():
-    fields = {
-        "actuated": ["slide"],
-        "K_q": {"slide": 100.0},
-        "targets": [{"t": 0, "slide": 0.5002}],
-    }
-    run = qr.load_scenario(scene(drawer(0, 0.5), None, **fields)).run(progress=False)
+    run = qr.load_scenario(scene(drawer(0, 0.5), None, **actuated(0.5002))).run()
     assert "0.5002 m at step 0, or the limit in its URDF, 0.5 m" in str(run.findings)
 
 
@@ -122,9 +121,7 @@ def test_an_actuated_joint_presses_against_its_stop(start):
 
     A target that does not move has no way of which the error could be a share.
     """
-    target = [{"t": 0, "slide": start}, {"t": 0.01, "slide": 0.005}]
-    fields = {"actuated": ["slide"], "K_q": {"slide": 100.0}, "targets": target}
-    run = qr.load_scenario(scene(drawer(), **fields)).run(progress=False)
+    run = qr.load_scenario(scene(drawer(), **actuated(start, 0.005))).run()
     assert_relative(run["q"][1:, 0], 0.002, ROUNDING)
     assert_relative(run["lam_extra"][:, 1] / H, 0.3, ROUNDING)
     assert not [one for one in run.findings if "limit" in one.name]
