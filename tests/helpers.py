@@ -38,6 +38,12 @@ def residuals_of(step, delta_q, lam):
     return optimality_residuals(standard_form(step), delta_q, lam, judge_of(step))
 
 
+def first_step(scenario, simulator=None):
+    """The result of the first step of a scenario, which some simulator takes."""
+    simulator = simulator or scenario.simulator()
+    return simulator.step(scenario.system.q_start, scenario.targets(scenario.h))
+
+
 def random_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):
     """A random step with phi >= 0, which is always feasible: standing still is allowed.
 

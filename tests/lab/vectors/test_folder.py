@@ -90,7 +90,7 @@ def test_cases_without_the_answers_that_are_copied_are_refused(layer, tmp_path):
         inputs_file(tmp_path / "a", name, by_size(name)[:1])
     expected_files(tmp_path / "a", {*FILES} - {layer})
     with pytest.raises(InputError, match=rf"expected/{layer}\.json.*is missing"):
-        generate_folder(tmp_path / "a", tmp_path / "b", progress=False)
+        generate_folder(tmp_path / "a", tmp_path / "b")
     assert not (tmp_path / "b").exists()
 
 
@@ -116,9 +116,9 @@ def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
     expected_files(tmp_path / "a")
     for path in ("README.md", "LICENSE.md", "schemas/rows.schema.json"):
         text_written(tmp_path / "a" / path, (VECTORS / path).read_text())
-    counts = generate_folder(tmp_path / "a", tmp_path / "b", progress=False)
+    counts = generate_folder(tmp_path / "a", tmp_path / "b")
     assert counts == dict.fromkeys(LAYERS, 3)
-    generate_folder(tmp_path / "a", tmp_path / "a", progress=False)
+    generate_folder(tmp_path / "a", tmp_path / "a")
     files = contents(tmp_path / "b")
     assert contents(tmp_path / "a") == files
     assert len(files) == 1 + 3 + 2 * len(LAYERS)

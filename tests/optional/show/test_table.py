@@ -22,7 +22,7 @@ def scene(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def run(scene):
-    return load_scenario(scene, fast=True).run(progress=False)
+    return load_scenario(scene, fast=True).run()
 
 
 def test_arrays_are_attributes_by_the_names_of_the_format(run):
@@ -85,7 +85,7 @@ def test_a_name_is_no_formula_in_a_table(tmp_path):
         floor = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}
         touch = {"alpha": "floor", "beta": name, "mu_v": 0.5, "rows": 4, "k": 1}
         scene = {"h": 0.01, "steps": 1, "bodies": {name: ball}, "shapes": {"floor": floor}}
-        run = load_scenario({**scene, "contacts": {name: touch}}).run(progress=False)
+        run = load_scenario({**scene, "contacts": {name: touch}}).run()
         for option in ("--table", "--contacts-table"):
             text = table_written(run, tmp_path / f"{k}.csv", option).read_text()
             cells = [cell for line in csv.reader(text.splitlines()) for cell in line]
@@ -114,7 +114,7 @@ def test_files_without_names_have_numbers(run):
 
 
 def test_a_run_without_steps_is_an_empty_table():
-    empty = load_scenario("sphere_spin", steps=0, fast=True).run(progress=False)
+    empty = load_scenario("sphere_spin", steps=0, fast=True).run()
     assert len(empty.to_pandas()) == len(empty.contacts_to_pandas()) == 0
 
 

@@ -25,6 +25,7 @@ from quasistatic_ref.optional.show.show import (
 from quasistatic_ref.simulate.trajectory import save_trajectory
 from tests.helpers import (
     changed,
+    first_step,
     point_on_floor,
     random_step,
 )
@@ -59,9 +60,9 @@ def check(*objects):
 
 def test_every_object_of_a_run_is_short():
     scenario = load_scenario("bunny_grasp", steps=2, fast=True)
-    result = scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h))
-    run = scenario.run(progress=False)
-    light = replace(scenario, record="light").run(progress=False)
+    result = first_step(scenario)
+    run = scenario.run()
+    light = replace(scenario, record="light").run()
     check(run, light, result.step, result.solution.certificate)
     loads = [float(line.split()[-2]) for line in repr(run).splitlines()[-13:-1]]
     assert loads[0] > 1e-3 * max(loads) >= loads[-1]  # what bears load comes first
@@ -69,12 +70,12 @@ def test_every_object_of_a_run_is_short():
 
 def test_empty_things_are_short_too(tmp_path):
     nothing = random_step(np.random.default_rng(3), rows=()).replace(contacts=no_contacts(7))
-    empty = load_scenario("sphere_spin", steps=0, fast=True).run(progress=False)
+    empty = load_scenario("sphere_spin", steps=0, fast=True).run()
     check(nothing, solve_step(nothing).certificate, empty)
     assert "0 contacts" in repr(nothing)
     assert "0 steps" in repr(empty)
     with pytest.raises(RunFailed) as caught:
-        load_scenario(written_scenario(tmp_path, SWING), fast=True).run(progress=False)
+        load_scenario(written_scenario(tmp_path, SWING), fast=True).run()
     failed = caught.value.trajectory
     check(failed)
     assert "ended early" in repr(failed)
@@ -127,7 +128,7 @@ STRANGE = {
 
 @pytest.mark.parametrize("header", STRANGE.values(), ids=STRANGE)
 def test_a_strange_trajectory_that_can_be_read_can_be_shown(header, tmp_path):
-    run = load_scenario("block_push", steps=3, fast=True).run(progress=False)
+    run = load_scenario("block_push", steps=3, fast=True).run()
     strange = Trajectory(replace(run.header, **header), run.arrays)
     check(strange, load_trajectory(save_trajectory(tmp_path / "run.npz", strange)))
 

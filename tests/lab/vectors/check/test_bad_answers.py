@@ -66,18 +66,18 @@ def test_a_bad_file_is_reported_by_name_and_the_rest_is_checked(folder, spoilt, 
 def test_a_case_that_is_missing_unknown_or_answered_twice_is_named(folder):
     answers = right_answers("rows")
     first, *rest = answers
-    answer_file(folder, "rows", {name: answers[name] for name in rest})
-    report = by_layer(check_answers(folder, VECTORS, ["rows"]))["rows"]
-    assert report.count("missing") == 1
-    assert first in report.trouble
-    assert not report.ok
 
-    answer_file(folder, "rows", {**answers, "rows/no_such_case": answers[first]})
-    assert "rows/no_such_case" in by_layer(check_answers(folder, VECTORS, ["rows"]))["rows"].trouble
+    def report(outputs, **head):
+        answer_file(folder, "rows", outputs, **head)
+        return by_layer(check_answers(folder, VECTORS, ["rows"]))["rows"]
 
+    found = report({name: answers[name] for name in rest})
+    assert found.count("missing") == 1
+    assert first in found.trouble
+    assert not found.ok
+    assert "rows/no_such_case" in report({**answers, "rows/no_such_case": answers[first]}).trouble
     entries = [{"id": name, "output": answers[name]} for name in [*answers, first]]
-    answer_file(folder, "rows", {}, answers=entries)
-    assert "twice" in by_layer(check_answers(folder, VECTORS, ["rows"]))["rows"].trouble
+    assert "twice" in report({}, answers=entries).trouble
 
 
 def test_a_name_of_several_lines_is_said_on_one(folder):

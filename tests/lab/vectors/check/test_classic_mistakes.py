@@ -41,8 +41,9 @@ def scaled(output, field, factor):
     return {**output, field: (factor * np.array(output[field])).tolist()}
 
 
-def normals_reversed(case):
-    return scaled(answer("distance", case), "n", -1)
+def times(layer, field, factor):
+    """The mistake of a field that is so many times as large."""
+    return layer, field, lambda case: scaled(answer(layer, case), field, factor)
 
 
 def unsigned_phi(case):
@@ -60,25 +61,13 @@ def unactuated_first(case):
     return {"J": [np.roll(J, -n_a, axis=1).tolist() for J in answer("jacobian", case)["J"]]}
 
 
-def contact_term_reversed(case):
-    return scaled(answer("rows", case), "A", -1)
-
-
 def mu_omega_without_unit(case):
     contacts = [{**c, "mu_omega": c["mu_omega"] * c["mu_v"]} for c in case["contacts"]]
     return answer("rows", case, contacts=contacts)
 
 
-def force_for_impulse(case):
-    return scaled(answer("qp", case), "lam", 1 / H_STEP)
-
-
 def impulse_for_force(case):
     return answer("wrench", case, h=1.0)
-
-
-def velocity(case):
-    return scaled(answer("qp", case), "delta_q", 1 / H_STEP)
 
 
 def straight_line(case):
@@ -89,36 +78,26 @@ def straight_line(case):
     return answer("integrate", case, q=moved, delta_q=turns)
 
 
-def other_tangents(case):
-    def tangents(n):
-        i = int(np.argsort(np.abs(n))[1])
-        d1 = unit(AXES[i] - n[i] * n)
-        return d1, np.cross(n, d1)
-
-    with patch.object(steps, "tangents", tangents):
-        return answer("step", case)
+def other_tangents(n):
+    i = int(np.argsort(np.abs(n))[1])
+    d1 = unit(AXES[i] - n[i] * n)
+    return d1, np.cross(n, d1)
 
 
 def weight_on_all(case):
-    weights = [
-        {
-            "body": body["name"],
-            "force": (body["mass"] * np.array(case["gravity"])).tolist(),
-            "torque": [0.0] * 3,
-        }
-        for body in case["mechanism"]["bodies"]
-        if "mass" in body
-    ]
-    loads = [*case.get("wrenches", []), *weights]
+    loads = [*case.get("wrenches", [])]
+    for body in case["mechanism"]["bodies"]:
+        weight = body.get("mass", 0.0) * np.array(case["gravity"])
+        loads.append({"body": body["name"], "force": weight.tolist(), "torque": [0.0] * 3})
     return answer("step", case, gravity=[0.0] * 3, wrenches=loads)
 
 
-def step_with(name, value, module=candidates):
-    """The program of the layer `step` with something else in the place of a name of a module."""
+def with_patches(layer, module, **values):
+    """The program of a layer with other values of some names of a module."""
 
     def program(case):
-        with patch.object(module, name, value):
-            return answer("step", case)
+        with patch.multiple(module, **values):
+            return answer(layer, case)
 
     return program
 
@@ -127,19 +106,18 @@ def targets_as_they_are(kinds):
     """Joints of these kinds: the difference of angles, or the quaternion of either sign."""
 
     def difference(body, target, q):
+        nearest = NEAREST(body, target, q)
         if body["joint"] not in kinds:
-            return NEAREST(body, target, q)
+            return nearest
         if body["joint"] == "floating":
             turn = quaternion_product(np.append(-q[3:6], q[6]), target[3:])
             if turn[3] < 0:  # exp6 of the long way is the same pose
-                w = NEAREST(body, target, q)[3:]
-                w = w * (1 - 2 * np.pi / np.linalg.norm(w))
-                return np.append(NEAREST(body, target, q)[:3], w)
-            return NEAREST(body, target, q)
+                nearest[3:] *= 1 - 2 * np.pi / np.linalg.norm(nearest[3:])
+            return nearest
         turn = np.arctan2(target[-1], target[-2]) - np.arctan2(q[-1], q[-2])
-        return np.append(NEAREST(body, target, q)[:-1], turn)
+        return np.append(nearest[:-1], turn)
 
-    return step_with("difference", difference, integration)
+    return with_patches("step", integration, difference=difference)
 
 
 def ranked(rounding, unit=candidates.RANKED, of=min):
@@ -152,16 +130,7 @@ def ranked(rounding, unit=candidates.RANKED, of=min):
         extents = [candidates.extent(shape) for shape in (alpha, beta)]
         return of((x for x in extents if 0 < x < np.inf), default=0.0)
 
-    def program(case):
-        with patch.object(steps, "gaps", gaps), patch.object(steps, "smaller", size):
-            return answer("step", case)
-
-    return program
-
-
-def another_angle(case):
-    with patch.object(candidates, "FACING", 0.9685):
-        return answer("selection", case)
+    return with_patches("step", steps, gaps=gaps, smaller=size)
 
 
 def constant_n(case):
@@ -178,26 +147,28 @@ def constant_n(case):
 
 MISTAKES = {
     "normals reversed, unsigned phi": [
-        ("distance", "n", normals_reversed),
+        times("distance", "n", -1),
         ("distance", "phi", unsigned_phi),
     ],
     "body and world frames swapped": [("jacobian", "J", world_frame)],
     "un-actuated coordinates first": [("jacobian", "J", unactuated_first)],
-    "sign of the contact term": [("rows", "A", contact_term_reversed)],
+    "sign of the contact term": [times("rows", "A", -1)],
     "mu_omega without a unit": [("rows", "A", mu_omega_without_unit)],
     "lam taken for a force": [
-        ("qp", "lam", force_for_impulse),
+        times("qp", "lam", 1 / H_STEP),
         ("wrench", "wrench", impulse_for_force),
     ],
-    "a velocity in the place of delta_q": [("qp", "delta_q", velocity)],
+    "a velocity in the place of delta_q": [times("qp", "delta_q", 1 / H_STEP)],
     "a straight line": [("integrate", "q", straight_line)],
-    "tangents by another rule": [("step", "contacts.d1", other_tangents)],
+    "tangents by another rule": [
+        ("step", "contacts.d1", with_patches("step", steps, tangents=other_tangents))
+    ],
     "gravity on actuated joints": [("step", "g", weight_on_all)],
     "n kept constant": [("derivative", "dq_dq", constant_n)],
     "q_bar (-) q the long way": [
         ("step", "g", targets_as_they_are({kind})) for kind in ("continuous", "planar", "floating")
     ],
-    "the compliance of a run": [("step", "forces", step_with("COMPLIANCE", 1e-8, forces))],
+    "the compliance of a run": [("step", "forces", with_patches("step", forces, COMPLIANCE=1e-8))],
     "gaps ranked in another unit": [
         ("step", "contacts.index", ranked(np.rint, of=max)),
         ("step", "contacts.index", ranked(np.rint, unit=1e-10)),
@@ -207,11 +178,11 @@ MISTAKES = {
         ("step", "contacts.index", ranked(lambda x: np.ceil(x - 0.5))),
     ],
     "another angle between normals": [
-        ("selection", "indices", another_angle),
-        ("step", "contacts.index", step_with("FACING", 0.9685)),
+        (layer, field, with_patches(layer, candidates, FACING=0.9685))
+        for layer, field in (("selection", "indices"), ("step", "contacts.index"))
     ],
     "other tolerances of ties": [
-        ("step", "contacts.index", step_with(name, value))
+        ("step", "contacts.index", with_patches("step", candidates, **{name: value}))
         for name, value in (
             ("OVER", 1e-8),
             ("REPEATED", 1e-8),

@@ -5,7 +5,7 @@ import pytest
 from quasistatic_ref.lab.vectors.check.case import case_verdict, verdict_to_digits
 from quasistatic_ref.lab.vectors.layers import selection
 from quasistatic_ref.lab.vectors.tables import ORIGIN, at
-from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
+from tests.lab.vectors.committed_cases import cases, expected_of
 
 
 def record(output, flags=None, **tolerance):
@@ -14,12 +14,16 @@ def record(output, flags=None, **tolerance):
     return {"output": output, "flags": flags or {}, "tolerance": absolute, "digits": {}}
 
 
+def judged(layer, case, wanted, **changes):
+    """The verdict on what is expected, but for some fields."""
+    return case_verdict(layer, case, wanted, wanted["output"] | changes)
+
+
 def twice_the_same_row():
     """Min x^2/2 with the row x >= 1 given twice: lam_1 + lam_2 = 1, in any shares."""
     case = {"H": [[1.0]], "g": [0.0], "A": [[1.0], [1.0]], "b": [1.0, 1.0]}
     output = {"delta_q": [1.0], "lam": [1.0, 0.0], "A_lam": [1.0], "slack": [0.0, 0.0]}
-    wanted = record(output, {"unique_multipliers": False}, lam=1e-15, A_lam=1e-15)
-    return case, wanted
+    return case, record(output, {"unique_multipliers": False}, lam=1e-15, A_lam=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -33,23 +37,19 @@ def twice_the_same_row():
     ],
 )
 def test_multipliers_that_are_not_unique_count_by_what_they_do(lam, verdict):
-    case, wanted = twice_the_same_row()
-    answer = {**wanted["output"], "lam": lam}
-    assert case_verdict("qp", case, wanted, answer).verdict == verdict
+    assert judged("qp", *twice_the_same_row(), lam=lam).verdict == verdict
 
 
 def test_unique_multipliers_are_compared_by_component():
     case, wanted = twice_the_same_row()
     wanted["flags"]["unique_multipliers"] = True
-    answer = {**wanted["output"], "lam": [0.25, 0.75]}
-    assert case_verdict("qp", case, wanted, answer).field == "lam"
+    assert judged("qp", case, wanted, lam=[0.25, 0.75]).field == "lam"
 
 
 def test_a_multiplier_on_a_row_with_slack_is_wrong():
     case, wanted = twice_the_same_row()
     wanted["output"]["slack"] = [0.0, 1e-3]
-    answer = {**wanted["output"], "lam": [0.25, 0.75]}
-    verdict = case_verdict("qp", case, wanted, answer)
+    verdict = judged("qp", case, wanted, lam=[0.25, 0.75])
     assert verdict.verdict == "failed"
     assert "slack" in verdict.reason
 
@@ -80,17 +80,16 @@ WALLS = {
 )
 def test_another_proof_that_there_is_no_solution_is_checked_exactly(y, verdict):
     wanted = record({"farkas": [1.0, 1.0, 1.0, 0.0]}, {"infeasible": True}, farkas=1e-9)
-    assert case_verdict("qp", WALLS, wanted, {"farkas": y}).verdict == verdict
+    assert judged("qp", WALLS, wanted, farkas=y).verdict == verdict
 
 
 def test_a_contradiction_below_rounding_need_not_be_seen():
     # x >= 1/2 + 2^-52 and x <= 1/2.
     case = {"H": [[1.0]], "g": [0.0], "A": [[1.0], [-1.0]], "b": [0.5 + 2.0**-52, -0.5]}
     wanted = record({"farkas": [1.0, 1.0]}, {"infeasible": True}, farkas=1e-9)
-    answer = {"delta_q": [0.5], "lam": [1.0, 0.5]}
-    assert case_verdict("qp", case, wanted, answer).verdict == "acceptable"
-    answer["delta_q"] = [0.5 + 1e-9]
-    assert case_verdict("qp", case, wanted, answer).verdict == "failed"
+    for x, verdict in ((0.5, "acceptable"), (0.5 + 1e-9, "failed")):
+        answer = {"delta_q": [x], "lam": [1.0, 0.5]}
+        assert case_verdict("qp", case, wanted, answer).verdict == verdict
 
 
 @pytest.mark.parametrize(
@@ -105,7 +104,7 @@ def test_a_contradiction_below_rounding_need_not_be_seen():
 def test_equal_distances_stand_in_the_order_of_their_places(chosen, verdict):
     case = {"phi": [[0.2, 0.2, 0.1, 0.2, 0.3]], "k": 2}
     wanted = record({"indices": [[2, 0]]}, {"tie": True})
-    assert case_verdict("selection", case, wanted, {"indices": [chosen]}).verdict == verdict
+    assert judged("selection", case, wanted, indices=[chosen]).verdict == verdict
 
 
 LEVEL, STEEP = [0.0, 0.0, 1.0], [0.6, 0.0, 0.8]
@@ -137,12 +136,7 @@ def test_a_selection_with_normals_may_be_another_and_a_wrong_index_is_named(chos
 def boxes_face_to_face():
     """Unit cubes 1 m apart along x: any point of the facing squares is a witness."""
     box = {"kind": "box", "size": [1.0, 1.0, 1.0]}
-    case = {
-        "alpha": box,
-        "beta": box,
-        "pose_alpha": ORIGIN,
-        "pose_beta": at(2.0, 0.25, 0.0),
-    }
+    case = {"alpha": box, "beta": box, "pose_alpha": ORIGIN, "pose_beta": at(2.0, 0.25, 0.0)}
     output = {"phi": 1.0, "alpha": [0.5, 0.0, 0.0], "beta": [1.5, 0.0, 0.0], "n": [1.0, 0.0, 0.0]}
     fields = dict.fromkeys(("phi", "alpha", "beta", "n"), 1e-14)
     return case, record(output, {"unique": False}, **fields)
@@ -160,19 +154,16 @@ def boxes_face_to_face():
     ],
 )
 def test_another_witness_has_to_prove_the_distance(changes, verdict):
-    case, wanted = boxes_face_to_face()
-    answer = {**wanted["output"], **changes}
-    assert case_verdict("distance", case, wanted, answer).verdict == verdict
+    assert judged("distance", *boxes_face_to_face(), **changes).verdict == verdict
 
 
-def test_near_a_unique_witness_there_is_no_other():
+@pytest.mark.parametrize(("y", "verdict"), [(1e-13, "failed"), (0.3, "acceptable")])
+def test_near_a_unique_witness_there_is_no_other(y, verdict):
     # Unique is said of exact numbers: a face that is parallel but for 1e-18 has one nearest corner.
     case, wanted = boxes_face_to_face()
     wanted["flags"]["unique"] = True
-    answer = {**wanted["output"], "alpha": [0.5, 1e-13, 0.0], "beta": [1.5, 1e-13, 0.0]}
-    assert case_verdict("distance", case, wanted, answer).verdict == "failed"
-    answer = {**wanted["output"], "alpha": [0.5, 0.3, 0.0], "beta": [1.5, 0.3, 0.0]}
-    assert case_verdict("distance", case, wanted, answer).verdict == "acceptable"
+    moved = judged("distance", case, wanted, alpha=[0.5, y, 0.0], beta=[1.5, y, 0.0])
+    assert moved.verdict == verdict
 
 
 def case_of_joints(layer, kind):
@@ -193,8 +184,7 @@ def case_of_joints(layer, kind):
 )
 def test_minus_q_is_q_but_minus_cos_sin_is_not(layer, field, kind, turn, verdict):
     case = case_of_joints(layer, kind)
-    q = list(right_answers(layer)[case.id][field])
+    wanted = expected_of(layer)[case.id]
+    q = list(wanted["output"][field])
     q[turn] = [-x for x in q[turn]]
-    answer = {**right_answers(layer)[case.id], field: q}
-    judged = case_verdict(layer, case.input, expected_of(layer)[case.id], answer)
-    assert judged.verdict == verdict
+    assert judged(layer, case.input, wanted, **{field: q}).verdict == verdict

@@ -8,15 +8,14 @@ from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from tests.closeness import assert_within
+from tests.helpers import first_step
 from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.tolerances import ROUNDING
 
 
 def test_a_step_of_a_scenario_is_that_of_the_simulator():
-    scenario = load_scenario("bunny_grasp", fast=True)
-    q = scenario.system.q_start
-    result = scenario.simulator().step(q, scenario.targets(scenario.h))
+    result = first_step(load_scenario("bunny_grasp", fast=True))
     output = expected_of("step")["step/bunny_grasp/0"]["output"]
     size = np.abs(result.solution.delta_q).max()
     assert_within(output["delta_q"], result.solution.delta_q, ROUNDING * size)
@@ -29,11 +28,8 @@ def case_of(name):
     return case.input, expected_of("step")[name], right_answers("step")[name]
 
 
-def stack():
-    """A step of boxes on each other, whose optimal lam are many."""
-    case, record, answer = case_of("step/stack/0")
-    assert record["flags"]["unique_multipliers"] is False
-    return case, record, answer
+STACK = "step/stack/0"
+"""A step of boxes on each other, whose optimal lam are many."""
 
 
 def test_forces_are_those_that_fractions_prove_on_the_step_of_the_package():
@@ -46,7 +42,7 @@ def test_forces_are_those_that_fractions_prove_on_the_step_of_the_package():
 
 @pytest.mark.parametrize("component", range(4))
 def test_wrong_forces_are_refused_by_contact_and_component(component):
-    case, record, answer = stack()
+    case, record, answer = case_of(STACK)
     forces = np.array(answer["forces"])
     forces[5, component] += 1e-3
     verdict = case_verdict("step", case, record, {**answer, "forces": forces.tolist()})
@@ -57,15 +53,16 @@ def test_wrong_forces_are_refused_by_contact_and_component(component):
 
 
 def test_forces_may_be_left_out():
-    case, record, answer = stack()
+    case, record, answer = case_of(STACK)
     silent = {name: value for name, value in answer.items() if name != "forces"}
     verdict = case_verdict("step", case, record, silent)
     assert (verdict.verdict, verdict.without) == ("passed", ())
 
 
 def test_other_optimal_lam_stand_with_the_same_forces():
-    case, record, answer = stack()
+    case, record, answer = case_of(STACK)
     own = layer("step").own(case)
+    assert record["flags"]["unique_multipliers"] is False
     assert own["lam"] != answer["lam"]
     assert case_verdict("step", case, record, own).verdict == "acceptable"
     assert case_verdict("step", case, record, {**own, "forces": own["wrench"]}).field == "forces"

@@ -34,7 +34,7 @@ def test_a_load_is_drawn_in_newtons():
 
 
 def test_a_map_shows_that_one_block_sticks_and_the_other_slides():
-    run = qr.load_scenario("block_incline", ["steps=5"], fast=True).run(progress=False)
+    run = qr.load_scenario("block_incline", ["steps=5"], fast=True).run()
     _, (axes,) = panels(4, 4)
     qr.figures.stick_slip_map(axes, run)
     (image,) = axes.images
@@ -46,4 +46,4 @@ def test_a_map_shows_that_one_block_sticks_and_the_other_slides():
 def test_a_map_of_a_light_record_is_refused():
     light = qr.load_scenario("block_incline", steps=2, fast=True, record="light")
     with pytest.raises(qr.InputError, match="does not know what slides"):
-        qr.figures.stick_slip_map(panels()[1][0], light.run(progress=False))
+        qr.figures.stick_slip_map(panels()[1][0], light.run())

@@ -26,7 +26,7 @@ from quasistatic_ref.optional.show.figures.surfaces import (
     UP,
     surface_points,
 )
-from tests.closeness import assert_relative
+from tests.closeness import assert_close, assert_relative, assert_within
 from tests.tolerances import ROUNDING
 
 SLOPE = np.radians(25)
@@ -35,7 +35,7 @@ SLOPE = np.radians(25)
 @pytest.fixture(scope="module")
 def incline():
     scenario = load_scenario("block_incline", ["steps=30"], fast=True)
-    return scenario, scenario.run(progress=False)
+    return scenario, scenario.run()
 
 
 @pytest.fixture
@@ -53,7 +53,7 @@ def test_a_moment_holds_the_numbers_of_its_step(incline):
     for j, contact in enumerate(of.contacts):
         f_1, f_2, f_n, _ = run.forces[12, j]
         d1, d2, n = (run[name][12, j] for name in ("d1", "d2", "n"))
-        np.testing.assert_allclose(contact.force, f_1 * d1 + f_2 * d2 + f_n * n, atol=ROUNDING)
+        assert_close(contact.force, f_1 * d1 + f_2 * d2 + f_n * n, ROUNDING)
         np.testing.assert_array_equal(contact.beta, run["beta"][12, j])
         # The rim of the pyramid: n f_n + mu_v f_n d for the four directions d.
         corners = np.array([f_n * (n + contact.mu_v * d) for d in (d1, d2, -d1, -d2)])
@@ -111,7 +111,7 @@ def test_forces_and_frames_are_drawn_to_scale_where_they_are(incline, page):
     solid = [line.get_xydata() for line in page.lines if line.get_linestyle() == "-"]
     (start, end), *_ = [ends for ends in solid if np.allclose(ends[0], at)]
     unit = (end - start) / np.linalg.norm(end - start)
-    np.testing.assert_allclose(unit, [np.sin(SLOPE), np.cos(SLOPE)], atol=ROUNDING)
+    assert_close(unit, [np.sin(SLOPE), np.cos(SLOPE)], ROUNDING)
 
 
 def test_a_camera_from_the_front_sees_y_to_the_right_and_z_upwards():
@@ -144,7 +144,7 @@ def test_a_body_s_outline_is_where_the_body_is(incline, page):
 
 def test_the_circle_of_torsion_has_radius_mu_omega():
     scenario = load_scenario("sphere_spin", ["h=0.05", "steps=9"], fast=True)
-    run = scenario.run(progress=False)
+    run = scenario.run()
     figure, (axes,) = panels(4, 4)
     for k, share in ((3, 0.5), (8, 1.0)):  # the torque grows to five times the limit in 40 steps
         axes.clear()
@@ -152,7 +152,7 @@ def test_the_circle_of_torsion_has_radius_mu_omega():
         draw_scene(axes, of, view="xy", legend=False, parts=("cones",))
         (circle,) = [line for line in axes.lines if len(line.get_xdata()) > 2]
         x, y = circle.get_data()
-        np.testing.assert_allclose(np.hypot(x, y), 10.0, atol=1e-3)  # mm; it is lifted by microns
+        assert_within(np.hypot(x, y), 10.0, 1e-3)  # mm; it is lifted by microns
         turned = np.ptp(np.unwrap(np.arctan2(y, x)))
         assert_relative(turned, 2 * np.pi * share, 1e-6)
     plt.close(figure)
@@ -173,7 +173,7 @@ def test_what_is_drawn_of_a_shape_is_on_it_and_reaches_as_far(shape):
     than half of their distances around the axis and along it.
     """
     points = surface_points(shape)
-    np.testing.assert_allclose(shape.signed_distance(points)[0], 0.0, atol=ROUNDING)
+    assert_within(shape.signed_distance(points)[0], 0.0, ROUNDING)
     axes = np.concatenate([np.eye(3), -np.eye(3)])
     whole = shape.support_value(axes)
     apart = np.tan(np.hypot(np.pi / (AROUND - 1), np.arcsin(1 / (UP - 1))))

@@ -20,6 +20,7 @@ from quasistatic_ref.optional.show.figures.viewer import (
 )
 from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.simulate.scene import Scene
+from tests.closeness import assert_close, assert_relative, assert_within
 from tests.model.urdf.urdf_texts import collision, joint, link, robot
 from tests.tolerances import ROUNDING
 
@@ -37,7 +38,7 @@ class Commands(list):
 @pytest.fixture(scope="module")
 def pushed():
     scenario = load_scenario("block_push", ["steps=40", "h=0.02"], fast=True)
-    return scenario, scenario.run(progress=False)
+    return scenario, scenario.run()
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +62,7 @@ def test_links_move_as_in_the_trajectory(commands, pushed):
     poses = [scenario.system.kinematics(q) for q in run["q"][:-1:2]]
     np.testing.assert_array_equal(track[".position"], [p.t[link] for p in poses])
     R = Rotation.from_quat(track[".quaternion"]).as_matrix()
-    np.testing.assert_allclose(R, [p.R[link] for p in poses], rtol=0, atol=ROUNDING)
+    assert_within(R, [p.R[link] for p in poses], ROUNDING)
     (whole,) = [
         c["matrix"] for c in sent if c["type"] == "set_transform" and c["path"] == "/meshcat"
     ]
@@ -76,12 +77,12 @@ def test_forces_start_at_beta_along_the_force_and_are_as_long_as_it_is_strong(co
         np.testing.assert_array_equal(track[".position"], run["beta"][::2, j])
         force = np.linalg.norm(run.forces[::2, j, :3], axis=1)
         length = np.maximum(0.01 * force, 1e-9)
-        np.testing.assert_allclose(track[".scale"][:, 1], length, rtol=ROUNDING)
+        assert_relative(track[".scale"][:, 1], length, ROUNDING)
         along = Rotation.from_quat(track[".quaternion"]).apply([0.0, 1.0, 0.0])
         world = np.array([moment.contacts[j].force for moment in moments])
         strong = force > 0
         arrows = force[strong, None] * along[strong]
-        np.testing.assert_allclose(arrows, world[strong], rtol=ROUNDING, atol=ROUNDING)
+        assert_close(arrows, world[strong], ROUNDING)
     assert force_scale(moments, None, 0.1, LONGEST) * max(
         np.linalg.norm(c.force) for m in moments for c in m.contacts
     ) <= 0.05 * (1 + ROUNDING)
@@ -139,8 +140,8 @@ def test_visual_elements_are_drawn_in_their_colours_and_missing_meshes_are_not()
     found, hat = visuals(Scene(system, ()))
     assert (found.link, found.colour) == (system.link("crate/box"), "#ff0000")
     assert (hat.link, hat.colour) == (system.link("crate/hat"), ROBOTS[0])
-    np.testing.assert_allclose(found.corners.min(axis=0), [-0.1, -0.2, 0.2], atol=ROUNDING)
-    np.testing.assert_allclose(found.corners.max(axis=0), [0.1, 0.2, 0.8], atol=ROUNDING)
+    assert_within(found.corners.min(axis=0), [-0.1, -0.2, 0.2], ROUNDING)
+    assert_within(found.corners.max(axis=0), [0.1, 0.2, 0.8], ROUNDING)
 
 
 def test_without_meshcat_a_sentence_says_what_to_install(tmp_path, monkeypatch, cli):
