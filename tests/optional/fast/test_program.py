@@ -89,7 +89,7 @@ def test_units_that_an_order_of_sums_may_decide_are_left_to_numpy(case):
 
 
 def test_a_warm_start_that_fails_is_followed_by_a_cold_one(rng, monkeypatch):
-    step = planted_step(rng)[0]
+    step, *_ = planted_step(rng)
     solver = FastSolver(step)
     right = solve_step(step, solver, certify="off").delta_q
     honest = Workspace._solved

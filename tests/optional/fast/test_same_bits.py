@@ -29,6 +29,7 @@ from tests.oracles.solution_truth import program, proof
 from tests.pages import ROOT
 from validation.check_solution import rounded
 
+pytestmark = pytest.mark.extra("fast")
 CLAIMS = ("active", "multipliers_unique", "differentiable", "smallest_inactive_slack")
 """What of a certificate is unique where the multipliers are; the others always are."""
 
@@ -77,7 +78,6 @@ def check(step, solver=None):
     assert all(v > Fraction(0) for v in lam_w)
 
 
-@pytest.mark.extra("fast")
 def test_random_steps(count):
     for seed in range(100_000, 100_000 + 2 * count):
         check(designed_step(seed))
@@ -88,14 +88,12 @@ def kept_of(items, count):
     return items[:: max(1, 2000 // count)]
 
 
-@pytest.mark.extra("fast")
 def test_programs_of_the_vectors(count):
     linear = [case.input for case in cases("qp") if "second_order" not in case.input]
     for program_of_case in kept_of(linear, count):
         outcomes(step_of(program_of_case))
 
 
-@pytest.mark.extra("fast")
 def test_answers_of_contact_qp(count):
     """Of those that are proved exactly, of up to 60 coordinates."""
     members = set_read(problem_set_folder(CONTACT_QP))
@@ -109,7 +107,6 @@ def test_answers_of_contact_qp(count):
             assert bits(plain[0].delta_q) == bits(one.answer.x + 0.0)
 
 
-@pytest.mark.extra("fast")
 @pytest.mark.parametrize("fast", [False, True])
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_whole_runs_have_their_hashes(name, fast, count):
@@ -117,11 +114,10 @@ def test_whole_runs_have_their_hashes(name, fast, count):
         pytest.skip("whole runs are taken with --count 2000")
     page = (ROOT / "validation/results/run_hashes.md").read_text("utf-8")
     known = dict(re.findall(r"^\| (\w+) \| `(\w{64})` \|$", page, re.MULTILINE))
-    run = load_scenario(name, ["record=light"], fast=fast).run(progress=False)
+    run = load_scenario(name, ["record=light"], fast=fast).run()
     assert hashlib.sha256(run["q"].tobytes()).hexdigest() == known[name]
 
 
-@pytest.mark.extra("fast")
 def test_one_solver_takes_equal_groups_that_differ_in_all_else(rng):
     """Three steps of one kind after the other, as in a run."""
     for _ in range(20):

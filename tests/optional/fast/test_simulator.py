@@ -15,7 +15,6 @@ from quasistatic_ref import (
     HalfSpace,
     InputError,
     ModelError,
-    PlacedShape,
     PointCloud,
     Simulator,
     StepDataError,
@@ -30,10 +29,10 @@ from quasistatic_ref.optional.fast import library
 from quasistatic_ref.optional.fast import simulator as of_fast
 from quasistatic_ref.step.contacts import spread
 from quasistatic_ref.step.standard_form import StandardForm
-from tests.helpers import error, residuals_of
-from tests.model.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
+from tests.contact.still import placed_shape
+from tests.helpers import error, first_step, residuals_of
+from tests.model.urdf.urdf_texts import inertial, joint, link, mimic, robot
 from tests.optional.fast.test_closest import SHAPES as SOLIDS
-from tests.scenes import chain_scene
 from tests.tolerances import ACTIVE_SET
 
 BOX = SOLIDS["box"]
@@ -46,27 +45,21 @@ needs_compiler = pytest.mark.extra("fast")
 STONE = robot(link("stone", "", inertial("0.3", ("3e-4",) * 3)))
 CART = robot(link("cart", "", inertial("2", ("0.1",) * 3)))
 WHEELS = robot(
-    link("axle", "", inertial("1", ("0.1",) * 3)),
-    link("wheel", "", inertial("1", ("0.1",) * 3)),
+    *(link(name, "", inertial("1", ("0.1",) * 3)) for name in ("axle", "wheel", "near", "far")),
     joint("turn", "axle", "wheel", "continuous", "0 0 1"),
-    link("near", "", inertial("1", ("0.1",) * 3)),
     joint("open", "axle", "near", "prismatic", "1 0 0"),
-    link("far", "", inertial("1", ("0.1",) * 3)),
-    joint("shut", "axle", "far", "prismatic", "-1 0 0", '<mimic joint="open"/>'),
+    joint("shut", "axle", "far", "prismatic", "-1 0 0", mimic("open")),
 )
 
 
-def bodies(folder):
+def bodies():
     """A body that is held, a free one, one in the plane, and joints that turn, slide and mimic."""
-    stone = urdf_of_text(folder, STONE, "stone.urdf")
-    cart = urdf_of_text(folder, CART, "cart.urdf")
-    wheels = urdf_of_text(folder, WHEELS, "wheels.urdf")
     return System(
         [
-            Body("cart", cart, "planar", ()),
-            Body("free", stone, "floating", ()),
-            Body("held", stone, "floating", ("base",)),
-            Body("wheels", wheels, "planar", ("base", "turn", "open"), xyz=(0.1, 0.2, 0.0)),
+            Body("cart", CART, "planar", ()),
+            Body("free", STONE, "floating", ()),
+            Body("held", STONE, "floating", ("base",)),
+            Body("wheels", WHEELS, "planar", ("base", "turn", "open"), xyz=(0.1, 0.2, 0.0)),
         ]
     )
 
@@ -79,30 +72,24 @@ def touching(system, names):
     pairs = []
     for at, name in enumerate(system.links[1:], start=1):
         R, t = system.pose(q, name)
-        solid = PlacedShape("solid", at, np.eye(3), np.zeros(3), next(shapes))
+        solid = placed_shape(next(shapes), at)
         down = -UP[None] @ R
         points = getattr(solid.shape, "points", None)  # of a cloud
         reach = solid.shape.support_value(down) if points is None else points @ down[0]
         nearest = UP @ t - reach.max()
-        side = HalfSpace(UP, nearest - 1e-4 * (at % 3))
-        wall = PlacedShape.in_world("wall", side)
+        wall = placed_shape(HalfSpace(UP, nearest - 1e-4 * (at % 3)))
         mu_omega, rows = (0.01, 6) if at % 2 else (0.0, 4)
         pairs.append(ContactPair(f"p{at}", wall, solid, 0.1 * at, mu_omega, rows, 1 + at % 4))
         if at % 2 == 0:
             _, before = system.pose(q, system.links[at - 1])
-            neighbour = PlacedShape("ball", at, np.eye(3), R.T @ (before - t + 0.2001 * UP), ball)
-            one = PlacedShape("ball", at - 1, np.eye(3), np.zeros(3), ball)
+            neighbour = placed_shape(ball, at, t=R.T @ (before - t + 0.2001 * UP))
+            one = placed_shape(ball, at - 1)
             pairs.append(ContactPair(f"b{at}", one, neighbour, 0.3, 0.01, 6, 1))
     return pairs
 
 
-def with_a_ball(folder):
-    return System([*bodies(folder).bodies, Body.of_shape("b", BOX, 1.0, base="ball")])
-
-
-def chain(folder):
-    """The first two bodies of a scene with a chain."""
-    return System(chain_scene(folder).bodies[:2])
+def with_a_ball():
+    return System([*bodies().bodies, Body.of_shape("b", BOX, 1.0, base="ball")])
 
 
 OWN = {"extension": lambda q: Extension(lambda s: [s.delta_q_u[3] <= 1e-5])}
@@ -117,7 +104,7 @@ KINDS = {
     "another backend": (bodies, KNOWN, {"backend": "clarabel"}),
     "no backend": (bodies, KNOWN, {"backend": "none"}),
     "a joint that C does not know": (with_a_ball, KNOWN, {}),
-    "a mass that varies": (chain, KNOWN, {}),
+    "a mass that varies": (None, KNOWN, {}),
     "solids alone": (bodies, ("box", "hull", "cylinder"), {}),
 }
 """Bodies, shapes and settings."""
@@ -141,10 +128,10 @@ def all_of(result):
     return {name: bits(value) for name, value in found.items()}
 
 
-def scene(kind, folder):
-    """Arguments of a simulator."""
+def arguments(kind, chain):
+    """Arguments of a simulator; where it has no bodies, the first two of a scene with a chain."""
     make, names, own = KINDS[kind]
-    system = make(folder)
+    system = make() if make else System(chain.bodies[:2])
     pairs = touching(system, names) if names else []
     K_q = np.diag(np.arange(500.0, 500.0 + system.n_a))
     same = {"system": system, "pairs": pairs, "h": 0.01, "K_q": K_q, "gravity": -9.81 * UP}
@@ -164,9 +151,9 @@ def two_steps(simulators, q):
 
 @needs_compiler
 @pytest.mark.parametrize("kind", KINDS)
-def test_all_of_a_result_is_the_plain_path_s(tmp_path, kind):
+def test_all_of_a_result_is_the_plain_path_s(scene, kind):
     """An answer that is not certified exactly is near to it, and q+ its sum by the core."""
-    same = scene(kind, tmp_path)
+    same = arguments(kind, scene)
     system = same["system"]
     q = system.q_start
     proved = {} if kind == "the ellipsoid" else {"backend": "none", "certify": "full"}
@@ -178,8 +165,7 @@ def test_all_of_a_result_is_the_plain_path_s(tmp_path, kind):
         claimed = answer.certificate.kind
         assert claimed == kinds.get(fast.certify, one.solution.certificate.kind)
         assert fast.by_c
-        expected = all_of(one)
-        assert all(value == expected[name] for name, value in all_of(other).items())
+        assert all_of(other).items() <= all_of(one).items()
         if claimed != "exact":
             assert error(one.step, answer.delta_q, one.solution.delta_q) < ACTIVE_SET
             assert residuals_of(other.step, answer.delta_q, answer.lam).worst < ACTIVE_SET
@@ -190,10 +176,10 @@ def test_all_of_a_result_is_the_plain_path_s(tmp_path, kind):
 
 @needs_compiler
 @pytest.mark.parametrize("cone", CONES)
-def test_the_data_of_a_step_are_those_of_the_plain_path_wherever_it_is(tmp_path, cone):
+def test_the_data_of_a_step_are_those_of_the_plain_path_wherever_it_is(cone):
     """The guard of the first step compares one configuration; here are small moves and jumps."""
     rng = np.random.default_rng(CONES.index(cone))
-    system = bodies(tmp_path)
+    system = bodies()
     K_q = np.diag(rng.uniform(1, 100, size=system.n_a))
     plain = Simulator(system, touching(system, KNOWN), h=0.01, K_q=K_q, cone=cone)
     fast = FastSimulator(plain)
@@ -223,9 +209,9 @@ def test_the_data_of_a_step_are_those_of_the_plain_path_wherever_it_is(tmp_path,
 
 
 @needs_compiler
-def test_changes_of_actuated_joints_are_those_of_the_core(tmp_path, rng):
+def test_changes_of_actuated_joints_are_those_of_the_core(rng):
     """Of bases that are held and joints that turn on, from a hair to more than half a turn."""
-    held, wheels = bodies(tmp_path).bodies[2:]
+    held, wheels = bodies().bodies[2:]
     system = System([held, replace(wheels, actuated=("turn", "open"))])
     plain = Simulator(system, [], h=0.01, K_q=1.0)
     sums = FastSimulator(plain)._sums
@@ -253,10 +239,8 @@ def test_steps_that_compiled_code_forms_wrong_are_left_to_the_plain_path(name, c
         one._sums.structure["kind"][:] = Revolute.in_c  # as if a base were a joint of another kind
     else:
         one._steps.rows[name][:] *= 2  # as if the compiled code were wrong
-    q = scenario.system.q_start
-    goal = scenario.targets(scenario.h)
-    expected = replace(scenario, fast=False).simulator().step(q, goal)
-    assert one.step(q, goal).q.tobytes() == expected.q.tobytes()
+    expected = first_step(replace(scenario, fast=False))
+    assert bits(first_step(scenario, one).q) == bits(expected.q)
     assert not one.by_c
     assert "compiled code forms another step than the core" in capfd.readouterr().err
 
@@ -266,10 +250,8 @@ def test_without_compiled_code_the_plain_path_takes_the_steps_and_says_so(monkey
     monkeypatch.setattr(of_fast, "missing", lambda: "there is none")
     scenario = load_scenario("sphere_spin", fast=True)
     one = scenario.simulator()
-    q = scenario.system.q_start
-    goal = scenario.targets(scenario.h)
-    expected = replace(scenario, fast=False).simulator().step(q, goal)
-    assert one.step(q, goal).q.tobytes() == expected.q.tobytes()
+    expected = first_step(replace(scenario, fast=False))
+    assert bits(first_step(scenario, one).q) == bits(expected.q)
     assert (one.by_c, one.backend) == (False, "clarabel")
     (line,) = capfd.readouterr().err.splitlines()
     assert line.startswith("quasistatic-ref: fast needs compiled code: there is none; the plain ")
@@ -299,18 +281,16 @@ def test_what_is_no_plain_simulator_is_refused():
 def test_a_copy_is_a_fast_simulator_of_its_own():
     scenario = load_scenario("sphere_spin", fast=True)
     one = scenario.simulator()
-    goal = scenario.targets(scenario.h)
     other = pickle.loads(pickle.dumps(one))
     assert type(other) is FastSimulator
     assert other.simulator is not one.simulator
-    q = scenario.system.q_start
-    assert bits(other.step(q, goal).q) == bits(one.step(q, goal).q)
+    assert bits(first_step(scenario, other).q) == bits(first_step(scenario, one).q)
 
 
 def many_bodies(rng):
     """Spheres, boxes and capsules in a row: some touch the next one, or are in it; one is held."""
     solids = [SOLIDS["sphere"], BOX, SOLIDS["capsule"]]
-    floor = PlacedShape.in_world("floor", HalfSpace((0.0, 0.0, 1.0), 0.0))
+    floor = placed_shape(HalfSpace((0.0, 0.0, 1.0), 0.0))
     down = np.array([[0.0, 0.0, -1.0]])
     bodies = []
     shapes = []
@@ -323,7 +303,7 @@ def many_bodies(rng):
         held = ("base",) if i == 1 else ()
         at = (x, 0.01 * rng.integers(-1, 2), z)
         bodies.append(Body.of_shape(f"b{i}", solid, rng.uniform(0.1, 1.0), actuated=held, xyz=at))
-        shapes.append(PlacedShape(f"b{i}", i + 1, np.eye(3), np.zeros(3), solid))
+        shapes.append(placed_shape(solid, i + 1))
         k = 4 if solid is BOX else 1
         pairs.append(ContactPair(f"f{i}", floor, shapes[i], 0.5, 0.01, 6, k))
         if i and rng.integers(2):
@@ -332,17 +312,16 @@ def many_bodies(rng):
 
 
 @needs_compiler
-def test_steps_of_many_groups_are_those_of_the_plain_path():
-    """30 random scenes: all that no choice is left of has equal bits."""
+def test_steps_of_many_groups_are_those_of_the_plain_path(count):
+    """Random scenes: all that no choice is left of has equal bits."""
     several = 0
-    for seed in range(30):
+    for seed in range(count // 4):
         same = many_bodies(np.random.default_rng(seed))
         plain = Simulator(**same, backend="none")
         fast = FastSimulator(Simulator(**same))
         for one, other in two_steps([plain, fast], plain.system.q_start):
             assert fast.by_c
             assert other.solution.statistics.interface == "native"
-            expected = all_of(one)
-            assert all(value == expected[name] for name, value in all_of(other).items())
+            assert all_of(other).items() <= all_of(one).items()
         several += len(fast._steps.groups) > 2
-    assert several > 20
+    assert several > count // 6
