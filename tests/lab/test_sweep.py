@@ -40,7 +40,7 @@ def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, cli):
     for line, (mu, steps) in zip(lines, points, strict=True):
         assert float(line["steps_taken"]) == steps
         settings = [sideways, f"contacts.rough.mu_v={mu}", f"steps={steps}"]
-        alone = load_scenario("block_incline", settings).run(progress=False)
+        alone = load_scenario("block_incline", settings).run()
         np.testing.assert_array_equal(load_trajectory(tmp_path / line["run"])["q"], alone["q"])
     kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").iterdir()}
     printed = json.loads(cli(*argv, "--json").out)
@@ -51,7 +51,7 @@ def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, cli):
 
 def swept(path, folder, **values):
     given = values or {"h": [0.01]}
-    return simulate_many(path, given, folder, workers=1, progress=False)
+    return simulate_many(path, given, folder, workers=1)
 
 
 def content(folder):
@@ -146,9 +146,7 @@ def test_workers_end_with_the_process_of_the_sweep_also_when_it_is_killed(tmp_pa
 @pytest.mark.long
 def test_on_two_workers_of_dask_the_runs_are_the_same(two_of_dask, tmp_path):
     values = {"h": [0.01, 0.02], "steps": [2]}
-    there = simulate_many(
-        "block_incline", values, tmp_path / "there", executor=two_of_dask, progress=False
-    )
+    there = simulate_many("block_incline", values, tmp_path / "there", executor=two_of_dask)
     assert there == swept("block_incline", tmp_path / "here", **values)
     assert (tmp_path / "there" / TABLE).read_text() == (tmp_path / "here" / TABLE).read_text()
 
@@ -189,7 +187,7 @@ def test_a_sliding_block_travels_as_its_closed_form_says(tmp_path, mu):
     It is then mu times its last slip above the slope: docs/derivations.md.
     """
     given = {"contacts.smooth.mu_v": [mu], "h": [0.01, 0.02], "steps": [2]}
-    rows = simulate_many("block_incline", given, tmp_path, workers=1, progress=False)
+    rows = simulate_many("block_incline", given, tmp_path, workers=1)
     angle = np.radians(25)
     for row in rows:
         d = row["values"]["h"] ** 2 * 9.81 * (np.sin(angle) - mu * np.cos(angle))
@@ -208,7 +206,7 @@ def test_a_sliding_block_travels_as_its_closed_form_says(tmp_path, mu):
 def test_a_run_that_ends_early_is_a_row_too(tmp_path):
     """The block starts at 0.20616 m from the origin and slides past 0.2063 m on its way down."""
     reach = {"limits.reach": [100.0, 0.2063]}
-    rows = simulate_many("block_incline", reach, tmp_path, workers=1, progress=False)
+    rows = simulate_many("block_incline", reach, tmp_path, workers=1)
     assert [row["outcome"] for row in rows] == ["done", "ended_early"]
     assert [row["reason"] is None for row in rows] == [True, False]
     steps = [row["measures"]["steps"] for row in rows]
@@ -250,7 +248,7 @@ BAD = {
 @pytest.mark.parametrize(("variations", "sentence"), BAD.values(), ids=BAD)
 def test_bad_variations_are_one_sentence(variations, sentence, tmp_path):
     with pytest.raises(InputError, match=sentence):
-        simulate_many("block_incline", variations, tmp_path / "map", workers=1, progress=False)
+        simulate_many("block_incline", variations, tmp_path / "map", workers=1)
     assert not (tmp_path / "map").exists()
 
 

@@ -26,7 +26,7 @@ def small(three):
     """A small study, which is called with a folder."""
     solvers = ["qpsolvers:daqp", function_solver(broken.honest, "mine")]
     return partial(study, three, solvers, ["default", "high"], units=["raw", "natural"],
-                   limits=Limits(time_limit=20.0, repetitions=2), progress=False)  # fmt: skip
+                   limits=Limits(time_limit=20.0, repetitions=2))  # fmt: skip
 
 
 @pytest.fixture(scope="module")

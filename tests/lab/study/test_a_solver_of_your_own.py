@@ -55,7 +55,7 @@ def test_a_program_in_c_runs_in_a_study(folder, monkeypatch):
     monkeypatch.syspath_prepend(str(folder))
     solve = importlib.import_module("hildreth").solve
     families = {"contacts": 2, "gaps": 2, "infeasible": 1}
-    study(families, [solve], limits=Limits(time_limit=20.0), progress=False)
+    study(families, [solve], limits=Limits(time_limit=20.0))
     rows = pandas.read_parquet("study/rows.parquet")
     solved = rows[rows.feasible & (rows.outcome == "solved")]
     assert len(solved) >= 2

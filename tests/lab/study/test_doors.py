@@ -30,7 +30,7 @@ RETURNED = {
 def test_what_a_function_returns_is_judged_as_it_is(tmp_path, three):
     functions = [getattr(broken, name) for name in RETURNED]
     limits = Limits(repetitions=1)
-    rows = study(three[:1], functions, folder=tmp_path, limits=limits, progress=False)
+    rows = study(three[:1], functions, folder=tmp_path, limits=limits)
     said = {row.solver: (row.outcome, row.claim, row.false_claim, row.status) for row in rows}
     assert said == RETURNED
     assert all((row.digits is not None) == (row.outcome == "solved") for row in rows)
@@ -43,7 +43,7 @@ def test_a_function_whose_module_is_not_there_is_one_sentence(tmp_path, monkeypa
     function = importlib.import_module("fleeting_solver").solve
     module.unlink()
     with pytest.raises(InputError, match="solve: cannot be imported: ModuleNotFoundError: No mod"):
-        study(three, [function], folder=tmp_path / "store", progress=False)
+        study(three, [function], folder=tmp_path / "store")
 
 
 def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():

@@ -84,8 +84,7 @@ def test_a_study_that_was_stopped_goes_on_and_measures_nothing_twice(
 
 def test_a_folder_takes_other_problems_and_no_others_of_the_same_names(three, tmp_path):
     def of(problems, **limits):
-        return study(problems, [broken.denies], folder=tmp_path, limits=Limits(**limits),
-                     progress=False)  # fmt: skip
+        return study(problems, [broken.denies], folder=tmp_path, limits=Limits(**limits))
 
     first = of(three[:2])
     assert len(of(three[2:])) == 3
@@ -98,7 +97,7 @@ def test_a_folder_takes_other_problems_and_no_others_of_the_same_names(three, tm
 
 def test_two_studies_at_once_in_one_folder_lose_no_rows(three, tmp_path):
     def of(solver):
-        return study(three, [solver], folder=tmp_path, progress=False)
+        return study(three, [solver], folder=tmp_path)
 
     with locked(tmp_path), pytest.raises(InputError, match="is being written by another sweep or"):
         of(broken.denies)
@@ -171,8 +170,7 @@ def limited(folder, executor=None):
         (others, [broken.eats, broken.exits, broken.spoils]),
     ):
         store = folder / solvers[0].__name__
-        rows += study(problems, solvers, folder=store, executor=executor, limits=limits,
-                      progress=False)  # fmt: skip
+        rows += study(problems, solvers, folder=store, executor=executor, limits=limits)
     outcomes = {row.solver: [one.outcome for one in rows if one.solver == row.solver]
                 for row in rows}  # fmt: skip
     assert outcomes["eats"] == ["out of memory"] * 2
@@ -205,17 +203,19 @@ def test_on_two_workers_of_dask_the_rows_are_the_same_and_limits_hold(
     assert limited(tmp_path, two_of_dask) == ["timeout"] * 2
 
 
-def ordered(families, folder, most=None):
+@pytest.fixture(scope="module")
+def started(tmp_path_factory):
     """The rows of steps, cold and from an answer, of solvers that use it and that do not."""
     solvers = ["qpsolvers:osqp", "qpsolvers:piqp", "cvxpy:osqp", broken.warm]
-    problems = problems_taken(CONTACT_QP, families, most)
-    return study(problems, solvers, folder=folder, starts=["cold", "warm"],
-                 limits=Limits(repetitions=1), progress=False)  # fmt: skip
+    problems = problems_taken(CONTACT_QP, {"moving": 12, "gaps": 2}, {"moving": 1})
+    rows = study(problems, solvers, folder=tmp_path_factory.mktemp("started"),
+                 starts=["cold", "warm"], limits=Limits(repetitions=1))  # fmt: skip
+    return {name: [row for row in rows if row.family == name] for name in ("moving", "gaps")}
 
 
-def test_steps_in_order_start_from_the_step_before_and_only_where_a_start_is_used(tmp_path):
+def test_steps_in_order_start_from_the_step_before_and_only_where_a_start_is_used(started):
     """The function says "again" where it starts from the very answer to this step: never."""
-    rows = ordered({"moving": 12}, tmp_path, {"moving": 1})
+    rows = started["moving"]
     counts = Counter((row.door, row.solver, row.start) for row in rows)
     assert counts == {
         ("qpsolvers", "osqp", "cold"): 12, ("qpsolvers", "osqp", "warm"): 12,
@@ -227,8 +227,8 @@ def test_steps_in_order_start_from_the_step_before_and_only_where_a_start_is_use
     assert {row.status for row in warm} == {"optimal"}
 
 
-def test_problems_alone_start_from_a_neighbour(tmp_path):
-    rows = [row for row in ordered({"gaps": 2}, tmp_path) if row.start == "warm"]
+def test_problems_alone_start_from_a_neighbour(started):
+    rows = [row for row in started["gaps"] if row.start == "warm"]
     assert {(row.door, row.solver) for row in rows} == {
         ("qpsolvers", "osqp"), ("cvxpy", "osqp"), ("function", "warm")}  # fmt: skip
     assert all(row.started for row in rows)

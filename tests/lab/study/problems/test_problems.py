@@ -8,7 +8,7 @@ from tests.oracles.rational_kkt import refutation
 def test_steps_are_evenly_spaced_and_their_answers_are_proved_by_other_arithmetic():
     """Three of the 100 steps of one run, and the two ends of the other, which is a file."""
     scenarios = ["block_incline", str(scenario_path("block_push"))]
-    made = problems_of_runs(scenarios, 5, progress=False)
+    made = problems_of_runs(scenarios, 5)
     steps = [one.id for one in made]
     assert steps[:3] == [f"scenarios/block_incline/{s}" for s in (0, 50, 99)]
     assert [name.rpartition("/")[0] for name in steps[3:]] == ["scenarios/block_push"] * 2
