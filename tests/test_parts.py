@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.extensions.extension import Extension
@@ -21,6 +20,7 @@ from quasistatic_ref.shapes.placed_shape import Box, Cylinder
 from quasistatic_ref.simulate.trajectory import load_trajectory
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
+from tests.contact.still import in_world
 from tests.helpers import random_step
 from tests.pages import PACKAGE, ROOT
 from tests.processes import python
@@ -169,8 +169,8 @@ def test_without_pages_data_show_their_fields(without):
 
 
 def test_a_contact_of_curved_solids_needs_its_part(without):
-    can = ShapeInWorld(Cylinder(0.02, 0.05), np.eye(3), np.zeros(3))
-    box = ShapeInWorld(Box(np.full(3, 0.1)), np.eye(3), np.array([0.0, 0.0, 0.2]))
+    can = in_world(Cylinder(0.02, 0.05))
+    box = in_world(Box(np.full(3, 0.1)), (0.0, 0.0, 0.2))
     gap = solid_pair("can", can, box).phi
     assert gap == pytest.approx(0.05, rel=ROUNDING)  # 0.2 - 0.1 - 0.05
     without("optional/curved")

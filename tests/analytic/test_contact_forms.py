@@ -3,13 +3,13 @@
 import numpy as np
 
 from quasistatic_ref import convex_hull
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.lab.scenes.at_random import random_frames
 from quasistatic_ref.lab.scenes.contacts import contacts_of, point_jacobian
 from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.step.friction import friction_rows
 from tests.analytic.instances import INFEASIBLE, INSTANCES, instances, near
+from tests.contact.still import in_world
 from tests.oracles.random_steps import mixed_step
 
 
@@ -36,12 +36,11 @@ def test_r37_convex_bodies_share_a_normal(rng):
     """Moved square to it they come no nearer, whichever points face each other then."""
     for k in range(INSTANCES):
         one, other = (convex_hull(rng.normal(size=(6, 3))) for _ in "ab")
-        here = ShapeInWorld(one, np.eye(3), np.zeros(3))
         t = 9.0 * random_frames(rng, 1)[0, 0]
-        apart = solid_pair("p", here, ShapeInWorld(other, np.eye(3), t))
+        apart = solid_pair("p", in_world(one), in_world(other, t))
         t = t - (k % 2) * apart.phi * apart.n  # or in touch
         v = np.cross(apart.n, rng.normal(size=3))
-        moved = solid_pair("p", here, ShapeInWorld(other, np.eye(3), t + v))
+        moved = solid_pair("p", in_world(one), in_world(other, t + v))
         assert moved.phi >= (1 - k % 2) * apart.phi - 1e-12
 
 

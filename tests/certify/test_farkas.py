@@ -10,7 +10,6 @@ from quasistatic_ref import (
     StepIllPosed,
     StepInfeasible,
     StepNotSolved,
-    load_scenario,
     solve_step,
     verify_answer,
 )
@@ -18,6 +17,7 @@ from quasistatic_ref.certify.exact import ILL_POSED, relative_length, step_optim
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
+from tests.helpers import sphere_on_floor
 
 
 def point_between_walls(normals, phi, force=(0.0, 0.0, 0.0)):
@@ -119,7 +119,7 @@ def test_a_free_body_is_not_ill_posed_however_small_its_load(tau):
 
 
 def test_a_row_of_zeros_is_to_be_left_out():
-    step = load_scenario("sphere_spin", steps=1).run().step_data(0)
+    step = sphere_on_floor()
     nothing = Extra(("nothing",), np.zeros((1, 6)), [1e-3])
     with pytest.raises(StepInfeasible, match=r"\(nothing\) .* are all zero, .*: leave it out$"):
         solve_step(step.replace(extra=nothing))
@@ -130,7 +130,7 @@ def test_a_row_of_zeros_is_to_be_left_out():
 
 @pytest.mark.parametrize("active", [(), ((0, 0),)])
 def test_an_answer_of_another_length_is_called_that(active):
-    step = load_scenario("sphere_spin", steps=1).run().step_data(0)
+    step = sphere_on_floor()
     solution = solve_step(step)
     short = verify_answer(step, solution.delta_q[:-1], active)
     assert short.reason == "delta_q has shape (5,); the step wants (6,)"

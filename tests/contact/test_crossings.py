@@ -6,12 +6,11 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Capsule, Cone, Cylinder
 from quasistatic_ref.contact.crossings import crossings
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from tests.closeness import assert_within
+from tests.contact.still import in_world
 from tests.oracles.bodies_by_hand import BOX, HALF, UP, Scene, hull, wrong_words
 from tests.tolerances import ROUNDING
 
-ORIGIN = np.zeros(3)
 STRAIGHT = np.eye(3)
 HULL = hull(HALF)
 TABLE = Box((0.2, 0.2, 0.01))
@@ -48,7 +47,7 @@ RESTING = {
 def test_a_body_whose_centre_is_over_what_touches_rests(name):
     """It does not move, and is borne by its weight, whichever is alpha and for every k."""
     low, top, R, place, least = RESTING[name]
-    bodies = [(top, R, np.array(place)), (low, STRAIGHT, ORIGIN)]
+    bodies = [(top, R, np.array(place)), (low, STRAIGHT, np.zeros(3))]
     for normals in ({(1, 0): UP}, {(0, 1): -UP}):
         scene = Scene(bodies, normals, np.zeros((1, 6)))
         assert [wrong_words(scene, k, 0.5) for k in (least, least + 1, 12)] == [""] * 3
@@ -56,10 +55,8 @@ def test_a_body_whose_centre_is_over_what_touches_rests(name):
 
 def points_of_alpha(low, top, R, place, nearest):
     """Points of alpha's, sorted, of a body over a fixed one."""
-    a = ShapeInWorld(low, STRAIGHT, ORIGIN)
-    b = ShapeInWorld(top, R, np.array(place))
     alpha = np.array([*nearest, 0.01])
-    points = crossings(a, b, alpha, alpha, UP)
+    points = crossings(in_world(low), in_world(top, place, R), alpha, alpha, UP)
     assert len(set(points.number.tolist())) == len(points.number)
     assert_within((points.beta - points.alpha)[:, :2], 0.0, ROUNDING)
     return sorted(points.alpha[:, :2].round(12).tolist())
@@ -86,8 +83,8 @@ def test_rims_of_tilted_discs_do_not_cross_outside_of_them(swapped):
     lowest = R @ [radius, 0.0, -half]
     over = 0.1 * radius * (1 - np.cos(tilt))  # how far the lowest point is inside of the other rim
     touches = np.array([over - 0.05, 0.0, half])
-    low = ShapeInWorld(Cylinder(0.05, half), STRAIGHT, ORIGIN)
-    top = ShapeInWorld(Cylinder(radius, half), R, touches - lowest)
+    low = in_world(Cylinder(0.05, half))
+    top = in_world(Cylinder(radius, half), touches - lowest, R)
     a, b, n = (top, low, -UP) if swapped else (low, top, UP)
     found = crossings(a, b, touches, touches, n)
     assert (np.sum((found.beta - found.alpha) * n, axis=1) >= -ROUNDING).all()

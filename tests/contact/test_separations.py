@@ -11,21 +11,15 @@ from quasistatic_ref.contact.separations import (
     pair_normal,
     rounding,
 )
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from tests.closeness import assert_within
+from tests.contact.still import in_world as at
 from tests.tolerances import CLOSED_FORM
 
-STRAIGHT = np.eye(3)
-ORIGIN = np.zeros(3)
-X, Y, Z = STRAIGHT
+X, Y, Z = np.eye(3)
 CUBE = Box(np.ones(3))
 CAPSULE = Capsule(0.25, 1.0)
 TO_X = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])
 TO_Y = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
-
-
-def at(shape, t=ORIGIN, R=STRAIGHT):
-    return ShapeInWorld(shape, R, np.array(t))
 
 
 def test_closest_points_are_apart_by_the_distance_along_a_normal_between_two():
@@ -92,7 +86,7 @@ def test_capsules_whose_axes_are_apart_by_rounding_are_tied_where_their_two_gaps
     """Axes d apart along z: gaps of d - 0.5 along z and -d - 0.5 the other way."""
     within = rounding(at(CAPSULE), at(CAPSULE))
     a, b, c = (at(CAPSULE, t, R) for t, R in (
-        (ORIGIN, TO_X), (0.75 * within * Z, TO_Y), (0.25 * within * Z, TO_Y)
+        (np.zeros(3), TO_X), (0.75 * within * Z, TO_Y), (0.25 * within * Z, TO_Y)
     ))  # fmt: skip
     assert pair_normal("p", a, b)[1] == UNIQUE_NORMAL
     with pytest.raises(ContactError, match="as deep in each other"):

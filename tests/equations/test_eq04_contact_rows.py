@@ -8,14 +8,18 @@ from tests.helpers import contact_row, random_step
 from tests.tolerances import ROUNDING
 
 
-def left_hand_sides(step, delta_q):
-    """The left-hand side of each row i of the contacts that have it, at a displacement."""
+def problem_at(step, delta_q):
+    """The problem of a step, with the values of its parameters and of its unknowns."""
     problem = paper_problem(step)
     set_values(problem, step)
-    problem.delta_q_a.value = delta_q[: step.n_a]
-    problem.delta_q_u.value = delta_q[step.n_a :]
+    problem.delta_q_a.value, problem.delta_q_u.value = np.split(delta_q, [step.n_a])
+    return problem
+
+
+def left_hand_sides(step, delta_q):
+    """The left-hand side of each row i of the contacts that have it, at a displacement."""
     # CVXPY keeps a >= 0 as 0 - a <= 0.
-    return [-constraint.expr.value for constraint in problem.contact_rows]
+    return [-constraint.expr.value for constraint in problem_at(step, delta_q).contact_rows]
 
 
 def test_the_cvxpy_constraints_are_the_printed_left_hand_sides(rng):

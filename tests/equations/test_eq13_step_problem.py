@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import standard_form
-from quasistatic_ref.step.problem import paper_problem, set_values
 from tests.closeness import assert_relative
+from tests.equations.test_eq04_contact_rows import problem_at
 from tests.helpers import planted_step, random_step, slacks
 from tests.tolerances import ROUNDING
 
@@ -21,11 +21,9 @@ def objective(step, delta_q):
 @pytest.mark.parametrize(("n_a", "n_u"), [(3, 4), (0, 4), (3, 0), (1, 1)])
 def test_the_cvxpy_objective_is_the_printed_one(n_a, n_u, rng):
     step = random_step(rng, n_a, n_u)
-    problem = paper_problem(step)
-    set_values(problem, step)
     delta_q = rng.normal(size=step.n_v)
-    problem.delta_q_a.value, problem.delta_q_u.value = np.split(delta_q, [n_a])
-    assert_relative(problem.problem.objective.value, objective(step, delta_q), ROUNDING)
+    found = problem_at(step, delta_q).problem.objective.value
+    assert_relative(found, objective(step, delta_q), ROUNDING)
 
 
 def test_H_and_g_give_the_printed_objective(rng):

@@ -12,7 +12,6 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref import Box, ContactError, HalfSpace, Sphere, load_scenario
 from quasistatic_ref.contact import crossings as crossings_of
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids import solid_pair as solid_pair_of
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
@@ -26,6 +25,7 @@ from quasistatic_ref.scenario.world_solids import SOLIDS, Kind
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import lengths
 from tests.closeness import assert_relative, assert_within
+from tests.contact.still import in_world
 from tests.errors.scene import SCENE, changed, scene_written
 from tests.tolerances import ROUNDING, SCENARIO
 
@@ -72,8 +72,8 @@ def scene(tmp_path, monkeypatch):
 def test_its_distance_to_other_solids_is_that_of_the_faces(other):
     # The ball's lowest point, and the plane of the half-space, are 0.05 from their frame.
     gap = 0.02
-    above = ShapeInWorld(other, np.eye(3), np.array([0.01, 0.02, HALF[2] + RADIUS + gap + 0.05]))
-    found = solid_pair("pad", ShapeInWorld(PAD, np.eye(3), np.zeros(3)), above)
+    above = in_world(other, [0.01, 0.02, HALF[2] + RADIUS + gap + 0.05])
+    found = solid_pair("pad", in_world(PAD), above)
     assert_within(found.phi, gap, ROUNDING)
     assert_within(found.n, [0, 0, 1], ROUNDING)
 
@@ -86,9 +86,9 @@ def test_edges_of_a_polytope_cross_outside_of_its_margin(monkeypatch):
         monkeypatch.setattr(
             module, "polytope", lambda shape: core if shape is pad else polytope(shape)
         )
-    low = ShapeInWorld(pad, np.eye(3), np.zeros(3))
+    low = in_world(pad)
     for turned in (np.eye(3), np.diag([1.0, -1.0, -1.0])):  # which is alpha, and the other way up
-        top = ShapeInWorld(Box(half_extents=(0.02, 0.1, 0.01)), turned, np.array([0, 0, 0.026]))
+        top = in_world(Box(half_extents=(0.02, 0.1, 0.01)), [0, 0, 0.026], turned)
         for a, b in ((low, top), (top, low)):
             near = solid_pair("pair", a, b)
             found = crossings_of.crossings(a, b, near.alpha, near.beta, near.n)
@@ -98,9 +98,8 @@ def test_edges_of_a_polytope_cross_outside_of_its_margin(monkeypatch):
 
 
 def test_what_it_has_not_said_is_refused_in_a_sentence():
-    box = ShapeInWorld(Box(np.full(3, 0.05)), np.eye(3), np.zeros(3))
     with pytest.raises(ContactError, match="shape: has no closest points with this solid"):
-        solid_pair("pad", ShapeInWorld(PAD, np.eye(3), np.zeros(3)), box)
+        solid_pair("pad", in_world(PAD), in_world(Box(np.full(3, 0.05))))
     with pytest.raises(ContactError, match="shape: has no known faces"):
         kinks(PAD)
     with pytest.raises(ContactError, match="shape: has no derivatives"):

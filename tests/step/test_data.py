@@ -7,7 +7,7 @@ from quasistatic_ref import Contacts, Extra, StepDataError
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.numbers.pivots import SYMMETRIC
 from quasistatic_ref.tolerances import ORTHONORMAL
-from tests.cases import cases
+from tests.cases import cases, refusal
 from tests.closeness import assert_same
 from tests.helpers import changed, random_step
 
@@ -49,16 +49,14 @@ CONTACT_REFUSALS = {
 
 @cases("changes, says", STEP_REFUSALS)
 def test_a_step_refuses(changes, says):
-    with pytest.raises(StepDataError) as caught:
+    with refusal(StepDataError, says):
         STEP.replace(**changes)
-    assert str(caught.value).startswith(says)
 
 
 @cases("changes, says", CONTACT_REFUSALS)
 def test_contacts_refuse(changes, says):
-    with pytest.raises(StepDataError) as caught:
+    with refusal(StepDataError, says):
         changed(CONTACTS, **changes)
-    assert str(caught.value).startswith(says)
 
 
 LEAKS = {

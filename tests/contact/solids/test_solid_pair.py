@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.lab.vectors.own.shapes import own_shape
 from tests.closeness import assert_within
+from tests.contact.still import in_world
 from tests.oracles import closest
 from tests.oracles.pair_errors import pair_errors
 from tests.tolerances import CLOSED_FORM, CURVED_PAIR, WAY_OUT
@@ -40,6 +40,5 @@ def test_a_curved_pair_that_is_made_smaller_has_a_smaller_distance(names):
         phi = []
         for scale in (1.0, smaller):
             a, b = (own_shape(enlarged(closest.TABLES[name], scale)) for name in names)
-            here = ShapeInWorld(a, np.eye(3), np.zeros(3))
-            phi.append(solid_pair("p", here, ShapeInWorld(b, R, scale * t)).phi)
+            phi.append(solid_pair("p", in_world(a), in_world(b, scale * t, R)).phi)
         assert_within(phi[1] / smaller, phi[0], CURVED_PAIR)
