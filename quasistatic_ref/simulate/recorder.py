@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
+from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.parts import check_there, doctors
 from quasistatic_ref.simulate.header import RECORDS, Header
 from quasistatic_ref.simulate.law import COULOMB, ITERATED
@@ -33,10 +33,8 @@ from quasistatic_ref.simulate.record import (
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.target import Drives, JointTrack, Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import contact_wrenches, friction_rows, row_constants
-from quasistatic_ref.step.standard_form import linear_term
+from quasistatic_ref.step.standard_form import standard_form
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
@@ -211,13 +209,9 @@ class Recorder:
     def _arrays(self, results: Sequence[StepResult], every: StepArrays) -> StepArrays:
         """What is kept of the last steps, of which `every` array is read."""
         first = results[0].step
-        wrench = without_warnings(
-            contact_wrenches, first.contacts, every["lam"], first.h, first.cone
-        )
         arrays: StepArrays = {
             "t": np.arange(self.steps - len(results) + 1, self.steps + 1) * first.h,
             "q_bar_a": np.array(self._targets),
-            "wrench": wrench,
             **every,
         }
         if self.record == "full":
@@ -334,6 +328,7 @@ def arrays_of(results: Sequence[StepResult], n_v: int) -> StepArrays:
         **{name: _of_all([r.points for r in results], name) for name in POINTS},
         **{name: _of_all([step.contacts for step in steps], name) for name in ("d1", "d2")},
         "lam": _of_all(solutions, "lam")[:, : steps[0].offsets[-1]],
+        "wrench": _of_all(solutions, "wrench"),
         "certificate": np.array([one.kind for one in certificates]),
         "worst_residual": np.array(
             [max(one.residuals.values(), default=np.nan) for one in certificates]
@@ -383,32 +378,12 @@ def programs(steps: Sequence[StepData]) -> StepArrays:
     arrays |= {name: np.array([each[name] for each in matrices]) for name in matrices[0]}
     extra = [step.extra for step in steps]
     if "H" in arrays:
-        arrays["g"] = np.array([linear_term(step) for step in steps])
-        arrays["A"], arrays["b"] = _inequalities(steps)
+        forms = [standard_form(step) for step in steps]
+        arrays |= {name: _of_all(forms, name) for name in ("g", "A", "b")}
     of_extra = ("A", "b") if extra[0].names else ()
     if extra[0].cost is not None:
         of_extra = (*of_extra, "H", "g")
     return arrays | {f"extra_{name}": _of_all(extra, name) for name in of_extra}
-
-
-def _inequalities(steps: Sequence[StepData]) -> tuple[Array, Array]:
-    """A, shape (steps, m, n_v), and b, (steps, m), of some steps of a simulator, at once."""
-    first = steps[0]
-    each = [step.contacts for step in steps]
-    constant = {name: np.tile(getattr(first.contacts, name), len(steps)) for name in CONSTANT}
-    varying = ("phi", "n", "d1", "d2", "J")
-    stacked = Contacts.unchecked(
-        **constant, **{name: np.concatenate([getattr(c, name) for c in each]) for name in varying}
-    )
-    rows = friction_rows(stacked, first.cone)
-    rows_of_steps = rows.reshape(len(steps), first.contacts.n_c, *rows.shape[1:])
-    constants = row_constants(stacked, first.cone).reshape(rows_of_steps.shape[:3])
-    A = rows_of_steps[:, first.mask]
-    b = -constants[:, first.mask]
-    if first.extra.names:
-        A = np.concatenate([A, _of_all([step.extra for step in steps], "A")], axis=1)
-        b = np.concatenate([b, _of_all([step.extra for step in steps], "b")], axis=1)
-    return A, b
 
 
 def _checked_note(name: str, note: ArrayLike, steps: int, before: Array | None) -> Array:
