@@ -1,0 +1,1 @@
+"""Backends of CVXPY called sooner, by the map that it has compiled, to the same bits."""
