@@ -6,7 +6,11 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "quasistatic_ref"
 EXAMPLES = ROOT / "docs" / "examples"
-SHELL = re.compile(r"^```(?:sh|bash|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+def fenced(page, languages):
+    """The text of each block of a page in one of some languages, as in ``"sh|bash"``."""
+    return re.findall(rf"^```(?:{languages})\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
 
 
 def flat(text):
@@ -22,7 +26,7 @@ def printed_blocks(page):
 
 def shell_lines(page):
     """Every command line in the fenced shell blocks of a page, without prompts and comments."""
-    lines = [line for block in SHELL.findall(page) for line in block.splitlines()]
+    lines = "".join(fenced(page, "sh|bash|console")).splitlines()
     stripped = [line.removeprefix("$ ").partition(" #")[0].strip() for line in lines]
     return [line for line in stripped if line and not line.startswith("#")]
 

@@ -3,7 +3,6 @@
 import ast
 import doctest
 import inspect
-import re
 import sys
 import tempfile
 from importlib import import_module
@@ -15,7 +14,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref import figures
 from tests.extras import marked_parameters
-from tests.pages import PACKAGE, ROOT
+from tests.pages import PACKAGE, ROOT, fenced
 from tests.processes import python
 
 NAMES = [name for name in qr.__all__ if name not in {"__version__", "figures"}]
@@ -148,8 +147,8 @@ def test_nothing_is_imported_with_the_package():
 
 @pytest.mark.long
 def test_a_user_s_file_has_types(tmp_path):
-    readme = (ROOT / "README.md").read_text("utf-8")
-    (tmp_path / "readme.py").write_text(re.search(r"```python\n(.*?)```", readme, re.S)[1], "utf-8")
+    example, *_ = fenced((ROOT / "README.md").read_text("utf-8"), "python")
+    (tmp_path / "readme.py").write_text(example, "utf-8")
     (tmp_path / "users.py").write_text(USERS, "utf-8")
     python("-m", "mypy", "--strict", "--config-file=", "readme.py", "users.py", cwd=tmp_path)
 

@@ -13,7 +13,7 @@ import shutil
 import pytest
 
 from quasistatic_ref.cli.main import main
-from tests.pages import EXAMPLES, ROOT, shell_lines
+from tests.pages import EXAMPLES, ROOT, fenced, shell_lines
 
 DOCS = ROOT / "docs"
 PAGES = [
@@ -36,7 +36,6 @@ READERS_OWN = "my_sim"
 STEP = re.compile(r"--step (\d+)")
 FINDS = "opinion"
 """The command that ends with 1 where it finds something, as on its page."""
-PYTHON = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
 NEEDS = dict.fromkeys(LONG, pytest.mark.long)
@@ -67,7 +66,7 @@ def test_the_commands_of_a_page_run(page, tmp_path, monkeypatch):
 def test_the_programs_of_a_page_run(page, tmp_path, monkeypatch, capsys):
     """A run of theirs ends a little after the grip has closed, at 0.7 s, and takes fast steps."""
     monkeypatch.chdir(tmp_path)
-    programs = PYTHON.findall((DOCS / page).read_text("utf-8"))
+    programs = fenced((DOCS / page).read_text("utf-8"), "python")
     assert programs
     for program in programs:
         exec(compile(program.replace("steps=150", "steps=75, fast=True"), page, "exec"), {})

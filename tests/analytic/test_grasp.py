@@ -1,11 +1,10 @@
 """models/bunny_grasp, both runs: the paper's sizes and verdict, and where its files come from."""
 
 import contextlib
-import importlib.util
 import io
 import json
-from dataclasses import dataclass
-from pathlib import Path
+import runpy
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -32,39 +31,27 @@ def scenario():
     return load_scenario("bunny_grasp", fast=True)
 
 
-@dataclass(frozen=True)
-class CommandRun:
-    """One command of the command line: its exit status, what it printed, where it wrote."""
-
-    status: int
-    output: str
-    errors: str
-    folder: Path
-
-
 @pytest.fixture(scope="module")
 def demo(tmp_path_factory):
-    """`demo --fast --json`, run once: both cases of the grasp, 300 steps each."""
+    """Where `demo --fast --json` wrote both cases of the grasp, and its JSON and its errors."""
     folder = tmp_path_factory.mktemp("demo") / "out"
     output = io.StringIO()
     errors = io.StringIO()
     with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
         status = main(["demo", "--fast", "--json", "--out", str(folder)])
-    return CommandRun(status, output.getvalue(), errors.getvalue(), folder)
+    assert status == 0, errors.getvalue()
+    return folder, json.loads(output.getvalue()), errors.getvalue()
 
 
 @pytest.fixture(scope="module")
 def runs(demo):
-    assert demo.status == 0, demo.errors
-    return {case: load_trajectory(demo.folder / f"bunny_grasp_{case}.npz") for case in CASES}
+    folder, _, _ = demo
+    return {case: load_trajectory(folder / f"bunny_grasp_{case}.npz") for case in CASES}
 
 
 @pytest.fixture(scope="module")
 def build():
-    spec = importlib.util.spec_from_file_location("build", FOLDER / "build.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return SimpleNamespace(**runpy.run_path(str(FOLDER / "build.py")))
 
 
 def largest_turn(scenario, run):
@@ -75,15 +62,14 @@ def largest_turn(scenario, run):
 
 
 def test_demo_prints_one_json_object_and_writes_what_it_names(demo):
-    assert demo.status == 0
-    printed = json.loads(demo.output)
+    folder, printed, _ = demo
     assert set(printed["cases"]) == {"with torsion", "without torsion"}
-    names = {path.name for path in demo.folder.iterdir()}
+    names = {path.name for path in folder.iterdir()}
     assert names == {
         *printed["figures"], "bunny_grasp_with_torsion.npz", "bunny_grasp_without_torsion.npz",
     }  # fmt: skip
     for name in printed["figures"]:
-        assert (demo.folder / name).stat().st_size > 1000
+        assert (folder / name).stat().st_size > 1000
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -93,7 +79,8 @@ def test_the_bunny_starts_at_rest_and_drag_is_small_ever_after(runs, demo, case)
     assert_relative(run["wrench"][0, :5, 2].sum(), 0.2 * 9.81, 1e-3)
     swings = {"with_torsion": [], "without_torsion": ["lost grip", "not in equilibrium"]}
     assert [finding.name for finding in run.findings] == swings[case]
-    assert "drag" not in demo.errors
+    _, _, errors = demo
+    assert "drag" not in errors
 
 
 def test_what_the_swinging_bunny_lacks_is_that_of_a_pendulum(runs):
@@ -115,10 +102,10 @@ def test_what_the_swinging_bunny_lacks_is_that_of_a_pendulum(runs):
 
 
 def test_the_report_of_the_demo_is_that_of_the_trajectories(demo, scenario, runs):
-    report = json.loads(demo.output)["cases"]
+    _, printed, _ = demo
     bunny = scenario.system.joint("bunny/base").q.start
     for case, run in runs.items():
-        said = report[case.replace("_", " ")]
+        said = printed["cases"][case.replace("_", " ")]
         turn = largest_turn(scenario, run)
         assert_relative(said["rotation_deg"], turn, ROUNDING)
         lift = 1e3 * (run["q"][TOP, bunny + 2] - run["q"][CLOSED, bunny + 2])

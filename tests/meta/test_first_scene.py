@@ -10,7 +10,7 @@ from PIL import Image
 
 from quasistatic_ref import load_trajectory
 from quasistatic_ref.cli.main import main
-from tests.pages import ROOT, SHELL, named_files
+from tests.pages import ROOT, fenced, named_files
 from tests.tolerances import CLOSED_FORM
 
 pytestmark = pytest.mark.long  # 24 s; its commands are those of other pages
@@ -23,7 +23,7 @@ def folder(tmp_path_factory):
     page = (ROOT / "docs" / "guides" / "first_scene.md").read_text("utf-8")
     for name, text in named_files(page).items():
         (place / name).write_text(text, "utf-8")
-    commands, *_ = SHELL.findall(page)
+    commands, *_ = fenced(page, "sh")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(place)
         for line in commands.splitlines():

@@ -8,14 +8,14 @@ import numpy as np
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.figures.clouds import rotations_by_case
 from tests.meta.remedies import assert_among
-from tests.pages import ROOT, flat, printed_blocks, shell_lines
+from tests.pages import ROOT, fenced, flat, printed_blocks, shell_lines
 
 README = (ROOT / "README.md").read_text("utf-8")
 RESULTS = ROOT / "validation" / "results"
 
 
 def test_the_example_prints_what_the_readme_shows(capsys):
-    (example,) = re.findall(r"^```python\n(.*?)^```", README, re.MULTILINE | re.DOTALL)
+    (example,) = fenced(README, "python")
     exec(compile(example, "README.md", "exec"), {})
     shown = [line.rsplit(maxsplit=1) for line in printed_blocks(README)[0].splitlines()]
     printed = [line.rsplit(maxsplit=1) for line in capsys.readouterr().out.splitlines()]

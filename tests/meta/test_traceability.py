@@ -21,6 +21,9 @@ RESULT = re.compile(r"\(R(\d+)\)")
 DEFINED = re.compile(r"\*\*\(R(\d+)\)")
 RANDOM = re.compile(r"^def (test(?:_r\d+)+)_\w+\(.*?(?=^def |^@|\Z)", re.MULTILINE | re.DOTALL)
 """A test of a result, to the next function."""
+PAGES = {path: path.read_text("utf-8") for path in (ROOT / "docs").rglob("*.md")}
+RESULTS = sorted(int(n) for page in PAGES.values() for n in DEFINED.findall(page))
+"""The numbers of those that are derived."""
 UNDER_TEST = re.compile(r"Under test: ([\w.]+)\.(\w+)\.")
 
 
@@ -47,7 +50,7 @@ def test_the_package_cites_every_equation_of_the_paper_and_no_other():
 
 def test_every_equation_of_the_paper_is_labelled_once_and_in_order():
     # In order and in one page, because the site numbers equations as they come.
-    pages = (LABEL.findall(path.read_text()) for path in (ROOT / "docs").rglob("*.md"))
+    pages = (LABEL.findall(page) for page in PAGES.values())
     assert [[int(n) for n in numbers] for numbers in pages if numbers] == [sorted(PAPER)]
 
 
@@ -68,17 +71,15 @@ def test_under_each_equation_stand_its_code_and_its_test():
 
 
 def test_every_result_is_derived_once_and_cited_ones_are():
-    pages = [*(ROOT / "docs").rglob("*.md")]
-    files = (*pages, *PACKAGE.rglob("*.py"), *ROOT.glob("tests/**/*.py"))
-    numbers = sorted(int(n) for page in pages for n in DEFINED.findall(page.read_text("utf-8")))
-    assert numbers == list(range(1, max(numbers) + 1)), "derive each result once, without a gap"
+    files = (*PAGES, *PACKAGE.rglob("*.py"), *ROOT.glob("tests/**/*.py"))
+    assert [*range(1, max(RESULTS) + 1)] == RESULTS, "derive each result once, without a gap"
     index = RESULT.findall((ROOT / "docs" / "results.md").read_text("utf-8"))
-    assert sorted(map(int, set(index))) == numbers, "docs/results.md has a line for each result"
+    assert sorted(map(int, set(index))) == RESULTS, "docs/results.md has a line for each result"
     cited = {
         f"R{n} is cited in {path.relative_to(ROOT)} and derived nowhere: add **(R{n})** to"
         for path in files
         for n in RESULT.findall(path.read_text("utf-8"))
-        if int(n) not in numbers
+        if int(n) not in RESULTS
     }
     assert_among(cited, (), "{} docs/derivations.md")
 
@@ -92,10 +93,8 @@ def test_every_result_has_a_claim_or_a_test_by_random_instances():
         for found in RANDOM.finditer(path.read_text("utf-8")):
             assert re.search(r"\b(rng|seed)\b", found[0]), (path, found[1])
             tested |= {int(n) for n in re.findall(r"_r(\d+)", found.group(1))}
-    pages = (path.read_text("utf-8") for path in (ROOT / "docs").rglob("*.md"))
-    results = {int(n) for page in pages for n in DEFINED.findall(page)}
     assert_alike(
-        map(str, results),
+        map(str, RESULTS),
         map(str, tested),
         "R{} has no test: name it in `where` of a claim, or write test_r{}_... with rng or seed",
         "R{} is tested and derived nowhere: add **(R{})** to docs/derivations.md",

@@ -28,6 +28,16 @@ UNITS = {"quaternion": slice(3, 7), "heading": slice(9, 11), "turn": slice(11, 1
 Q = np.array([5, 6, 7, 3, 4, 12, 84, 8, 9, 3, 4, 8, 15, 0.5], dtype=np.float64)
 
 
+@pytest.fixture
+def q():
+    """Q as a configuration."""
+    return normalised(JOINTS, Q)
+
+
+def as_configuration(q):
+    return configuration(JOINTS, len(Q), q)
+
+
 def test_quaternions_and_cosine_sine_pairs_are_divided_by_their_lengths():
     quaternion = [3 / 85, 4 / 85, 12 / 85, 84 / 85]
     expected = [5, 6, 7, *quaternion, 8, 9, 3 / 5, 4 / 5, 8 / 17, 15 / 17, 0.5]
@@ -36,42 +46,38 @@ def test_quaternions_and_cosine_sine_pairs_are_divided_by_their_lengths():
     assert np.array_equal(q, Q)
 
 
-def test_lengths_off_by_rounding_alone_keep_their_bits():
-    q = normalised(JOINTS, Q)
+def test_lengths_off_by_rounding_alone_keep_their_bits(q):
     q[UNITS["quaternion"]] = [0.0, 0.0, 0.0, 1.0 + 2.0**-52]
     q[UNITS["turn"]] = [1.0 - 2.0**-53, 0.0]
     assert np.array_equal(normalised(JOINTS, q), q)
-    assert np.array_equal(configuration(JOINTS, len(q), q), q)
+    assert np.array_equal(as_configuration(q), q)
 
 
-def test_a_configuration_has_no_negative_zeros():
-    q = normalised(JOINTS, Q)
+def test_a_configuration_has_no_negative_zeros(q):
     q[:3] = q[-1] = -0.0
-    for found in (normalised(JOINTS, q), configuration(JOINTS, len(q), q)):
+    for found in (normalised(JOINTS, q), as_configuration(q)):
         assert np.array_equal(found, q)
         assert not np.signbit(found).any()
 
 
-def test_only_the_quaternion_w_x_y_z_of_no_turn_is_taken_for_one_of_that_order():
-    q = normalised(JOINTS, Q)
+def test_only_the_quaternion_w_x_y_z_of_no_turn_is_taken_for_one_of_that_order(q):
     half_turns = np.eye(4)[1:]
     for half_turn in half_turns:
         q[UNITS["quaternion"]] = half_turn
-        assert np.array_equal(configuration(JOINTS, len(q), q), q)
+        assert np.array_equal(as_configuration(q), q)
     q[UNITS["quaternion"]] = [1.0, 0.0, 0.0, 0.0]
     with pytest.raises(ModelError, match=r"looks like the identity as \[w x y z\]"):
-        configuration(JOINTS, len(q), q)
+        as_configuration(q)
 
 
-def test_the_length_that_is_refused_is_named_with_its_remedy():
-    q = normalised(JOINTS, Q)
+def test_the_length_that_is_refused_is_named_with_its_remedy(q):
     UnitParts(JOINTS).check(q)
     q[UNITS["quaternion"]] *= 2
     words = (
         r"q\[box/base\]: its quaternion must have length one, not 2; "
         r"system.normalised\(q\) divides it by its length"
     )
-    for refusing in (UnitParts(JOINTS).check, lambda q: configuration(JOINTS, len(q), q)):
+    for refusing in (UnitParts(JOINTS).check, as_configuration):
         with pytest.raises(ModelError, match=words):
             refusing(q)
     assert np.allclose(unit_configuration(JOINTS, len(q), q), normalised(JOINTS, Q), atol=1e-15)
@@ -87,18 +93,16 @@ def test_the_length_that_is_refused_is_named_with_its_remedy():
         (slice(13, 14), [np.nan], False),
     ],
 )
-def test_only_what_would_keep_its_bits_is_surely_a_configuration(entries, values, sure):
-    q = normalised(JOINTS, Q)
+def test_only_what_would_keep_its_bits_is_surely_a_configuration(q, entries, values, sure):
     one = q.copy()
     one[entries] = values
     for every in (one, np.array([q, one, q])):
         assert surely_configurations(JOINTS, every) == sure
     if sure:
-        assert np.array_equal(configuration(JOINTS, len(q), one), one)
+        assert np.array_equal(as_configuration(one), one)
 
 
-def test_a_part_of_length_zero_has_no_direction():
-    q = normalised(JOINTS, Q)
+def test_a_part_of_length_zero_has_no_direction(q):
     q[UNITS["turn"]] = 0
     with pytest.raises(ModelError, match=r"q\[arm/spin\]: its \(cos, sin\) has length 0"):
         unit_configuration(JOINTS, len(q), q)

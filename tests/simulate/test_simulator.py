@@ -17,11 +17,6 @@ from tests.tolerances import ROUNDING
 GRAVITY = 9.81
 
 
-@pytest.fixture
-def scenario(load):
-    return load()
-
-
 @pytest.mark.parametrize("fast", [False, True])
 def test_a_result_is_no_others_to_change(fast):
     scenario = load_scenario("sphere_spin", fast=fast)
@@ -44,12 +39,10 @@ def test_the_target_is_a_change_from_where_the_joints_are(scenario):
     assert_relative(step.delta_q_bar_a, [0.006, 0.4], ROUNDING)
 
 
-def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(scenario):
+def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(run):
     steps = 20
     table = np.stack([np.linspace(0, -0.1, steps), np.ones(steps), np.zeros(steps)], axis=1)
-    q = scenario.system.q_start
-    run = rollout(scenario.simulator(), q, table, steps, record="light")
-    assert_same(run["q_bar_a"], table)
+    assert_same(run(table, steps, record="light")["q_bar_a"], table)
 
 
 @pytest.mark.parametrize("fast", [False, pytest.param(True, marks=pytest.mark.extra("fast"))])
@@ -66,31 +59,29 @@ def test_the_parts_of_a_run_add_up_to_its_wall_time(fast):
     assert 0.95 <= max(shares) <= 1
 
 
-def test_targets_and_forces_are_asked_for_at_the_end_of_the_step(scenario):
+def test_targets_and_forces_are_asked_for_at_the_end_of_the_step(scenario, run):
     calls = []
 
     def force(t, q):
         calls.append((t, q.copy()))
         return np.arange(8.0)
 
-    q = scenario.system.q_start
-    run = rollout(scenario.simulator(), q, scenario.targets, 3, force=force)
+    done = run(scenario.targets, 3, force=force)
     assert_same([t for t, _ in calls], [0.01, 0.02, 0.03])
-    assert_same([q for _, q in calls], run["q"][:3])
+    assert_same([q for _, q in calls], done["q"][:3])
     expected = [scenario.targets(t) for t in (0.01, 0.02, 0.03)]
-    assert_same(run["q_bar_a"], expected)
+    assert_same(done["q_bar_a"], expected)
     # At the start the ball's frame is the world's; the rail bears its own weight.
     weight = np.array([0, 0, 0.3 * GRAVITY, 0, 0, 0])
-    tau = np.concatenate([run["tau_a"][0], run["tau_u"][0] + weight])
+    tau = np.concatenate([done["tau_a"][0], done["tau_u"][0] + weight])
     assert_close(tau, np.arange(8.0), ROUNDING)
 
 
-def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario):
+def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario, run):
     def force(t, q):
         return np.full(8, np.nan if t > 0.015 else 0.0)
 
-    q = scenario.system.q_start
     with pytest.raises(RunFailed, match=r"^step 1: tau_a: must contain finite") as caught:
-        rollout(scenario.simulator(), q, scenario.targets, 3, force=force)
+        run(scenario.targets, 3, force=force)
     assert caught.value.trajectory.steps == 1
     assert isinstance(caught.value.__cause__, StepDataError)

@@ -5,27 +5,11 @@ from functools import partial
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, Recorder, rollout
+from quasistatic_ref import InputError, Recorder
 from tests.cases import cases
 from tests.closeness import assert_same
 
 STEPS = 4
-
-
-@pytest.fixture
-def scenario(load):
-    return load()
-
-
-@pytest.fixture
-def run(scenario):
-    """A rollout of the scenario with other targets or forces."""
-
-    def done(target, **options):
-        q = scenario.system.q_start
-        return rollout(scenario.simulator(), q, target, STEPS, **options)
-
-    return done
 
 
 def goal(t):
@@ -80,10 +64,10 @@ def test_an_error_of_the_callers_own_is_left_alone(run):
         run(lambda t: 1 / 0)
 
 
-def test_a_loop_by_hand_ends_in_the_trajectory_of_rollout(scenario):
+def test_a_loop_by_hand_ends_in_the_trajectory_of_rollout(scenario, run):
     simulator = scenario.simulator()
     q = scenario.system.q_start
-    expected = rollout(scenario.simulator(), q, goal, STEPS)
+    expected = run(goal, STEPS)
     recorder = Recorder(simulator, q, "full")
     for _ in range(STEPS):
         result = simulator.step(q, goal(recorder.t))
