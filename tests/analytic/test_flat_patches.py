@@ -63,11 +63,11 @@ def bound(points, d1):
     return (np.hypot(*points.T) * cosine).max()
 
 
-def check(rng, points, d1, held, cone="pyramid"):
+def check(rng, points, d1, held):
     """The body does not turn a little below a torque, and turns a little beyond it."""
     body = {"mass": 10 ** rng.uniform(-1, 1), "mu_v": rng.uniform(0.1, 1)}
     for share in (1 - NEAR, 1 + NEAR):
-        step = patch_step(points, d1, share * held, **body).replace(cone=cone)
+        step = patch_step(points, d1, share * held, **body)
         turn = abs(solve_step(step, fast=True).delta_q[5])
         assert (turn > STILL) == (share > 1)
 

@@ -9,15 +9,18 @@ from quasistatic_ref.lab.study.problems.answers import exact_answer
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of, exact_slack
 from quasistatic_ref.step.standard_form import StandardForm
 
+SIZES = (1, 3, 4)
+"""Of the parts."""
 
-def random_parts(rng, sizes=(1, 3, 4)):
+
+def random_parts(rng):
     """A program of small integers, full of ties, whose parts are strewn over it; rows by part."""
-    L, A = (block_diag(*[rng.integers(-2, 3, (k * n, n)) for n in sizes]) for k in (1, 3))
+    L, A = (block_diag(*[rng.integers(-2, 3, (k * n, n)) for n in SIZES]) for k in (1, 3))
     strewn, of = (rng.permutation(len(M)) for M in (L, A))
     H = (L @ L.T + np.eye(len(L)))[np.ix_(strewn, strewn)]
     form = StandardForm(H, 1.0 * rng.integers(-2, 3, len(H)), 1.0 * A[np.ix_(of, strewn)],
                         -1.0 * rng.integers(0, 3, len(A)))  # fmt: skip
-    return form, np.repeat(range(len(sizes)), 3 * np.array(sizes))[of]
+    return form, np.repeat(range(len(SIZES)), 3 * np.array(SIZES))[of]
 
 
 @pytest.mark.parametrize("seed", range(10))

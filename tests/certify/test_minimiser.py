@@ -12,10 +12,9 @@ from quasistatic_ref.certify.dependence import implied, independent_rows
 from quasistatic_ref.certify.form import EXACT, StepForm, exact_matrix
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.working_set import NearSets, ball_solution
-from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.numbers.precision import working_precision
+from tests.certify.test_exact import resting_point
 from tests.oracles.random_steps import any_step
 
 LEAST = 5e-324
@@ -67,17 +66,10 @@ def test_slacks_of_float64_are_off_by_no_more_than_their_bounds(cone, power):
     assert claims
 
 
-def pressed(mass_ratio=1.0):
-    """A block that sticks: rows of rank three among many, at three contacts of one frame."""
-    each = (3, 1, 1)
-    at = contacts_of(0.0, np.tile(np.eye(3), each), np.tile(np.eye(4), each), 0.5, 0.25, rows=6)
-    return free_step(np.diag([1.0, 1.0, mass_ratio, 1.0]), [0.1, 0.2, -3.0, 0.0], at, 0.5)
-
-
 @pytest.mark.parametrize("cone", ["pyramid", "product", "facets-6", "frictionless"])
 def test_rows_that_a_cone_implies_are_those_that_elimination_finds(cone):
     """Of one contact, whose four lengths are independent: no rows imply more than its cone."""
-    step = pressed().replace(cone=cone)
+    step = resting_point().replace(cone=cone)
     form = StepForm(step)
     of_contact = range(int(step.counts[0]))
     for size in range(5):

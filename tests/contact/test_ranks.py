@@ -32,6 +32,11 @@ def lowered(shape, turn, yaw):
     return R, np.array([0.0, 0.0, shape.support_value(-Z[None] @ R).item()])
 
 
+def found_on(low, top, pose, k):
+    """The contacts of a shape at a pose with one that is not moved."""
+    return found_for(placed_shape(low), placed_shape(top, 1), standing_links(pose), k)
+
+
 def prism(sides):
     angle = np.arange(sides) * 2 * np.pi / sides
     rim = 0.05 * np.column_stack([np.cos(angle), np.sin(angle)])
@@ -66,13 +71,12 @@ def test_a_line_of_contact_has_its_ends_for_contacts_in_one_order(solid, yaw):
     """Noise of 1e-17 m in the pose changes neither which they are nor their order."""
     R = Rotation.from_euler("zy", [yaw, np.pi / 2]).as_matrix()
     k = min(4, solid.corner_count)
-    one = pair(placed_shape(FLOOR), placed_shape(solid, 1), k)
     orders = set()
     rng = np.random.default_rng(7)
     for _ in range(40):
         t = np.array([0.0, 0.0, 0.02]) + 1e-17 * rng.normal(size=3)
         noise = Rotation.from_rotvec(1e-16 * rng.normal(size=3)).as_matrix()
-        found = closest_points([one], standing_links((noise @ R, t)))
+        found = found_on(FLOOR, solid, (noise @ R, t), k)
         orders.add(tuple(found.point.tolist()))
         along = np.abs((found.beta[:2] - t) @ R[:, 2])
         assert_within(along, 0.05, 1e-12)
@@ -90,17 +94,15 @@ def test_contacts_rank_by_a_share_of_the_smaller_shape_and_keep_their_distances(
     found = closest_points([one], standing_links((np.eye(3), np.zeros(3))))
     assert found.point.tolist() == [0, 1, 2]
     assert found.phi.tolist() == steps[:3].tolist()
-    ball = pair(placed_shape(Sphere(0.1)), placed_shape(PointCloud([[1.0, 0, 0]]), 1))
-    assert ball.size == 0.2  # a single point has none
-    assert pair(placed_shape(FLOOR), placed_shape(PointCloud([[1.0, 0, 0]]), 1)).resolution == 0
+    point = placed_shape(PointCloud([[1.0, 0, 0]]), 1)  # which has no size
+    assert pair(placed_shape(Sphere(0.1)), point).size == 0.2
+    assert pair(placed_shape(FLOOR), point).resolution == 0
 
 
 def test_a_face_of_many_corners_is_borne_by_them_and_not_by_a_point_between():
     sides = 4 * FEW
     R, t = lowered(prism(sides), np.zeros(3), 0.3)
-    found = found_for(
-        placed_shape(FLOOR), placed_shape(prism(sides), 1), standing_links((R, t)), sides
-    )
+    found = found_on(FLOOR, prism(sides), (R, t), sides)
     assert len(np.unique(found.point)) == sides
     assert np.abs(found.beta[:, 2]).max() < 1e-12
     assert np.hypot(*(found.beta - t)[:, :2].T).min() > 0.05 - 1e-12
@@ -122,10 +124,9 @@ def test_candidates_that_repeat_an_earlier_one_are_those_that_every_two_tell():
 def test_a_hull_of_many_corners_takes_no_memory_in_the_square_of_their_number():
     points = np.random.default_rng(6).normal(size=(4000, 3))
     ball = convex_hull(0.05 * points / np.linalg.norm(points, axis=1, keepdims=True))
-    R, t = lowered(ball, np.zeros(3), 0.0)
-    one = pair(placed_shape(FLOOR), placed_shape(ball, 1), 4)
+    pose = lowered(ball, np.zeros(3), 0.0)
     tracemalloc.start()
-    found = closest_points([one], standing_links((R, t)))
+    found = found_on(FLOOR, ball, pose, 4)
     assert tracemalloc.get_traced_memory()[1] < 20 * 2**20  # an eighth of 4000^2 numbers
     tracemalloc.stop()
     assert abs(found.phi[0]) < 1e-15
@@ -134,8 +135,7 @@ def test_a_hull_of_many_corners_takes_no_memory_in_the_square_of_their_number():
 def test_of_two_corners_that_are_one_contact_alpha_s_is_kept():
     # Two equal cubes, one on the other: the four corners of either's face are in the same places.
     # Alpha's corners are 0 to 7 (binary: x lowest), so that its upper ones are 4 to 7.
-    there = standing_links((np.eye(3), 0.1 * Z))
-    found = found_for(placed_shape(CUBE), placed_shape(CUBE, 1), there, 4)
+    found = found_on(CUBE, CUBE, (np.eye(3), 0.1 * Z), 4)
     assert sorted(found.point.tolist()) == [4, 5, 6, 7]
 
 
@@ -144,7 +144,6 @@ def test_a_cloud_takes_the_face_along_which_it_is_farthest_out():
     # -0.5.
     t = np.array([5.0, 0.0, 0.0])
     cloud = PointCloud(np.array([[0.1, 0.0, 1.0], [0.1, 0.2, 1.0], [0.3, 0.0, 0.5]]) - t)
-    solid = placed_shape(Box((0.1, 1.0, 1.0)))
-    found = found_for(solid, placed_shape(cloud, 1), standing_links((np.eye(3), t)), 2)
+    found = found_on(Box((0.1, 1.0, 1.0)), cloud, (np.eye(3), t), 2)
     assert_within(found.n, [[1, 0, 0]] * 2, 1e-12)
     assert found.tie.tolist() == [OF_CLOUD] * 2

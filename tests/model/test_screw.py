@@ -12,17 +12,9 @@ from tests.tolerances import ROUNDING
 ANGLES = (0.0, 1e-9, 0.3, 3.0)
 LINEAR = (0.3, -0.7, 1.1)
 AXIS = np.array([2.0, -3.0, 6.0]) / 7
-FLOATING = Floating("base", False, slice(1, 8), slice(1, 7))
-
-
-def next_entries(joint, q, delta_q):
-    """A joint's entries of q (+) delta_q."""
-    return joint.moved(q[joint.q], delta_q[joint.v])
-
-
-def change(joint, q, q_next):
-    """A joint's entries of q_next (-) q."""
-    return joint.change(q[joint.q], q_next[joint.q])
+START = Rotation.from_rotvec(0.8 * np.array([1.0, 2.0, -2.0]) / 3)
+"""How a base is turned before it moves."""
+FLOATING = Floating("base", False, slice(0, 7), slice(0, 6))
 
 
 def screw(v, w):
@@ -32,45 +24,36 @@ def screw(v, w):
     return moved[:3, :3], moved[:3, 3]
 
 
-def quaternion_about(axis, angle):
-    """[axis sin(angle / 2), cos(angle / 2)]."""
-    return [*(axis * np.sin(angle / 2)), np.cos(angle / 2)]
-
-
 @pytest.mark.parametrize("angle", ANGLES)
 def test_a_floating_base_moves_by_its_twist_in_its_own_frame(angle):
     # position' = position + R t, where t is the translation of the screw
-    about = np.array([1.0, 2.0, -2.0]) / 3
     at = np.array([0.5, -0.25, 2.0])
     w = angle * AXIS
-    R = screw(np.zeros(3), 0.8 * about)[0]
-    q = [9.0, *at, *quaternion_about(about, 0.8)]
-    delta_q = [7.0, *LINEAR, *w]
-    expected = at + R @ screw(LINEAR, w)[1]
-    q_next = [9.0, *next_entries(FLOATING, q, delta_q)]
-    assert_within(q_next[1:4], expected, ROUNDING * 4)
-    found = change(FLOATING, q, q_next)
-    assert_within(found, delta_q[1:], 8 * ROUNDING)
+    q = [*at, *START.as_quat()]
+    delta_q = [*LINEAR, *w]
+    expected = at + START.apply(screw(LINEAR, w)[1])
+    q_next = FLOATING.moved(q, delta_q)
+    assert_within(q_next[:3], expected, ROUNDING * 4)
+    assert_within(FLOATING.change(q, q_next), delta_q, 8 * ROUNDING)
 
 
 @pytest.mark.parametrize("axis", [AXIS, *np.eye(3)], ids=["oblique", "x", "y", "z"])
 @pytest.mark.parametrize("angle", [*ANGLES, 1e-200, 6.0])
 def test_a_floating_base_turns_by_its_rotation_vector(angle, axis):
     # The product of both matrices, which q and -q stand for; and a turn back is that by -w.
-    about = np.array([1.0, 2.0, -2.0]) / 3
     w = angle * axis
-    q = [9.0, 0.0, 0.0, 0.0, *quaternion_about(about, 0.8)]
-    after = [9.0, *next_entries(FLOATING, q, [7.0, 0.0, 0.0, 0.0, *w])]
-    expected = screw(np.zeros(3), 0.8 * about)[0] @ screw(np.zeros(3), w)[0]
-    found = Rotation.from_quat(after[4:]).as_matrix()
+    q = [0.0, 0.0, 0.0, *START.as_quat()]
+    after = FLOATING.moved(q, [0.0, 0.0, 0.0, *w])
+    expected = START.as_matrix() @ screw(np.zeros(3), w)[0]
+    found = Rotation.from_quat(after[3:]).as_matrix()
     assert_within(found, expected, 4 * ROUNDING)
     shorter = angle if angle < np.pi else angle - 2 * np.pi
-    back = change(FLOATING, after, q)[3:]
+    back = FLOATING.change(after, q)[3:]
     assert_close(back, -shorter * axis, 4 * ROUNDING)
 
 
 @pytest.mark.parametrize("axis", [*np.eye(3), -AXIS])
 def test_half_a_turn_is_about_the_axis_of_the_quaternion_that_names_it(axis):
     # From no turn: (e, 0) stands for a turn by pi about e, and -(e, 0) for the same about -e.
-    found = change(FLOATING, [9.0, 0, 0, 0, 0, 0, 0, 1.0], [9.0, 0, 0, 0, *axis, 0.0])
+    found = FLOATING.change([0, 0, 0, 0, 0, 0, 1.0], [0, 0, 0, *axis, 0.0])
     assert_within(found[3:], np.pi * axis, 4 * ROUNDING)
