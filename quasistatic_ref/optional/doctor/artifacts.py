@@ -19,15 +19,15 @@ LIGHT = 1e-3
 """Force that is none, over the weight of a scene's bodies or its largest load [-]."""
 
 
-def _quotient(over: ArrayLike, under: ArrayLike) -> Array:
-    """Quotients of numbers >= 0; NaN where they are beyond the range of float64, or 0/0.
+def quotient(over: ArrayLike, under: ArrayLike, none: float = 0.0) -> Array:
+    """Quotients; `none` where they are beyond the range of float64, or 0/0.
 
     A friction coefficient may be as small as 5e-324: a product with it underflows to 0, a quotient
     by it overflows.
     """
     with np.errstate(all="ignore"):
         quotients = np.divide(over, under)
-    return np.where(np.isfinite(quotients), quotients, np.nan)
+    return np.where(np.isfinite(quotients), quotients, none)
 
 
 def _lengths(vectors: Array) -> Array:
@@ -73,7 +73,8 @@ def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: floa
     if not (bases and rough.size and g > 0):
         return np.full(len(delta_q), np.nan)
     moved = np.max([_lengths(delta_q[:, start : start + 3]) for start in bases], axis=0)
-    return _quotient(_quotient(moved, step.h), float(rough.min()) * g * step.h)
+    speed = quotient(moved, step.h, np.nan)
+    return quotient(speed, float(rough.min()) * g * step.h, np.nan)
 
 
 def gap_after(phi: Array, n: Array, motion: Array) -> Array:

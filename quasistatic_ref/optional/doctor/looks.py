@@ -2,35 +2,36 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from contextlib import suppress
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.certify.groups import Group, group_step, groups
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor import slowly
-from quasistatic_ref.optional.doctor.bodies import Body, Missing
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.optional.doctor.chosen import PROVED, asked, has_corners
 from quasistatic_ref.step.friction import frame_jacobian
 
 if TYPE_CHECKING:
     from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+    from quasistatic_ref.optional.doctor.bodies import Body, Missing
     from quasistatic_ref.optional.doctor.run import Run
     from quasistatic_ref.step.contacts import Contacts
     from quasistatic_ref.step.data import StepData
 
 RUN, COULOMB, SLOW, ROUND, MODEL = "run", "coulomb", "slow", "round", "model"
 """The run's own law at h; Coulomb's at h, and slowly; that in the ellipsoid; the run's slowly."""
-TOUCHES = 1e-6
-"""Gap that is none, over the smaller shape [-]."""
 NULL = 1e-9
 """Singular value that is none, over the largest [-]."""
 GROUP = 50_000
 """Most entries of J, 4 n_c n_v, of a group that is looked at."""
-
 KEPT = 8
 """Groups whose answers are kept for those that are alike."""
+STILL = 0.01
+"""What a body that lies still drags, over its own load [-]."""
 
 
 class Law(NamedTuple):
@@ -46,16 +47,18 @@ class Law(NamedTuple):
     motion: Array
 
 
-@dataclass(eq=False)
 class Look:
     """A step of a run by each law.
 
     Parameters
     ----------
     k : int
-    laws : dict of str to Law
     live : ndarray of bool, shape (n_c,)
         Contacts that touch or press.
+
+    Attributes
+    ----------
+    laws : dict of str to Law
     missing : dict of str to dict of str to Missing
         By law, of each body of which something is missing.
     inner : dict of int to ndarray, shape (5, dimensions)
@@ -68,21 +71,28 @@ class Look:
         Of which it is, and which are in a group that is too large.
     """
 
-    k: int
-    laws: dict[str, Law]
-    live: Mask
-    missing: dict[str, dict[str, Missing]] = field(default_factory=lambda: {SLOW: {}, ROUND: {}})
-    inner: dict[int, Array] = field(default_factory=dict)
-    bodies: set[str] = field(default_factory=set)
-    lost: set[str] = field(default_factory=set)
-    large: set[str] = field(default_factory=set)
-
-    def __post_init__(self) -> None:
-        self.asked = np.zeros_like(self.live)
+    def __init__(self, k: int, live: Mask) -> None:
+        self.k = k
+        self.live = live
+        self.laws: dict[str, Law] = {}
+        self.missing: dict[str, dict[str, Missing]] = {SLOW: {}, ROUND: {}}
+        self.inner: dict[int, Array] = {}
+        self.asked = np.zeros_like(live)
+        self.bodies: set[str] = set()
+        self.lost: set[str] = set()
+        self.large: set[str] = set()
 
     def knows(self, law: str, contacts: Mask | slice) -> bool:
         """Whether a law has an answer for some contacts, shape (n_c,)."""
         return law in self.laws and bool(np.isfinite(self.laws[law].forces[contacts]).all())
+
+    def note(self, law: str, at: Indices, contacts: Contacts, answer: slowly.Answer) -> None:
+        """Keep what some contacts, `at` among all, do by a law."""
+        if law not in self.laws:
+            of_all = np.where(self.live[:, None], np.nan, np.zeros(4))
+            self.laws[law] = Law(of_all, of_all.copy())
+        self.laws[law].forces[at] = answer.forces
+        self.laws[law].motion[at] = contacts.motion(answer.delta_q)
 
 
 def resultants(axes: tuple[Array, Array], forces: Array) -> Array:
@@ -108,30 +118,22 @@ def inner_loads(contacts: Contacts, forces: Array, motion: Array) -> Array:
     -------
     ndarray, shape (n_c, 4, dimensions)
     """
-    loaded = np.flatnonzero(forces[:, 2] > NULL * forces[:, 2].max(initial=0.0))
-    if not loaded.size:
-        return np.zeros((len(forces), 4, 0))
+    f_n = forces[:, 2]
+    loaded = np.flatnonzero(f_n > NULL * f_n.max(initial=0.0))
     J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
-    frames = np.stack([J_1, J_2, J_n, J_w], axis=1)  # as forces are
-    mu = contacts.mu
-    d1, d2 = (np.vecdot(motion[:, :3], d) for d in (contacts.d1, contacts.d2))
-    slips = (np.hypot(d1, d2) > NULL) | ((mu[:, 2] > 0) & (np.abs(motion[:, 3]) > NULL))
-    columns = []
-    for j in loaded.tolist():
-        if mu[j].any() and slips[j]:
-            columns.append((j, forces[j] / forces[j, 2]))
-        else:
-            rubs = [0, 1] if mu[j, 0] > 0 else []
-            rubs = [*rubs, 2, *([3] if mu[j, 2] > 0 else [])]
-            columns += [(j, np.eye(4)[i]) for i in rubs]
-    z = np.array([column for _, column in columns])
-    of = np.array([j for j, _ in columns])
-    rows = np.einsum("ki,kiv->kv", z, frames[of])
-    rows = rows / np.maximum(np.abs(rows).max(axis=0), 1e-300)
+    frames = np.stack([J_1, J_2, J_n, J_w], axis=1)[loaded]  # as forces are
+    rubs = contacts.mu[loaded] > 0
+    d1, d2 = (np.vecdot(motion[:, :3], d)[loaded] for d in (contacts.d1, contacts.d2))
+    slips = (np.hypot(d1, d2) > NULL) | (rubs[:, 2] & (np.abs(motion[loaded, 3]) > NULL))
+    rays = np.eye(4) * np.insert(rubs, 2, True, axis=1)[:, None]  # in columns; some are nothing
+    rays[slips] = 0.0
+    rays[slips, :, 2] = (forces[loaded] / f_n[loaded, None])[slips]
+    rows = np.einsum("jci,jcv->jiv", rays, frames).reshape(4 * len(loaded), contacts.n_v)
+    rows = rows / np.maximum(np.abs(rows).max(axis=0, initial=0.0), 1e-300)
     _, sizes, vt = np.linalg.svd(rows.T)
-    null = vt[int((sizes > NULL * sizes[0]).sum()) :].T
-    inner = np.zeros((len(forces), 4, null.shape[1]))
-    np.add.at(inner, of, z[:, :, None] * null[:, None, :])
+    null = vt[int((sizes > NULL * sizes.max(initial=0.0)).sum()) :].T
+    inner = np.zeros((*forces.shape, null.shape[1]))
+    inner[loaded] = np.einsum("jci,jid->jcd", rays, null.reshape(len(loaded), 4, null.shape[1]))
     return inner
 
 
@@ -140,18 +142,17 @@ class Part(NamedTuple):
 
     Parameters
     ----------
-    look : Look
-    whole, step : StepData
-        Of all that touches or presses, and of the group, from where its bodies have come down.
-    coordinates, at : ndarray of int
-        Its entries of delta_q, and its contacts.
+    whole : StepData
+        Of all that touches or presses.
+    group : Group
+        Of that step.
+    at : ndarray of int
+        Its contacts among all of the run.
     bodies : list of Body
     """
 
-    look: Look
     whole: StepData
-    step: StepData
-    coordinates: Indices
+    group: Group
     at: Indices
     bodies: list[Body]
 
@@ -159,54 +160,6 @@ class Part(NamedTuple):
     def names(self) -> set[str]:
         """Of its bodies."""
         return {body.name for body in self.bodies}
-
-    def note(self, law: str, answer: slowly.Answer) -> None:
-        """Keep what its contacts do by a law."""
-        look = self.look
-        if law not in look.laws:
-            of_all = np.where(look.live[:, None], np.nan, 0.0)
-            look.laws[law] = Law(np.tile(of_all, 4), np.tile(of_all, 4))
-        look.laws[law].forces[self.at] = answer.forces
-        look.laws[law].motion[self.at] = self.step.contacts.motion(answer.delta_q)
-
-
-class Groups:
-    """The groups of a step that is looked at.
-
-    Parameters
-    ----------
-    run : Run
-    look : Look
-
-    Attributes
-    ----------
-    whole : StepData
-        Of all that touches or presses.
-    delta_q : ndarray, shape (n_v,)
-        The run's.
-    of : dict of str to list of (Group, ndarray of int, list of Body)
-        Of each body or pair: its groups, with their contacts among all of the run and bodies.
-    """
-
-    def __init__(self, run: Run, look: Look) -> None:
-        self.look = look
-        step = run.posed(look.k)
-        live = np.flatnonzero(look.live)
-        every = np.arange(step.n_v)
-        self.delta_q = run.delta_q_of(look.k, step.n_v)
-        reach = np.abs(step.extra.A) @ np.abs(self.delta_q)
-        near = np.flatnonzero(-step.extra.b <= reach + 1e-12)
-        self.whole = step.replace(
-            contacts=step.contacts.some(live, every), extra=step.extra.of(near, every)
-        )
-        of = {i: body for body in run.bodies_of for i in body.coordinates.tolist()}
-        self.of: dict[str, list[tuple[Group, Indices, list[Body]]]] = {}
-        for group in groups(self.whole):
-            at = live[group.contacts]
-            moved = dict.fromkeys(of[i] for i in group.coordinates.tolist() if i in of)
-            names = {body.name for body in moved} | {run.pairs[i].name for i in run.pair_of[at]}
-            for name in names:
-                self.of.setdefault(name, []).append((group, at, [*moved]))
 
 
 class Looking:
@@ -219,10 +172,67 @@ class Looking:
 
     def __init__(self, run: Run) -> None:
         self.run = run
+        self.left = 0
         self.solvers = slowly.Solvers()
         self.looks: dict[int, Look] = {}
-        self._last: Groups | None = None
+        self._last: tuple[Look, dict[str, list[Part]]] | None = None
         self._kept: dict[bytes, slowly.Slow] = {}
+
+    @cached_property
+    def chosen(self) -> list[Look]:
+        """The looks that say most of each body and pair; `left` counts steps beyond the budget."""
+        run = self.run
+        seen: set[tuple[str, int]] = set()
+        known: set[str] = set()
+        every = asked(run)
+        far = {body.name for body in run.bodies_of if run.gets_far(body)}
+        corners = {one.k for one in every if one.corners}
+        for one in every:
+            if (one.name, one.k) in seen:
+                continue
+            if self.solvers.proved >= PROVED and one.name not in far - known:
+                self.left += 1
+                continue
+            look = self.at(one.k, one.name, one.k in corners)
+            names = {one.name} | look.bodies | look.lost
+            known |= names
+            seen |= {(name, one.k) for name in names}
+        return [self.looks[k] for k in sorted(self.looks)]
+
+    @property
+    def not_looked_at(self) -> str:
+        """One line on bodies whose looks have no answer, and on what is beyond the budget."""
+        looks = self.chosen
+        lines = []
+        lost = {name for look in looks for name in look.lost}
+        if lost := lost - {name for look in looks for name in look.bodies}:
+            lines.append(f"equilibrium of {listed(sorted(lost))}: no fixed point was found")
+        if large := {name for look in looks for name in look.large}:
+            lines.append(f"equilibrium of {len(large)} bodies: too many of them touch")
+        if self.left:
+            lines.append(f"{self.left} steps with other contacts: {PROVED} proofs were made")
+        return "; ".join(lines)
+
+    def lacks(self, name: str) -> list[tuple[Look, Missing]]:
+        """The looks in which something is missing of a body."""
+        return [(x, x.missing[SLOW][name]) for x in self.chosen if name in x.missing[SLOW]]
+
+    def rests(self, body: Body) -> bool:
+        """Whether a body lies still in the last step, and nothing is missing in it.
+
+        What creeps, borne by its layer, hardly moves, but lacks something.
+        """
+        run = self.run
+        if run.drags[body][-1] > STILL * run.loads[body][-1]:
+            return False
+        if not self.lacks(body.name):
+            return True
+        last = self.at(run.steps - 1, body.name)
+        return body.name not in {*last.missing[SLOW], *last.lost}
+
+    def settles(self, body: Body, first: int = 0) -> bool:
+        """Whether a body moves little from a step on, and lies still at the end of the run."""
+        return self.rests(body) and not self.run.gets_far(body, first)
 
     def at(self, k: int, name: str, corners: bool = False) -> Look:
         """A look at step k, of the groups of a body or a pair.
@@ -236,105 +246,122 @@ class Looking:
         """
         run = self.run
         if k not in self.looks:
-            live = (run["phi"][k] <= TOUCHES * run.sizes) | run.presses[k]
-            of_run = Law(np.asarray(run["wrench"][k]), run.noted("moved")[k])
-            self.looks[k] = Look(k, {RUN: of_run}, live)
+            self.looks[k] = Look(k, run.live[k])
+            self.looks[k].laws[RUN] = Law(np.asarray(run["wrench"][k]), run.noted("moved")[k])
         self._solve(self.looks[k], name, corners)
         return self.looks[k]
 
     def alone(self, k: int, body: Body, contacts: Mask) -> Look:
         """Step k as if a body had some of its contacts alone."""
-        look = Look(k, {}, contacts & self.run.presses[k])
+        look = Look(k, contacts & self.run.presses[k])
         self._solve(look, body.name, False)
         return look
 
-    def _solve(self, look: Look, name: str, corners: bool) -> None:
+    def _parts(self, look: Look) -> dict[str, list[Part]]:
+        """Of each body or pair its groups in a step; those of the last step are kept."""
+        if self._last is not None and self._last[0] is look:
+            return self._last[1]
         run = self.run
-        if self._last is None or self._last.look is not look:
-            self._last = Groups(run, look)
-        groups = self._last
-        for group, at, bodies in groups.of.get(name, ()):
-            of = {body.name for body in bodies}
-            if look.asked[at].any() or any(x in look.bodies or x in look.lost for x in of):
+        step = run.posed(look.k)
+        live = np.flatnonzero(look.live)
+        every = np.arange(step.n_v)
+        reach = np.abs(step.extra.A) @ np.abs(run.delta_q_of(look.k, step.n_v))
+        near = np.flatnonzero(-step.extra.b <= reach + 1e-12)
+        whole = step.replace(
+            contacts=step.contacts.some(live, every), extra=step.extra.of(near, every)
+        )
+        of = {i: body for body in run.bodies_of for i in body.coordinates.tolist()}
+        parts: dict[str, list[Part]] = {}
+        for group in groups(whole):
+            at = live[group.contacts]
+            moved = dict.fromkeys(of[i] for i in group.coordinates.tolist() if i in of)
+            names = {body.name for body in moved} | {run.pairs[i].name for i in run.pair_of[at]}
+            for name in names:
+                parts.setdefault(name, []).append(Part(whole, group, at, [*moved]))
+        self._last = look, parts
+        return parts
+
+    def _solve(self, look: Look, name: str, corners: bool) -> None:
+        for part in self._parts(look).get(name, ()):
+            names = part.names
+            if look.asked[part.at].any() or names & (look.bodies | look.lost):
                 continue
-            look.asked[at] = True
-            if 4 * len(at) * len(group.coordinates) > GROUP:
-                look.large |= of
+            look.asked[part.at] = True
+            if 4 * len(part.at) * len(part.group.coordinates) > GROUP:
+                look.large |= names
                 continue
             try:
-                part = group_step(groups.whole, group)
-                delta_q = groups.delta_q[group.coordinates]
-                part = slowly.landed(part, run.presses[look.k, at], delta_q)
-                self._group(Part(look, groups.whole, part, group.coordinates, at, bodies), corners)
+                self._look(look, part, corners)
             except QuasistaticError:  # a step that has no solution, or no float64
-                look.lost |= of
+                look.lost |= names
 
-    def _group(self, part: Part, corners: bool) -> None:
-        look = part.look
-        slow = self._slow(part)
+    def _look(self, look: Look, part: Part, corners: bool) -> None:
+        """Look at a group by all laws."""
+        run = self.run
+        at = part.at
+        step = group_step(part.whole, part.group)
+        delta_q = run.delta_q_of(look.k, part.whole.n_v)[part.group.coordinates]
+        step = slowly.landed(step, run.presses[look.k, at], delta_q)
+        contacts = step.contacts
+        slow = self._slow(step, run.sizes[at])
         first = slow.first
-        climbed = slow.climbed
-        if climbed.open:
+        rungs = slow.climbed
+        if rungs is None:
             look.lost |= part.names
             return
         look.bodies |= part.names
-        last = climbed.rungs[-1]
-        self._missing(part, SLOW, climbed)
+        self._missing(look, part, SLOW, step, rungs)
+        last = rungs[-1]
         if last.answer.creeps or (first is not None and first.answer.creeps):
             return
-        part.note(SLOW, last.answer)
-        self._inner(part)
+        look.note(SLOW, at, contacts, last.answer)
+        self._note_inner(look, at, contacts)
         if first is not None:
-            part.note(COULOMB, first.answer)
-            if RUN in look.laws and self._differs(part):
-                part.note(MODEL, slow.answer(last.T))
-        asked = corners or part.names & look.missing[SLOW].keys()
-        name = part.step.cone
-        if cone(name).polyhedral and name != "frictionless" and not slow.sticks(last) and asked:
-            self._in_round(part, slow)
+            look.note(COULOMB, at, contacts, first.answer)
+            if RUN in look.laws and _differs(look, at):
+                look.note(MODEL, at, contacts, slow.answer(last.T))
+        asks = corners or part.names & look.missing[SLOW].keys()
+        if has_corners(step.cone) and asks and not slow.sticks(last):
+            with suppress(QuasistaticError):  # no optional/ellipsoid, or no solution
+                if rungs := slow.in_round:
+                    look.note(ROUND, at, contacts, rungs[-1].answer)
+                    self._missing(look, part, ROUND, step, rungs)
 
-    def _slow(self, part: Part) -> slowly.Slow:
+    def _slow(self, step: StepData, sizes: Array) -> slowly.Slow:
         """What is asked of a group, or of one that is alike."""
-        sizes = self.run.sizes[part.at]
-        key = slowly.alike(part.step, sizes)
+        key = slowly.alike(step, sizes)
         if key not in self._kept:
             kept = [*self._kept.items()][-KEPT:]
-            self._kept = {**dict(kept), key: slowly.Slow(part.step, self.solvers, sizes)}
+            self._kept = {**dict(kept), key: slowly.Slow(step, self.solvers, sizes)}
         return self._kept[key]
 
-    def _in_round(self, part: Part, slow: slowly.Slow) -> None:
-        try:
-            climbed = slow.in_round
-        except QuasistaticError:  # no optional/ellipsoid, or no solution
-            return
-        if not climbed.open:
-            part.note(ROUND, climbed.rungs[-1].answer)
-            self._missing(part, ROUND, climbed)
-
-    def _differs(self, part: Part) -> bool:
-        """Whether Coulomb's law has other forces than the run."""
-        run, coulomb = (part.look.laws[law].forces[part.at, 2] for law in (RUN, COULOMB))
-        return bool(np.abs(run - coulomb).max(initial=0.0) > 0.01 * np.abs(run).max(initial=0.0))
-
-    def _missing(self, part: Part, law: str, climbed: slowly.Climb) -> None:
-        n_a = part.whole.n_a
-        of_u = part.coordinates[part.step.n_a :]
+    def _missing(
+        self, look: Look, part: Part, law: str, step: StepData, rungs: list[slowly.Rung]
+    ) -> None:
+        """Note what is missing of the bodies of a group."""
+        of_u = part.group.coordinates[step.n_a :]
         for body in part.bodies:
             if body.free and not body.contacts[part.at].any():
                 continue  # it falls freely, which is said elsewhere
             here = np.isin(body.coordinates, of_u)
             r = np.zeros(len(here))
             places = np.searchsorted(of_u, body.coordinates[here])
-            r[here] = slowly.missing(part.step, climbed, places)
-            lacks = body.missing(r, body.inertia(part.whole.M_u, n_a))
-            if lacks.amount > slowly.LITTLE * self.run.loads[body][part.look.k]:
-                part.look.missing[law][body.name] = lacks
+            r[here] = slowly.missing(step, rungs, places)
+            lacks = body.missing(r, body.inertia(part.whole.M_u, part.whole.n_a))
+            if lacks.amount > slowly.LITTLE * self.run.loads[body][look.k]:
+                look.missing[law][body.name] = lacks
 
-    def _inner(self, part: Part) -> None:
+    def _note_inner(self, look: Look, at: Indices, contacts: Contacts) -> None:
         """Note how far inner loads change the resultants of each pair."""
-        forces, motion = (x[part.at] for x in part.look.laws[SLOW])
-        inner = inner_loads(part.step.contacts, forces, motion)
-        of = self.run.pair_of[part.at]
+        forces, motion = (x[at] for x in look.laws[SLOW])
+        inner = inner_loads(contacts, forces, motion)
+        of = self.run.pair_of[at]
         for i in np.unique(of).tolist():
-            axes = self.run.axes(part.look.k, part.at[of == i])
-            part.look.inner[i] = resultants(axes, inner[of == i])
+            axes = self.run.axes(look.k, at[of == i])
+            look.inner[i] = resultants(axes, inner[of == i])
+
+
+def _differs(look: Look, at: Indices) -> bool:
+    """Whether Coulomb's law has other forces than the run, of some contacts."""
+    run, coulomb = (look.laws[law].forces[at, 2] for law in (RUN, COULOMB))
+    return bool(np.abs(run - coulomb).max(initial=0.0) > 0.01 * np.abs(run).max(initial=0.0))

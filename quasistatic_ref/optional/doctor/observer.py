@@ -194,6 +194,6 @@ def _looked_for(recorder: Recording, trajectory: Trajectory) -> tuple[tuple[Find
         checks += NO_STEPS
     every = findings(checks, of)
     skipped = [not_looked_at(checks, of)]
-    if isinstance(of, Run) and of.statics is not None:
-        skipped.append(of.statics.not_looked_at)
+    if isinstance(of, Run) and not of.own_terms:
+        skipped.append(of.looking.not_looked_at)
     return tuple(every), "; ".join(filter(None, skipped))

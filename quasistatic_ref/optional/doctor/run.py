@@ -19,6 +19,7 @@ from quasistatic_ref.optional.doctor.account import (
     sides,
 )
 from quasistatic_ref.optional.doctor.accounts import PairAccount
+from quasistatic_ref.optional.doctor.artifacts import quotient
 from quasistatic_ref.optional.doctor.bodies import Body, bodies
 from quasistatic_ref.optional.doctor.looks import Looking
 from quasistatic_ref.optional.doctor.start import Start
@@ -34,7 +35,6 @@ from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
     from quasistatic_ref.certify.contact_forces import ContactForces
-    from quasistatic_ref.optional.doctor.statics import Statics
     from quasistatic_ref.step.contacts import Contacts
 
 FAR = 0.1
@@ -63,7 +63,6 @@ class Run(Start):
         self.complete = trajectory.failed is None
         self._last: RunStep | None = None
         self.looking = Looking(self)
-        self.statics: Statics | None = None
 
     @property
     def load_at_start(self) -> Array:
@@ -111,6 +110,11 @@ class Run(Start):
         return np.asarray(f_n > BEARS * most)
 
     @cached_property
+    def live(self) -> Mask:
+        """Which contacts touch or press, shape (steps, n_c)."""
+        return self.touching(self["phi"]) | self.presses
+
+    @cached_property
     def mu(self) -> Array:
         """(mu_v, mu_v, mu_omega) of contacts, shape (n_c, 3) [-, -, m]."""
         return contact_mu(self.trajectory)
@@ -140,10 +144,9 @@ class Run(Start):
         n_a = self.system.n_a
         of_bodies = {}
         for body in self.bodies_of:
-            with np.errstate(all="ignore"):
-                r = self.noted("momentum")[:, body.coordinates - n_a] / self.h / self.h
-                drags = body.amount(body.inertia(self.M_u, n_a), r)
-            of_bodies[body] = np.where(np.isfinite(drags), drags, 0.0)
+            momentum = self.noted("momentum")[:, body.coordinates - n_a]
+            amount = body.amount(body.inertia(self.M_u, n_a), momentum)
+            of_bodies[body] = quotient(quotient(amount, self.h), self.h)
         return of_bodies
 
     @cached_property

@@ -153,21 +153,6 @@ class Rung(NamedTuple):
     moves: float
 
 
-class Climb(NamedTuple):
-    """What came of a step that was taken more and more slowly.
-
-    Parameters
-    ----------
-    rungs : list of Rung
-        At most the last two T that have a fixed point.
-    open : bool
-        Whether they do not say how it goes on.
-    """
-
-    rungs: list[Rung]
-    open: bool
-
-
 class Slow:
     """A step of one group at any T, by its own law and by Coulomb's.
 
@@ -252,9 +237,7 @@ class Slow:
         at, u = pressed
         forces = np.zeros((contacts.n_c, 4))
         forces[:, 2] = lam[: contacts.n_c] / step.h
-        np.add.at(forces[:, 2], at, pushes)
-        for i, column in enumerate((0, 1, 3)):
-            np.add.at(forces[:, column], at, -u[:, i] * pushes)
+        np.add.at(forces, at, pushes[:, None] * np.insert(-u, 2, 1.0, axis=1))
         forces[:, [0, 1, 3]] *= contacts.mu
         return Answer(delta_q, forces)
 
@@ -318,8 +301,11 @@ class Slow:
         return self.rung(self.step.h, np.zeros_like(self.sizes))
 
     @cached_property
-    def climbed(self) -> Climb:
-        """The step, taken more and more slowly."""
+    def climbed(self) -> list[Rung] | None:
+        """The last two T that have a fixed point, of a step that is taken more and more slowly.
+
+        None where they do not say how it goes on.
+        """
         h = self.step.h
         first = self.first
         end = max(SLOWLY, 1000 * h)
@@ -333,34 +319,29 @@ class Slow:
             ends.insert(0, far)
             s = far.s
         if len(ends) == 2:
-            if all(map(self.sticks, ends)):
-                return Climb(ends, False)
-            climbed = self._confirmed(ends, False)
-            if not climbed.open:
-                return climbed
+            confirmed = ends if all(map(self.sticks, ends)) else self._confirmed(ends, False)
+            if confirmed:
+                return confirmed
         kept = [] if first is None else [first]
         straight = max(1.0, 2 * first.moves) if first else 1.0  # what moves far at h is asked for
         T = h
-        lost = first is None
-        while end > T:
+        lost = False
+        while end > T and not lost:
             T = min(3 * T, end)
             reached = self.rung(T, _ahead(kept, nothing), sure=False)
             if reached is None:
                 lost = bool(kept)
-                if lost:
-                    break
-                continue
-            lost = False
-            if reached.moves > straight and kept:
+            elif reached.moves > straight and kept:
                 T = _until(kept[-1], reached, straight)
                 reached = self.rung(T, kept[-1].s, sure=False) if T > 1.2 * kept[-1].T else None
                 kept += [] if reached is None else [reached]
                 break
-            kept.append(reached)
+            else:
+                kept.append(reached)
         return self._confirmed(kept, lost)
 
-    def _confirmed(self, kept: list[Rung], lost: bool) -> Climb:
-        """The last two rungs that proved answers confirm."""
+    def _confirmed(self, kept: list[Rung], lost: bool) -> list[Rung] | None:
+        """The last two rungs that proved answers confirm; where a later one is lost, they agree."""
         sure: list[Rung] = []
         for one in kept[::-1]:
             if not (one.answer.proved or self.sticks(one)):
@@ -375,23 +356,22 @@ class Slow:
             if len(sure) == 2:
                 break
         if len(sure) < 2 or not lost:
-            return Climb(sure, len(sure) < 2)
+            return sure if len(sure) == 2 else None
         a, b = (x.answer.delta_q[self.step.n_a :] / x.T**2 for x in sure)
         off = np.sqrt((a - b) @ self.step.M_u @ (a - b))
-        agrees = bool(off <= AGREES * np.sqrt(b @ self.step.M_u @ b))
-        return Climb(sure, not agrees)
+        return sure if off <= AGREES * np.sqrt(b @ self.step.M_u @ b) else None
 
     def sticks(self, one: Rung) -> bool:
         """Whether nothing slips."""
         return bool((one.s <= STICKS * self.sizes).all())
 
     @cached_property
-    def in_round(self) -> Climb:
-        """The same T in the round cone; open where one of them has no fixed point there."""
+    def in_round(self) -> list[Rung] | None:
+        """The same T in the round cone; None where one of them has no fixed point there."""
         slow = Slow(self.step.with_fields(cone=ELLIPSOID), self.solvers, self.sizes)
-        rungs = [slow.rung(one.T, one.s) for one in self.climbed.rungs]
+        rungs = [slow.rung(one.T, one.s) for one in self.climbed or ()]
         confirmed = [one for one in rungs if one is not None]
-        return Climb(confirmed, len(confirmed) < len(rungs))
+        return confirmed if len(confirmed) == len(rungs) else None
 
 
 def alike(step: StepData, sizes: Array) -> bytes:
@@ -459,15 +439,13 @@ def landed(step: StepData, presses: Mask, delta_q: Array) -> StepData:
     )
 
 
-def missing(step: StepData, climbed: Climb, coordinates: Indices) -> Array:
+def missing(step: StepData, rungs: list[Rung], coordinates: Indices) -> Array:
     """What no forces bear of the loads on some un-actuated coordinates, shape (n,) [N, N m].
 
     Of a step that ends where it is no longer straight, what goes with 1/T^2 is left out.
     """
-    one, other = climbed.rungs
-    r_1, r_2 = (
-        -(step.M_u @ x.answer.delta_q[step.n_a :])[coordinates] / x.T**2 for x in climbed.rungs
-    )
+    one, other = rungs
+    r_1, r_2 = (-(step.M_u @ x.answer.delta_q[step.n_a :])[coordinates] / x.T**2 for x in rungs)
     M = step.M_u[np.ix_(coordinates, coordinates)]
     left = (other.T**2 * r_2 - one.T**2 * r_1) / (other.T**2 - one.T**2)
     size_1, size_2, size_left, change = (

@@ -11,18 +11,25 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.doctor import chosen
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
-from quasistatic_ref.optional.doctor.looks import COULOMB, MODEL, ROUND, RUN, SLOW, Look, resultants
+from quasistatic_ref.optional.doctor.looks import (
+    COULOMB,
+    MODEL,
+    ROUND,
+    RUN,
+    SLOW,
+    Look,
+    Looking,
+    resultants,
+)
 from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.slowly import LITTLE
 from quasistatic_ref.optional.doctor.start import least, slices
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.optional.doctor.unsupported import falls
 from quasistatic_ref.simulate.finding import Finding
 
 DISTANCE = "the step shows where to, not how far"
-STILL = 0.01
-"""What a body that lies still drags, over its own load [-]."""
 SLID = 0.01
 """Slip over the smaller shape, or spin [rad], of a run, or of as many steps like the one that is
 looked at, from which it counts [-]."""
@@ -32,80 +39,16 @@ INNER = 1e-6
 """Part of an inner load, of length 1, that is none in the resultants of a pair [-]."""
 
 
-class Statics:
-    """What looks at a run's steps say.
-
-    Parameters
-    ----------
-    run : Run
-    """
-
-    def __init__(self, run: Run) -> None:
-        self.run = run
-        self._rests: dict[str, bool] = {}
-        self.left = chosen.looked(run)
-        self.looks = [run.looking.looks[k] for k in sorted(run.looking.looks)]
-
-    @property
-    def open(self) -> set[str]:
-        """Bodies that were asked, and of which no look has an answer."""
-        lost = {name for look in self.looks for name in look.lost}
-        return lost - {name for look in self.looks for name in look.bodies}
-
-    @property
-    def not_looked_at(self) -> str:
-        """One line on bodies whose looks have no answer, and on what is beyond the budget."""
-        lines = []
-        if self.open:
-            lines.append(f"equilibrium of {listed(sorted(self.open))}: no fixed point was found")
-        if large := {name for look in self.looks for name in look.large}:
-            lines.append(f"equilibrium of {len(large)} bodies: too many of them touch")
-        if self.left:
-            lines.append(f"{self.left} steps with other contacts: {chosen.PROVED} proofs were made")
-        return "; ".join(lines)
-
-    def lacks(self, name: str) -> list[tuple[Look, Missing]]:
-        """The looks in which something is missing of a body."""
-        return [
-            (look, look.missing[SLOW][name]) for look in self.looks if name in look.missing[SLOW]
-        ]
-
-    def rests(self, body: Body) -> bool:
-        """Whether a body lies still in the last step, and nothing is missing in it.
-
-        What creeps, borne by its layer, hardly moves, but lacks something.
-        """
-        run = self.run
-        if body.name not in self._rests:
-            still = bool(run.drags[body][-1] <= STILL * run.loads[body][-1])
-            if still and self.lacks(body.name):
-                last = run.looking.at(run.steps - 1, body.name)
-                still = body.name not in {*last.missing[SLOW], *last.lost}
-            self._rests[body.name] = still
-        return self._rests[body.name]
-
-    def settles(self, body: Body, first: int = 0) -> bool:
-        """Whether a body moves little from a step on, and lies still at the end of the run."""
-        return self.rests(body) and not self.run.gets_far(body, first)
-
-
-def statics(run: Run) -> Statics:
-    """The looks of a run, which it keeps."""
-    if run.statics is None:
-        run.statics = Statics(run)
-    return run.statics
-
-
 def out_of_balance(run: Run) -> Iterator[Finding]:
     """Bodies whose loads no forces of Coulomb's law bear, by the run's cone.
 
     A body that falls until the end because its contacts bear nothing is in free fall; one that
     settles by less than a tenth of its size has no finding.
     """
-    every = statics(run)
+    every = run.looking
+    lacks = {body: every.lacks(body.name) for body in run.bodies_of}
     falling = falls(run)
-    for body in run.bodies_of:
-        lacking = every.lacks(body.name)
+    for body, lacking in lacks.items():
         if not lacking or _in_corners(lacking, body):
             continue
         look, missing = max(lacking, key=lambda x: x[1].amount)
@@ -116,7 +59,7 @@ def out_of_balance(run: Run) -> Iterator[Finding]:
         if every.rests(body):
             if every.settles(body):
                 continue
-            drags = run.drags[body][look.k :] > chosen.LITTLE * run.loads[body][look.k :]
+            drags = run.drags[body][look.k :] > LITTLE * run.loads[body][look.k :]
             steps = 1 + int(np.flatnonzero(drags).max(initial=0))
             way, turn = run.way(body, look.k)
             does = f"falls by {length(way)}"
@@ -149,7 +92,7 @@ def corners(run: Run) -> Iterator[Finding]:
     Bodies that are in equilibrium in the round cone alone come first; then those that lack another
     force there, and the pair whose forces differ most.
     """
-    every = statics(run)
+    every = run.looking
     held: dict[str, int] = {}
     other: list[tuple[float, str, int, Missing, Missing]] = []
     for body in run.bodies_of:
@@ -311,12 +254,12 @@ class Change(NamedTuple):
 
 def _largest(run: Run, one: str, other: str, counts: Callable[[Change], bool]) -> Change | None:
     """The change of largest share, from one law to another, of those that count."""
-    every = statics(run)
-    changes = (change for look in every.looks for change in _changes(every, look, one, other))
+    every = run.looking
+    changes = (change for look in every.chosen for change in _changes(every, look, one, other))
     return max(filter(counts, changes), key=lambda change: change.share, default=None)
 
 
-def _changes(every: Statics, look: Look, one: str, other: str) -> Iterator[Change]:
+def _changes(every: Looking, look: Look, one: str, other: str) -> Iterator[Change]:
     """The changes of pairs, from one law to another, whose bodies are in equilibrium."""
     run = every.run
     k = look.k

@@ -11,7 +11,6 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.looks import SLOW
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
-from quasistatic_ref.optional.doctor.statics import statics
 from quasistatic_ref.optional.doctor.telling import amount
 from quasistatic_ref.optional.doctor.tolerances import BEYOND, SUNK
 from quasistatic_ref.simulate.finding import Finding
@@ -34,7 +33,7 @@ def leaps(run: Run) -> Iterator[Finding]:
     How far a body moves that is not in equilibrium says nothing: it has a finding of its own.
     """
     sides = run.sides
-    looks = [] if run.own_terms else statics(run).looks
+    looks = [] if run.own_terms else run.looking.chosen
     unbalanced = {name for look in looks for name in look.missing[SLOW]}
     jumps = {
         track.joint.name: abs(float(track.values[0, 0] - run.q_start[track.joint.q][0]))

@@ -11,7 +11,7 @@ import quasistatic_ref as qr
 from quasistatic_ref import load_scenario, load_trajectory
 from quasistatic_ref.formats.npz import json_array
 from quasistatic_ref.lab.bench.scenes import boxes
-from quasistatic_ref.optional.doctor import chosen, looks, observer, slowly, start
+from quasistatic_ref.optional.doctor import looks, observer, slowly, start
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.header import header_table
 from tests.extras import SCENARIOS_TO_RUN
@@ -187,7 +187,7 @@ def test_groups_that_are_alike_are_proved_once(monkeypatch):
 
 
 def test_what_is_beyond_the_budget_is_counted_and_what_moves_far_is_asked_once(monkeypatch):
-    monkeypatch.setattr(chosen, "PROVED", 0)
+    monkeypatch.setattr(looks, "PROVED", 0)
     run = slid()
     names = [found.name for found in run.findings]
     assert names.count("not in equilibrium") == 3
