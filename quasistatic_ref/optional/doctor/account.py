@@ -27,7 +27,7 @@ from quasistatic_ref.optional.doctor.accounts import (
     PairAccount,
     Stop,
 )
-from quasistatic_ref.optional.doctor.artifacts import pressing
+from quasistatic_ref.optional.doctor.artifacts import gap_after, pressing
 from quasistatic_ref.optional.doctor.telling import (
     drive_numbers,
     motion_numbers,
@@ -41,6 +41,7 @@ from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.contacts import friction_coefficients
 
 TOUCHES: Final = 1e-9
 """Slack of a row of a contact that touches, at most [m]: certified steps leave rounding, 1e-16, and
@@ -247,7 +248,7 @@ def pair_accounts(
         slips = contact_slips(run, motion)
         slip = np.hypot(slips[:, :, 0], slips[:, :, 1])
         turn = np.abs(slips[:, :, 2])
-        gap = run["phi"] + np.vecdot(motion[:, :, :3], run["n"])
+        gap = gap_after(run["phi"], run["n"], motion)
         slack = gap - slip_norm(contact_mu(run) * slips, run.header.cone)
         touch &= slack <= NEAR
         if cone(run.header.cone).polyhedral:
@@ -387,8 +388,7 @@ def contact_slips(run: Trajectory, motion: Array) -> Array:
 
 def contact_mu(run: Trajectory) -> Array:
     """(mu_v, mu_v, mu_omega) of contacts, which is 0 where it is not used, (n_c, 3) [-, -, m]."""
-    mu_omega = np.where(run["rows"] == 6, run["mu_omega"], 0.0)
-    return np.stack([run["mu_v"], run["mu_v"], mu_omega], axis=1)
+    return friction_coefficients(run["mu_v"], run["mu_omega"], run["rows"])
 
 
 def _motion(joint: Joint, q: Array, hands: Sequence[Joint]) -> Motion:

@@ -1,19 +1,20 @@
-"""How far a run is from physics: its quasi-dynamic number and its boundary layer.
+"""How far a run is from physics: its quasi-dynamic number and its boundary layer."""
 
-They are measured of several steps of a simulator at once, along the first axis.
-"""
+from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.model.system import System
-from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.numbers.ordered import dot
-from quasistatic_ref.optional.doctor.start import free_bases
+from quasistatic_ref.numbers.arrays import Array, Mask, without_warnings
+from quasistatic_ref.numbers.ordered import dot, norm
 from quasistatic_ref.optional.doctor.tolerances import BEARS
 from quasistatic_ref.step.data import StepData
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.doctor.run import Run
 
 LIGHT = 1e-3
 """Force that is none, over the weight of a scene's bodies or its largest load [-]."""
@@ -30,12 +31,6 @@ def quotient(over: ArrayLike, under: ArrayLike, none: float = 0.0) -> Array:
     return np.where(np.isfinite(quotients), quotients, none)
 
 
-def _lengths(vectors: Array) -> Array:
-    """Lengths of vectors, shape (steps, 3), as ``np.linalg.norm`` has that of one."""
-    with np.errstate(all="ignore"):
-        return np.asarray(np.sqrt(np.vecdot(vectors, vectors)))
-
-
 def pressing(normal: Array) -> Mask:
     """Which contacts bear more than noise of the largest force, shape (..., n_c), as `normal`.
 
@@ -47,34 +42,23 @@ def pressing(normal: Array) -> Mask:
     return np.asarray(normal > BEARS * normal.max(axis=-1, initial=0.0, keepdims=True))
 
 
-def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: float) -> Array:
-    """Pi = v / (mu_v g h) of each step: the drag m v / h over the friction mu_v m g.
+def quasi_dynamic_number(run: Run) -> float | None:
+    """The largest Pi = v / (mu_v g h) of its steps: the drag m v / h over the friction mu_v m g.
 
     mu_v m g is the friction of a body that rests by its own weight, not of a body that is held. v
     is the speed of the fastest un-actuated floating base, mu_v the least of the contacts that rub.
-
-    Parameters
-    ----------
-    system : System
-    step : StepData
-        One of them.
-    delta_q : ndarray, shape (steps, n_v)
-    g : float
-        Length of gravity [m/s^2].
-
-    Returns
-    -------
-    ndarray, shape (steps,)
-        NaN where nothing floats, nothing rubs or nothing weighs, or where float64 has no number
-        for it, as with a mu_v of 1e-323.
+    None where nothing floats, nothing rubs or nothing weighs, or where float64 has no number for
+    it, as with a mu_v of 1e-323.
     """
-    bases = [base.v.start for base in free_bases(system).values()]
-    rough = step.contacts.mu_v[step.contacts.mu_v > 0]
-    if not (bases and rough.size and g > 0):
-        return np.full(len(delta_q), np.nan)
-    moved = np.max([_lengths(delta_q[:, start : start + 3]) for start in bases], axis=0)
-    speed = quotient(moved, step.h, np.nan)
-    return quotient(speed, float(rough.min()) * g * step.h, np.nan)
+    mu_v = run.simulator.layout.mu_v
+    if not (run.free_bases and mu_v.any() and run.g > 0):
+        return None
+    at = [base.v.start for base in run.free_bases.values()]
+    ways = [without_warnings(norm, run["delta_q"][:, i : i + 3]) for i in at]
+    speed = quotient(np.max(ways, axis=0), run.h, np.nan)
+    Pi = quotient(speed, float(mu_v[mu_v > 0].min()) * run.g * run.h, np.nan)
+    known = Pi[np.isfinite(Pi)]
+    return float(known.max()) if known.size else None
 
 
 def gap_after(phi: Array, n: Array, motion: Array) -> Array:
@@ -90,17 +74,9 @@ def gap_after(phi: Array, n: Array, motion: Array) -> Array:
     return phi + dot(n, motion[:, :, :3])
 
 
-def boundary_layer(gap: Array, wrench: Array) -> Array:
-    """Largest gap [m] that a contact with load has after each step, (steps,); 0 without load.
-
-    Parameters
-    ----------
-    gap : ndarray, shape (steps, n_c)
-        Of :func:`gap_after` [m].
-    wrench : ndarray, shape (steps, n_c, 4)
-        [N, N m].
-    """
-    return np.asarray(gap.max(axis=1, where=pressing(wrench[:, :, 2]), initial=0.0))
+def boundary_layer(run: Run) -> float:
+    """Largest gap [m] that a contact with load has after a step; 0 without load."""
+    return float(np.nanmax(run.gap, where=pressing(run["wrench"][:, :, 2]), initial=0.0))
 
 
 def gives(steps: Sequence[StepData]) -> Array:

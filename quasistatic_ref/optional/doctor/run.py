@@ -19,7 +19,7 @@ from quasistatic_ref.optional.doctor.account import (
     sides,
 )
 from quasistatic_ref.optional.doctor.accounts import PairAccount
-from quasistatic_ref.optional.doctor.artifacts import quotient
+from quasistatic_ref.optional.doctor.artifacts import gap_after, quotient
 from quasistatic_ref.optional.doctor.bodies import Body, bodies
 from quasistatic_ref.optional.doctor.looks import Looking
 from quasistatic_ref.optional.doctor.start import Start
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from quasistatic_ref.certify.contact_forces import ContactForces
     from quasistatic_ref.step.contacts import Contacts
 
+NOTED = ("tau", "moved", "momentum", "gives")
+"""What of a recorder, which may go, is kept: loads of each step, and what the observer notes."""
 FAR = 0.1
 """Way of a body over its size [-], or its turn [rad], that counts."""
 HELD = 1e-9
@@ -56,7 +58,9 @@ class Run(Start):
 
     def __init__(self, recorder: Recording, trajectory: Trajectory) -> None:
         super().__init__(recorder.simulator, recorder.start)
-        self.recorder = recorder
+        self.tracks = recorder.tracks
+        self.idle_columns = recorder.idle_columns
+        self._noted = {name: recorder.noted(name) for name in NOTED}
         self.trajectory = trajectory
         self.arrays = trajectory.arrays
         self.steps = trajectory.steps
@@ -189,7 +193,12 @@ class Run(Start):
 
     def noted(self, name: str) -> NDArray[Any]:
         """What the recorder keeps of each step and the trajectory does not, shape (steps, ...)."""
-        return self.recorder.noted(name)
+        return self._noted[name]
+
+    @cached_property
+    def gap(self) -> Array:
+        """Gaps after each step, shape (steps, n_c) [m]."""
+        return gap_after(self["phi"], self["n"], self.noted("moved"))
 
     @cached_property
     def points(self) -> ClosestPoints:
@@ -282,9 +291,3 @@ class RunStep:
         """
         compliant = self.compliant
         return np.asarray(self.run["wrench"][self.k]) if compliant is None else compliant.wrench
-
-
-def largest(values: Array) -> float | None:
-    """The largest of some values, shape (steps,) [any unit], those that are not known left out."""
-    known = values[~np.isnan(values)]
-    return float(known.max()) if known.size else None

@@ -37,7 +37,7 @@ def leaps(run: Run) -> Iterator[Finding]:
     unbalanced = {name for look in looks for name in look.missing[SLOW]}
     jumps = {
         track.joint.name: abs(float(track.values[0, 0] - run.q_start[track.joint.q][0]))
-        for track in run.recorder.tracks
+        for track in run.tracks
         if track.joint.q.stop - track.joint.q.start == 1
     }
     links = np.array([side.link for side in sides], dtype=np.int64)
@@ -82,7 +82,7 @@ def leaps(run: Run) -> Iterator[Finding]:
 def sunk(run: Run) -> Iterator[Finding]:
     """Of each table of contacts the first that is found."""
     first: dict[str, Finding] = {}
-    gap = run.noted("gap")
+    gap = run.gap
     for pair, slots in slices(run.pairs):
         finding = _surprise(run, pair, run["phi"][:, slots], run["point"][:, slots], gap[:, slots])
         name = table(run, pair)

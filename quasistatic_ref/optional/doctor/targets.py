@@ -42,7 +42,7 @@ def beyond_limits(run: Run) -> Iterator[Finding]:
 
 def idle_columns(run: Run) -> Iterator[Finding]:
     """Columns of a table of targets whose numbers change, and no force does."""
-    for name in run.recorder.idle_columns:
+    for name in run.idle_columns:
         yield Finding(
             "target without effect",
             True,

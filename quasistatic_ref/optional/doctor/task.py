@@ -56,13 +56,12 @@ class Task:
 
     def __init__(self, run: Run) -> None:
         self.run = run
-        self.tracks = run.recorder.tracks
         self.accounts = run.pair_accounts
 
     @property
     def finished(self) -> bool:
         """Whether there are waypoints, and the run goes on to the last of them."""
-        times = [float(track.times[-1]) for track in self.tracks]
+        times = [float(track.times[-1]) for track in self.run.tracks]
         return bool(times) and max(times) <= (self.run.steps + 0.5) * self.run.h
 
     @cached_property
@@ -100,7 +99,7 @@ def late(run: Run) -> Iterator[Finding]:
     """
     end = run.steps * run.h
     first: dict[str, float] = {}
-    for track in run.recorder.tracks:
+    for track in run.tracks:
         moved = (track.values != track.values[0]).any(axis=1)
         if moved.any():
             first[track.joint.name] = float(track.times[moved.argmax()])
@@ -125,7 +124,7 @@ def still(run: Run) -> Iterator[Finding]:
     task = Task(run)
     n = run.system.n_q_a
     tables = task.tables
-    later = any((track.values != track.values[0]).any() for track in task.tracks)
+    later = any((track.values != track.values[0]).any() for track in run.tracks)
     if not n or later or not tables or any(map(task.touched, tables.values())):
         return
     if np.abs(run["q_bar_a"] - run["q"][0, :n]).max() <= HELD:
@@ -304,7 +303,7 @@ def short(run: Run) -> Iterator[Finding]:
     if not task.finished:
         return
     lag = run.system.actuated_difference(run["q"][-1], run["q_bar_a"][-1])
-    for track in task.tracks:
+    for track in run.tracks:
         joint = track.joint
         scalar = joint.v.stop == joint.v.start + 1
         if not (scalar or joint.lengths > 1) or _at_a_stop(run, joint):

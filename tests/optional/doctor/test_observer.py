@@ -230,7 +230,7 @@ def test_a_file_from_before_there_were_findings_has_none(tmp_path):
     assert load_trajectory(tmp_path / "old.npz").findings == ()
 
 
-@pytest.mark.parametrize("name", ["findings", "Notes"])
+@pytest.mark.parametrize("name", ["findings", "Run"])
 def test_an_error_in_the_findings_costs_the_findings_and_not_the_run(name, monkeypatch):
     def fails(*_):
         raise MemoryError("no room for (200, 600, 600)")
