@@ -54,18 +54,18 @@ class Draw:
         """One that stands on z = 0."""
         return self.cube(0, 0, self.edge / 2)
 
-    def scene(self, bodies, contacts, steps, hand=None, pressed=None, also=(), **more):
+    def scene(self, bodies, contacts, steps, hand=None, also=(), **more):
         """A scenario with up to two more cubes on the floor, and what is right of it.
 
-        These are the numbers of each finding that is right by hand; what the springs behind a pair
-        press with at the end [N]; and findings that are right, too, without a closed form.
+        These are the numbers of each finding that is right by hand, and findings that are right,
+        too, without a closed form.
         """
         for i in range(self.rng.integers(3)):
             mass = self.between(0.02, 20.0)
             bodies[f"other{i}"] = free(block(mass, (0.1,) * 3), (1, 0.2 * i, 0.05))
             contacts[f"other{i}"] = ("floor", f"other{i}", 0.5, 4)
         run = scene(bodies, contacts, steps, fast=True, **({"h": self.h} | more))
-        return run, hand or {}, pressed or {}, {*also}
+        return run, hand or {}, {*also}
 
 
 def finger(at, K, targets):
@@ -131,7 +131,7 @@ def lifted(d):
     N = d.between(1.15, 3.0) * d.m * G / (2 * d.mu)
     v = d.between(1e-3, 0.02) * G * d.h
     bodies = gripped(d, N, d.edge, (10.0, 10 * v, 1.0)) | {"b": d.cube(0, 0, 0)}
-    return d.scene(bodies, {"c": (BOTH, "b", d.mu, 1, 0.01)}, 20, pressed={"c": 2 * N})
+    return d.scene(bodies, {"c": (BOTH, "b", d.mu, 1, 0.01)}, 20)
 
 
 def regrasped(d):
@@ -140,7 +140,7 @@ def regrasped(d):
     opens = gripped(d, N, d.edge, (9.5 * d.h, 0.0, 1.0), (10 * d.h, 0.0, -0.4))
     bodies = opens | gripped(d, N, d.edge, axis="y") | {"b": d.cube(0, 0, 0)}
     four = [*BOTH, "left_y/tip", "right_y/tip"]
-    return d.scene(bodies, {"c": (four, "b", d.mu, 1, 0.01)}, 20, pressed={"c": 2 * N})
+    return d.scene(bodies, {"c": (four, "b", d.mu, 1, 0.01)}, 20)
 
 
 def rolled(d):
@@ -151,7 +151,7 @@ def rolled(d):
     top = plate(K, (v, 0), -N / K, d.edge + 0.01)
     bodies = {"plate": top, "b": free(solid(d.m, Sphere(d.edge / 2)), (0, 0, d.edge / 2))}
     contacts = {"floor": ("floor", "b", d.mu, 1), "top": ("plate/tip", "b", d.mu, 1)}
-    return d.scene(bodies, contacts, 20, pressed={"top": N})
+    return d.scene(bodies, contacts, 20)
 
 
 def wiped(d):
@@ -220,13 +220,13 @@ def bar(d, times):
     size = (0.02, length, 0.02)
     bodies = gripped(d, N, 0.02) | {"b": free(block(m, size), (0, off, 0))}
     inertia = m / 12 * (size[1] ** 2 + size[2] ** 2)
-    return m, c, w, N, inertia, bodies, {"c": (BOTH, "b", mu, 1, w)}
+    return (m, c, w, N, inertia), bodies, {"c": (BOTH, "b", mu, 1, w)}
 
 
 def held_off_its_centre(d):
     """By a margin of 1.15 to 2."""
-    *_, N, _, bodies, contacts = bar(d, d.rng.uniform(1.15, 2.0))
-    return d.scene(bodies, contacts, 8, pressed={"c": 2 * N})
+    _, *parts = bar(d, d.rng.uniform(1.15, 2.0))
+    return d.scene(*parts, 8)
 
 
 # ---- broken
@@ -248,7 +248,7 @@ def pressed_on_a_wall(d):
     contacts = {"wall": ("wall", "b", d.mu, 4), "f": ("f/tip", "b", d.mu, 1)}
     hand = lacks(d.m * G - 2 * d.mu * N)
     also = ["uncertain forces"]  # of its four corners on the wall
-    return d.scene(bodies, contacts, 3, hand, {"f": N}, also, shapes=wall)
+    return d.scene(bodies, contacts, 3, hand, also, shapes=wall)
 
 
 def weak_grip(d):
@@ -257,7 +257,7 @@ def weak_grip(d):
     bodies = gripped(d, N, d.edge) | {"b": d.cube(0, 0, 0)}
     hand = lacks(d.m * G - 2 * d.mu * N)
     d.h = min(d.h, 0.01)
-    return d.scene(bodies, {"c": (BOTH, "b", d.mu, 1, 0.01)}, 2, hand, {"c": 2 * N})
+    return d.scene(bodies, {"c": (BOTH, "b", d.mu, 1, 0.01)}, 2, hand)
 
 
 def turns_in_its_grip(d):
@@ -269,10 +269,10 @@ def turns_in_its_grip(d):
 
     f is between 0 and m g / 2 <= mu N, since al c < g.
     """
-    m, c, w, N, inertia, bodies, contacts = bar(d, None)
+    (m, c, w, N, inertia), *parts = bar(d, None)
     al = (m * G * c - 2 * w * N) / (inertia + m * c**2)
     hand = lacks(m * c * al, inertia * al)
-    return d.scene(bodies, contacts, 1, hand, {"c": 2 * N}, ["corners of the cone"])
+    return d.scene(*parts, 1, hand, ["corners of the cone"])
 
 
 def steep(d):
