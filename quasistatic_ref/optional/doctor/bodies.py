@@ -144,11 +144,9 @@ def bodies(start: Start) -> Iterator[Body]:
     n_a = system.n_a
     coordinates = system.coordinates[n_a:]
     joints = [joint for joint in system.joints if not joint.actuated]
-    of_joint = np.zeros((len(joints), len(coordinates)), dtype=bool)
-    for i, joint in enumerate(joints):
-        of_joint[i, joint.v.start - n_a : joint.v.stop - n_a] = True
-    couplings = np.vstack([of_joint, start.M_u != 0])
-    label, _ = labels(couplings)
+    of_joint = [[c.joint == joint.name for c in coordinates] for joint in joints]
+    of_joints = np.reshape(of_joint, (len(joints), len(coordinates))).astype(bool)
+    label, _ = labels(np.vstack([of_joints, start.M_u != 0]))
     of = np.array([side.link for side in start.sides], dtype=np.int64)
     extents = np.array([side.shape.extent for side in start.sides])
     for first in np.unique(label):

@@ -21,7 +21,7 @@ from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.data import Extra, no_rows
 
 if TYPE_CHECKING:
     from quasistatic_ref.optional.extensions.extension import Extension
@@ -95,9 +95,10 @@ class Start:
         return None if extension is None else extension(self.q_start)
 
     @property
-    def rows(self) -> Extra | None:
+    def rows(self) -> Extra:
         """Rows of the extension that are numbers, such as stops of joints."""
-        return None if self.extension is None else self.extension.rows
+        rows = None if self.extension is None else self.extension.rows
+        return no_rows(self.system.n_v) if rows is None else rows
 
     @property
     def raised(self) -> Indices:
@@ -108,8 +109,7 @@ class Start:
     @cached_property
     def bounded(self) -> Indices:
         """Entries of delta_q that rows of an extension bound, such as stops of joints."""
-        rows = self.rows
-        return np.zeros(0, dtype=np.int64) if rows is None else np.flatnonzero(rows.A.any(axis=0))
+        return np.flatnonzero(self.rows.A.any(axis=0))
 
     @cached_property
     def moves(self) -> Mask:
@@ -157,7 +157,8 @@ class Start:
     @cached_property
     def free_bases(self) -> dict[str, Joint]:
         """The floating bases that nothing actuates, by their bodies."""
-        return free_bases(self.system)
+        bases = [j for j in self.system.joints if j.free and not j.actuated]
+        return {base.name.removesuffix("/base"): base for base in bases}
 
     @cached_property
     def pair_of(self) -> Indices:
@@ -246,12 +247,6 @@ def least(pair: ContactPair) -> float:
 def body(system: System, link: int) -> str:
     """The body of a link; ``"world"`` of link 0."""
     return system.links[link].partition("/")[0]
-
-
-def free_bases(system: System) -> dict[str, Joint]:
-    """The floating bases that nothing actuates, by their bodies."""
-    bases = [j for j in system.joints if j.free and not j.actuated]
-    return {base.name.removesuffix("/base"): base for base in bases}
 
 
 def centre(system: System, kinematics: Kinematics, name: str) -> Array:

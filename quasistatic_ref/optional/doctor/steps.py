@@ -93,8 +93,7 @@ def sunk(run: Run) -> Iterator[Finding]:
 
 def crossed(run: Run) -> Iterator[Finding]:
     """The first pair that comes from where MuJoCo looks for no contact into the other's depth."""
-    counts = np.array([pair.n_c for pair in run.pairs], dtype=np.int64)
-    nearest = np.cumsum(counts) - counts
+    nearest = [at.start for _, at in slices(run.pairs)]
     phi = run["phi"][:, nearest]
     if not (phi >= FILLED).any():
         return

@@ -5,7 +5,6 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.account import drive, stiffness
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.slowly import SLOWLY
@@ -24,12 +23,8 @@ is asked no sooner."""
 
 def beyond_limits(run: Run) -> Iterator[Finding]:
     """Targets beyond a limit that the URDF names, of each joint the farthest."""
-    for joint, unit in _limited(run):
-        if not joint.actuated:
-            continue
-        target, limit, k = _farthest(joint, run["q_bar_a"])
-        far = unit == "m" and abs(target) > IN_METRES  # its unit is doubted already
-        if abs(target - limit) > _allowed(joint) and not far:
+    for joint, unit, target, limit, k in _beyond(run, "q_bar_a"):
+        if unit == "rad" or abs(target) <= IN_METRES:  # else its unit is doubted already
             yield Finding(
                 "target beyond a limit",
                 True,
@@ -55,13 +50,9 @@ def idle_columns(run: Run) -> Iterator[Finding]:
 
 def joints_beyond(run: Run) -> Iterator[Finding]:
     """Joints that are pushed beyond a limit that the URDF names, of each the farthest."""
-    for joint, unit in _limited(run):
-        position, limit, k = _farthest(joint, run["q"])
-        if joint.actuated:
-            target, end, _ = _farthest(joint, run["q_bar_a"])
-            if abs(target - end) > _allowed(joint):
-                continue  # its target is said
-        if abs(position - limit) > _allowed(joint):
+    said = [joint for joint, *_ in _beyond(run, "q_bar_a")]
+    for joint, unit, position, limit, k in _beyond(run, "q"):
+        if joint not in said:
             body = joint.name.partition("/")[0]
             yield Finding(
                 "joint beyond a limit",
@@ -125,27 +116,21 @@ def _bears(run: Run, joint: Joint, k: int) -> float:
     return float(abs(K_q[v] @ off))
 
 
-def _limited(run: Run) -> Iterator[tuple[Joint, str]]:
-    """Joints with limits at which nothing stops them, and their units."""
-    for joint in run.system.joints:
-        if joint.limits is not None and joint.v.start not in run.bounded:
-            yield joint, joint.coordinates[0].unit
+def _beyond(run: Run, name: str) -> Iterator[tuple[Joint, str, float, float, int]]:
+    """Of joints beyond limits at which nothing stops them: unit, position, limit and step.
 
-
-def _allowed(joint: Joint) -> float:
-    """How far it may be beyond a limit unsaid: springs give way [m, rad]."""
-    assert joint.limits is not None
-    lower, upper = joint.limits
-    return max(BEYOND, min(SHARE * (upper - lower), MOST[joint.coordinates[0].unit]))
-
-
-def _farthest(joint: Joint, q: Array) -> tuple[float, float, int]:
-    """Where a joint is farthest beyond a limit of its own, that limit, and the step.
-
-    Where it is beyond none, its position twice.
+    They are those of q, or of q_bar_a, that are farthest beyond. Springs give way: a joint may be
+    beyond by little.
     """
-    at = q[:, joint.q][:, 0]
-    assert joint.limits is not None
-    within = np.clip(at, *joint.limits)
-    k = int(abs(at - within).argmax())
-    return float(at[k]), float(within[k]), k
+    for joint in run.system.joints:
+        if joint.limits is None or joint.v.start in run.bounded:
+            continue
+        if name == "q_bar_a" and not joint.actuated:
+            continue
+        unit = joint.coordinates[0].unit
+        lower, upper = joint.limits
+        at = run[name][:, joint.q][:, 0]
+        within = np.clip(at, lower, upper)
+        k = int(abs(at - within).argmax())
+        if abs(at[k] - within[k]) > max(BEYOND, min(SHARE * (upper - lower), MOST[unit])):
+            yield joint, unit, float(at[k]), float(within[k]), k

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from contextlib import suppress
-from functools import cached_property
 from itertools import combinations
 from typing import Final
 
@@ -13,7 +12,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.account import side
 from quasistatic_ref.optional.doctor.placed import inside
 from quasistatic_ref.optional.doctor.run import Run
@@ -46,50 +45,35 @@ MOST = 300
 """Pairs of shapes that are looked at."""
 
 
-class Task:
-    """A run, and who was to do what in it.
+def finished(run: Run) -> bool:
+    """Whether there are waypoints, and the run goes on to the last of them."""
+    times = [float(track.times[-1]) for track in run.tracks]
+    return bool(times) and max(times) <= (run.steps + 0.5) * run.h
 
-    Parameters
-    ----------
-    run : Run
-    """
 
-    def __init__(self, run: Run) -> None:
-        self.run = run
-        self.accounts = run.pair_accounts
+def acting(run: Run) -> dict[str, list[int]]:
+    """The pairs by which something driven acts on something free, by their tables."""
+    by_table: dict[str, list[int]] = {}
+    for i, pair in enumerate(run.pairs):
+        links = [pair.alpha.link, pair.beta.link]
+        if run.driven[links].any() and run.free[links].any():
+            by_table.setdefault(run.pair_accounts[i].table, []).append(i)
+    return by_table
 
-    @property
-    def finished(self) -> bool:
-        """Whether there are waypoints, and the run goes on to the last of them."""
-        times = [float(track.times[-1]) for track in self.run.tracks]
-        return bool(times) and max(times) <= (self.run.steps + 0.5) * self.run.h
 
-    @cached_property
-    def tables(self) -> dict[str, list[int]]:
-        """The pairs by which something driven acts on something free, by their tables."""
-        by_table: dict[str, list[int]] = {}
-        for i, pair in enumerate(self.run.pairs):
-            links = [pair.alpha.link, pair.beta.link]
-            if self.run.driven[links].any() and self.run.free[links].any():
-                by_table.setdefault(self.accounts[i].table, []).append(i)
-        return by_table
+def touched(run: Run, pairs: list[int]) -> bool:
+    """Whether one of some pairs ever touched."""
+    return any(run.pair_accounts[i].touches.any() for i in pairs)
 
-    def touched(self, pairs: list[int]) -> bool:
-        """Whether one of some pairs ever touched."""
-        return any(self.accounts[i].touches.any() for i in pairs)
 
-    def contacts(self, pairs: list[int]) -> Indices:
-        """Numbers of the contacts of some pairs."""
-        return np.flatnonzero(np.isin(self.run.pair_of, pairs))
-
-    def grips(self, pairs: list[int]) -> Mask:
-        """Whether two contacts of some pairs that touch face each other, shape (steps,)."""
-        contacts = self.contacts(pairs)
-        each = self.run.pair_of[contacts].tolist()
-        on = np.stack([self.accounts[i].touches for i in each], axis=1)
-        sign = np.where(self.run.free[[self.run.pairs[i].alpha.link for i in each]], -1.0, 1.0)
-        n = self.run["n"][:, contacts] * np.where(on, sign, 0.0)[:, :, None]
-        return np.asarray(np.einsum("kix,kjx->kij", n, n).min(axis=(1, 2), initial=0.0) < OPPOSITE)
+def first_ways(run: Run) -> dict[str, float]:
+    """When the first waypoint of each joint is that is not where its track starts [s]."""
+    ways = {}
+    for track in run.tracks:
+        moved = (track.values != track.values[0]).any(axis=1)
+        if moved.any():
+            ways[track.joint.name] = float(track.times[moved.argmax()])
+    return ways
 
 
 def late(run: Run) -> Iterator[Finding]:
@@ -98,11 +82,7 @@ def late(run: Run) -> Iterator[Finding]:
     Who tries a scene takes its first steps alone: that is none.
     """
     end = run.steps * run.h
-    first: dict[str, float] = {}
-    for track in run.tracks:
-        moved = (track.values != track.values[0]).any(axis=1)
-        if moved.any():
-            first[track.joint.name] = float(track.times[moved.argmax()])
+    first = first_ways(run)
     if not first or run.steps < TRIAL or min(first.values()) < LONG * end:
         return
     joint = min(first, key=first.__getitem__)
@@ -121,11 +101,10 @@ def still(run: Run) -> Iterator[Finding]:
 
     A scene of MuJoCo holds no targets, and may be run without any, to see how it stands.
     """
-    task = Task(run)
     n = run.system.n_q_a
-    tables = task.tables
-    later = any((track.values != track.values[0]).any() for track in run.tracks)
-    if not n or later or not tables or any(map(task.touched, tables.values())):
+    tables = acting(run)
+    touches = any(touched(run, pairs) for pairs in tables.values())
+    if not n or first_ways(run) or not tables or touches:
         return
     if np.abs(run["q_bar_a"] - run["q"][0, :n]).max() <= HELD:
         bodies = sorted({j.name.partition("/")[0] for j in run.system.joints if j.actuated})
@@ -214,23 +193,23 @@ def idle(run: Run) -> Iterator[Finding]:
 
     A finger that never touches what others do is named where its own joint leads it away.
     """
-    task = Task(run)
-    if not task.finished:
+    if not finished(run):
         return
-    for table, pairs in task.tables.items():
+    tables = acting(run)
+    for table, pairs in tables.items():
         held, _ = run.held_by(pairs[0])
-        others = [each for other, each in task.tables.items() if other != table]
-        if any(task.touched(each) and run.held_by(each[0])[0] == held for each in others):
+        others = [each for other, each in tables.items() if other != table]
+        if any(touched(run, each) and run.held_by(each[0])[0] == held for each in others):
             continue
         fingers: dict[str, list[int]] = {}
         for i in pairs:
             fingers.setdefault(run.held_by(i)[1], []).append(i)
-        idle = {name: touch for name, touch in fingers.items() if not task.touched(touch)}
+        idle = {name: touch for name, touch in fingers.items() if not touched(run, touch)}
         named = False
         hollow = any(inside(run))  # fingers may open from within
         for name, touch in idle.items():
             touching = [i for i in pairs if run.held_by(i)[1] not in idle]
-            astray = None if hollow else _astray(task, touch, touching)
+            astray = None if hollow else _astray(run, touch, touching)
             if astray is None:
                 continue
             joint, way = astray
@@ -245,8 +224,8 @@ def idle(run: Run) -> Iterator[Finding]:
             )
         if named or len(idle) < len(fingers):
             continue
-        i = min(pairs, key=lambda i: float(task.accounts[i].phi.min()))
-        near = task.accounts[i]
+        i = min(pairs, key=lambda i: float(run.pair_accounts[i].phi.min()))
+        near = run.pair_accounts[i]
         k = int(near.phi.argmin())
         apart = "none comes near enough to have a distance"
         numbers: dict[str, float] = {}
@@ -264,17 +243,16 @@ def idle(run: Run) -> Iterator[Finding]:
         )
 
 
-def _astray(task: Task, pairs: list[int], others: list[int]) -> tuple[Joint, float] | None:
+def _astray(run: Run, pairs: list[int], others: list[int]) -> tuple[Joint, float] | None:
     """The joint that leads a finger away from what it is to touch, and how far [m]; or None.
 
     Joints that move the fingers of `others` as well are those of an arm.
     """
-    run = task.run
-    i = min(pairs, key=lambda i: float(task.accounts[i].phi[0]))
-    phi = task.accounts[i].phi
+    i = min(pairs, key=lambda i: float(run.pair_accounts[i].phi[0]))
+    phi = run.pair_accounts[i].phi
     if phi[0] >= FILLED or phi.min() < phi[0] / 2:
         return None
-    at = task.contacts([i])
+    at = np.flatnonzero(run.pair_of == i)
     contact = at[run["phi"][0, at].argmin()]
     contacts = run.at(0).contacts
     ways = run.system.actuated_difference(run.q_start, run["q_bar_a"][-1])
@@ -299,8 +277,7 @@ def short(run: Run) -> Iterator[Finding]:
 
     What a base carries, which has come along by half of its way, does not stop it.
     """
-    task = Task(run)
-    if not task.finished:
+    if not finished(run):
         return
     lag = run.system.actuated_difference(run["q"][-1], run["q_bar_a"][-1])
     for track in run.tracks:
@@ -322,7 +299,7 @@ def short(run: Run) -> Iterator[Finding]:
             pushes[_carried(run, joint, lag[v], way)] = 0.0
         unit = joint.coordinates[0].unit
         if -pushes.sum() > spring / 2 and not (
-            scalar and _stalled(task, int(np.abs(pushes).argmax()), error, unit)
+            scalar and _stalled(run, int(np.abs(pushes).argmax()), error, unit)
         ):
             continue
         needed = rounded_up(spring / (LAGS * way))
@@ -348,21 +325,26 @@ def _carried(run: Run, base: Joint, error: Array, way: float) -> Mask:
 
 def _at_a_stop(run: Run, joint: Joint) -> bool:
     """Whether a joint ends at a limit that bears it, or at another row of an extension."""
-    rows = run.rows
-    if rows is None:
-        return False
-    bears = run["lam_extra"][-1, : len(rows.A)] > 0
-    return bool(rows.A[bears, joint.v.start].any())
+    A = run.rows.A
+    return bool(len(A) and A[run["lam_extra"][-1, : len(A)] > 0, joint.v.start].any())
 
 
-def _stalled(task: Task, contact: int, error: float, unit: str) -> bool:
+def _stalled(run: Run, contact: int, error: float, unit: str) -> bool:
     """Whether what a contact pushes has not moved, though the target is far inside of it."""
-    run = task.run
     i = int(run.pair_of[contact])
     pair = run.pairs[i]
-    table = task.tables.get(task.accounts[i].table)
-    if not table or unit != "m" or error <= STALLED * least(pair) or task.grips(table)[-1]:
+    table = acting(run).get(run.pair_accounts[i].table)
+    if not table or unit != "m" or error <= STALLED * least(pair) or _grips_at_the_end(run, table):
         return False
     link = pair.alpha.link if run.free[pair.alpha.link] else pair.beta.link
     start, end = (run.system.kinematics(run["q"][k]).t[link] for k in (0, -1))
     return float(np.linalg.norm(end - start)) < SUNK * least(pair)
+
+
+def _grips_at_the_end(run: Run, pairs: list[int]) -> bool:
+    """Whether two contacts of some pairs that touch in the last step face each other."""
+    touching = [i for i in pairs if run.pair_accounts[i].touches[-1]]
+    n = run["n"][-1]
+    n = np.where(run.free[run.simulator.layout.link_alpha][:, None], -n, n)
+    n = n[np.isin(run.pair_of, touching)]
+    return bool((n @ n.T).min(initial=0.0) < OPPOSITE)

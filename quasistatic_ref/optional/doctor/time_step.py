@@ -9,6 +9,7 @@ import numpy as np
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.doctor.start import slices
 from quasistatic_ref.optional.doctor.tolerances import BEYOND
 from quasistatic_ref.scenario.scenario import Scenario
 
@@ -111,11 +112,8 @@ def _thinnest_layer(scenario: Scenario) -> float | None:
             points = simulator.closest_points(after)
         except ContactError:  # a pose that no step has
             continue
-        end = 0
-        for pair in scenario.pairs:
-            start = end
-            end += pair.n_c
-            j = start + int(points.phi[start:end].argmin())
+        for pair, at in slices(scenario.pairs):
+            j = at.start + int(points.phi[at].argmin())
             depth = -float(points.phi[j])
             links = [pair.alpha.link, pair.beta.link]
             moved = [_moved(before, after, link, points.beta[j]) for link in links]

@@ -196,7 +196,7 @@ def held(start: Start, loose: Collection[str]) -> set[str]:
         Free bodies that no contact bears.
     """
     rows = start.rows
-    if rows is None or not len(rows.A) or not start.g or not loose:
+    if not len(rows.A) or not start.g or not loose:
         return set()
     system = start.system
     bases = start.free_bases
