@@ -69,12 +69,9 @@ def _closed(n: Array) -> bool:
 def _agreement(run: Run, body: Body, k: int, on: Mask, lacks: Missing) -> float:
     """Cosine between a body's first acceleration and its way over what grips it [-]."""
     contacts = run.at(k).contacts
-    J = contacts.J[on][:, :, body.coordinates]
-    frames = np.stack(frame_jacobian(contacts, contacts.J), axis=1)[on][:, 1:3, body.coordinates]
-    slips = run.slips[k, on, :2]
-    rows = frames.reshape(-1, frames.shape[-1])
-    rows = np.vstack([rows, J[:, 3]])
-    seen = np.concatenate([slips.ravel(), run.noted("moved")[k, on, 3]])
+    _, *J_t = frame_jacobian(contacts, contacts.J)
+    rows = np.concatenate([J[on] for J in J_t])[:, body.coordinates]
+    seen = np.concatenate([*run.slips[k, on, :2].T, run.noted("moved")[k, on, 3]])
     v = np.linalg.lstsq(rows, seen, rcond=1e-9)[0]
     M = body.inertia(run.at(k).step.M_u, run.system.n_a)
     starts = np.linalg.solve(M, -lacks.r)

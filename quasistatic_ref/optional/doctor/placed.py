@@ -146,8 +146,7 @@ def _clamped(start: Start, name: str) -> bool:
     assert start.points is not None
     normals = [
         start.points.n[at][start.points.phi[at] <= SUNK * least(pair)]
-        for pair, at in slices(start.pairs)
-        if name in start.bodies(pair)
+        for pair, at in start.pairs_of[name]
     ]
     return least_mean(np.concatenate(normals)) <= SAME_NORMAL
 

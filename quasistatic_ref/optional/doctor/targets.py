@@ -8,7 +8,7 @@ from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.doctor.account import drive, stiffness
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.slowly import SLOWLY
-from quasistatic_ref.optional.doctor.telling import amount, rounded_down, rounded_up
+from quasistatic_ref.optional.doctor.telling import amount, rounded
 from quasistatic_ref.optional.doctor.tolerances import BEYOND, IN_METRES
 from quasistatic_ref.simulate.finding import Finding
 
@@ -77,12 +77,12 @@ def beyond_effort(run: Run) -> Iterator[Finding]:
             continue
         k = int(did.spring.argmax())
         unit = "N" if did.unit == "m" else "N m"
-        softer = rounded_down(joint.effort / float(did.error[k]))
+        softer = rounded(joint.effort / float(did.error[k]), np.floor)
         remedy = f"lower K_q of {joint.name} to {softer:.3g} {unit}/{did.unit}, move its target "
         remedy += "nearer, or correct its effort in the URDF"
         why = ""
         if (bears := _bears(run, joint, k)) > max(joint.effort, did.spring[k] / 2):
-            needed = f"{rounded_up(bears):.3g} {unit} or more"
+            needed = f"{rounded(bears, np.ceil):.3g} {unit} or more"
             remedy = f"carry less by {joint.name}, or correct its effort in the URDF to {needed}"
             why = "; no K_q changes what it bears"
         yield Finding(

@@ -17,7 +17,7 @@ from quasistatic_ref.optional.doctor.account import side
 from quasistatic_ref.optional.doctor.placed import inside
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import joining, least
-from quasistatic_ref.optional.doctor.telling import amount, length, rounded_up
+from quasistatic_ref.optional.doctor.telling import amount, length, rounded
 from quasistatic_ref.optional.doctor.tolerances import SLIPPED, SUNK
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Shape
 from quasistatic_ref.simulate.finding import Finding
@@ -302,7 +302,7 @@ def short(run: Run) -> Iterator[Finding]:
             scalar and _stalled(run, int(np.abs(pushes).argmax()), error, unit)
         ):
             continue
-        needed = rounded_up(spring / (LAGS * way))
+        needed = rounded(spring / (LAGS * way), np.ceil)
         yield Finding(
             "far from target",
             True,

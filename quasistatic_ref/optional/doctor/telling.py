@@ -1,6 +1,6 @@
 """The most telling numbers of a run, and how they are printed."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -101,16 +101,10 @@ def amount(x: float, unit: str) -> str:
     return length(x) if unit == "m" else f"{np.degrees(x):.3g} deg"
 
 
-def rounded_up(x: float) -> float:
-    """A number with two digits that is at least x > 0 [any unit]."""
+def rounded(x: float, whole: Callable[[float], float]) -> float:
+    """A number x > 0 [any unit] with two digits: at least it by ``np.ceil``, else ``np.floor``."""
     digits = 10.0 ** np.floor(np.log10(x) - 1)
-    return float(np.ceil(x / digits) * digits)
-
-
-def rounded_down(x: float) -> float:
-    """A number with two digits that is at most x > 0 [any unit]."""
-    digits = 10.0 ** np.floor(np.log10(x) - 1)
-    return float(np.floor(x / digits) * digits)
+    return float(whole(x / digits) * digits)
 
 
 def length(x: float) -> str:

@@ -8,15 +8,13 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.numbers.arrays import Mask
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.looks import SLOW
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import SHORT, Start, body, joining, least
 from quasistatic_ref.optional.doctor.tolerances import NEAR
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.step.data import Extra
 
 ROUNDS = 100
 """Advances until a falling body touches; corners take one, round surfaces some ten."""
@@ -31,11 +29,18 @@ def sinks(start: Start, name: str) -> bool:
 
     Others than gravity may bear it.
     """
+    least = LIGHT * start.system.mass(name) * start.g
+    return bool(start.load_at_start @ _down(start, name) > least)
+
+
+def _down(start: Start, name: str) -> Array:
+    """The motion of a free body by 1 m along gravity at the start, shape (n_v,) [m, rad]."""
     base = start.free_bases[name]
     columns = slice(base.v.start, base.v.start + base.lengths)
-    link = start.system.link(name)
-    down = start.gravity @ start.kinematics.J_of([link])[0, :3, columns] / start.g
-    return bool(start.load_at_start[columns] @ down > LIGHT * start.system.mass(name) * start.g)
+    down = np.zeros(start.system.n_v)
+    J = start.kinematics.J_of([start.system.link(name)])[0, :3]
+    down[columns] = start.gravity @ J[:, columns] / start.g
+    return down
 
 
 def alone(start: Start) -> set[str]:
@@ -53,13 +58,12 @@ def alone(start: Start) -> set[str]:
 
 def unsupported(start: Start) -> Iterator[Finding]:
     """Bodies that are joined to nothing, if they weigh anything."""
-    joined = [start.bodies(pair) for pair in start.pairs]
     joint = "pair of geoms" if start.system.of_mjcf else "table"
     for name in sorted(alone(start)) if start.g else ():
-        touching = [pair - {name} for pair in joined if name in pair]
         if not sinks(start, name):
             continue
-        others = " but to bodies that fall as well" if any(touching) else ""
+        touches = any(start.bodies(pair) != {name} for pair, _ in start.pairs_of.get(name, ()))
+        others = " but to bodies that fall as well" if touches else ""
         weight = start.system.mass(name) * start.g
         yield Finding(
             "unsupported body",
@@ -195,35 +199,27 @@ def held(start: Start, loose: Collection[str]) -> set[str]:
     loose : collection of str
         Free bodies that no contact bears.
     """
-    rows = start.rows
-    if not len(rows.A) or not start.g or not loose:
+    if not len(start.rows.A) or not start.g or not loose:
         return set()
-    system = start.system
-    bases = start.free_bases
-    resting = {base.name for name, base in bases.items() if name not in loose}
+    resting = {base.name for name, base in start.free_bases.items() if name not in loose}
     shifts = [
         i
-        for joint in system.joints
+        for joint in start.system.joints
         if not joint.actuated and joint.name not in resting
         for i in range(joint.v.start, joint.v.start + joint.lengths)
     ]
-    return {name for name in loose if _sinks(start, rows, shifts, bases[name]) <= NEAR}
+    return {name for name in loose if _sinks(start, shifts, name) <= NEAR}
 
 
-def _sinks(start: Start, rows: Extra, shifts: list[int], base: Joint) -> float:
+def _sinks(start: Start, shifts: list[int], name: str) -> float:
     """How far rows let a body sink, at most 2 NEAR, while all `shifts` are free [m]."""
     from scipy.optimize import linprog  # takes as long as a short run
 
-    system = start.system
-    name = base.name.removesuffix("/base")
-    link = system.link(name)
-    columns = slice(base.v.start, base.v.start + base.lengths)
-    way = start.gravity / start.g
-    down = np.zeros(system.n_v)
-    J = start.kinematics.J_of([link])[0]
-    down[columns] = np.linalg.lstsq(J[:3, columns], way, rcond=None)[0]
-    others = [i for i in shifts if not columns.start <= i < columns.stop]
-    motion = np.column_stack([down, np.eye(system.n_v)[:, others]])  # in units of NEAR
+    rows = start.rows
+    down = _down(start, name)
+    own = start.free_bases[name].v
+    others = [i for i in shifts if not own.start <= i < own.stop]
+    motion = np.column_stack([down, np.eye(len(down))[:, others]])  # in units of NEAR
     best = linprog(
         [-1.0, *np.zeros(len(others))],
         A_ub=-rows.A @ motion,
