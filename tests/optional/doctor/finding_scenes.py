@@ -303,6 +303,9 @@ found = findings([drawer], [], push={"drawer/part": (400, 0, 0)}, steps=3)
 
 # %% sunk contact: a box of a hundred points, of which one is kept, tips farther than a step foresees
 found = findings([box()], lies(k=1), cloud={"box": FACE}, push={"box": (0, 0, -20)}, steps=3)
+(sunk,) = (x for x in found if x.name == "sunk contact")
+assert sunk.remedy == "raise k of contacts.floor_box"
+assert " was not among its 1 closest at step " in sunk.cause
 
 # %% sunk contact: a rod on one point of its side
 rod = Body.of_shape("rod", Cylinder(0.01, 0.1), 0.2, xyz=(0, 0, 0.01), rpy=(0, np.pi / 2, 0))

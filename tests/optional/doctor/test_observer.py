@@ -15,96 +15,17 @@ from quasistatic_ref.optional.doctor import looks, observer, slowly, start
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.header import header_table
 from tests.extras import SCENARIOS_TO_RUN
-from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, urdf_of_text
-
-PAD = '<box size="0.06 0.01 0.06"/>'
-GRIPPER = robot(
-    link("post"),
-    link("carriage"),
-    link("left", collision(PAD, '<origin xyz="0 0.005 0"/>')),
-    link("right", collision(PAD, '<origin xyz="0 -0.005 0"/>')),
-    joint("lift", "post", "carriage", "prismatic", "0 0 1"),
-    joint("open_left", "carriage", "left", "prismatic", "0 1 0"),
-    joint("open_right", "carriage", "right", "prismatic", "0 -1 0"),
-)
-"""Two flat pads whose inner faces are at y = open_left and y = -open_right."""
-CUBE = robot(
-    link("cube", collision('<box size="0.04 0.04 0.04"/>'), inertial("0.1", ("4e-5",) * 3))
-)
-HOSTILE = """format = "quasistatic-ref/scenario"
-version = 1
-h = 0.01
-steps = 200
-
-[bodies.gripper]
-urdf = "gripper.urdf"
-actuated = "all"
-K_q = { lift = 2000, open_left = 1000, open_right = 1000 }
-pose = { xyz = [0, 0, 0.025] }
-positions = { open_left = 0.025, open_right = 0.025 }
-
-[[bodies.gripper.targets]]
-t = 0.0
-lift = 0.0
-open_left = 0.025
-open_right = 0.025
-
-[[bodies.gripper.targets]]
-t = 0.5
-lift = 0.0
-open_left = 0.015
-open_right = 0.015
-
-[[bodies.gripper.targets]]
-t = 2.0
-lift = 0.03
-
-[bodies.cube]
-urdf = "cube.urdf"
-base = "floating"
-pose = { xyz = [0, 0, 0.02], rpy = [0, 0, 0.2] }
-cloud = "cube.csv"
-
-[shapes.floor]
-halfspace = { normal = [0, 0, 1], offset = 0 }
-
-[contacts.floor]
-alpha = "floor"
-beta = "cube/cube"
-mu_v = 0.5
-rows = 4
-k = 4
-
-[contacts.grip]
-alpha = ["gripper/left", "gripper/right"]
-beta = "cube"
-mu_v = 0.6
-mu_omega = 0.003
-k = 3
-"""
-"""Flat pads on the flat faces of a cube, each of 100 points, of which a pair keeps 3.
-
-The cube stands askew by 0.2 rad. It turns until the faces are flush, and on: with 3 contacts it is
-never held."""
-EDGE = np.linspace(-0.02, 0.02, 10)
-GRID = np.array(np.meshgrid(EDGE, EDGE, EDGE, indexing="ij")).reshape(3, -1).T
-POINTS = GRID[(np.abs(GRID) == 0.02).any(axis=1)]
-"""The 488 points of the grid on the cube's surface."""
+from tests.optional.doctor.mistake_scenes import scenes_written
 
 
 def test_findings_are_printed_and_strict_fails_on_grave_ones(tmp_path, cli):
-    urdf_of_text(tmp_path, GRIPPER, "gripper.urdf")
-    urdf_of_text(tmp_path, CUBE, "cube.urdf")
-    np.savetxt(tmp_path / "cube.csv", POINTS, delimiter=",")
-    hostile = urdf_of_text(tmp_path, HOSTILE, "hostile.toml")
-    arguments = ["run", hostile, "--out", tmp_path, "--set", "steps=40"]
+    scenes_written(tmp_path)
+    arguments = ["run", tmp_path / "push.toml", "--out", tmp_path]
+    arguments += ["--set", "steps=5", "--set", "contacts.rest.mu_v=6"]
     printed = cli(*arguments).err.splitlines()
-    run = load_trajectory(tmp_path / "hostile.npz")
+    run = load_trajectory(tmp_path / "push.npz")
     assert printed == [f"quasistatic-ref: {found}" for found in run.findings]
-    (said,) = [str(found) for found in run.findings if found.name == "sunk contact"]
-    assert said.startswith(
-        "raise k of contacts.grip: point 90 of grip(gripper/left#0, cube) was not"
-    )
+    assert run.findings[0].name == "no friction coefficient"
     assert json.loads(cli(*arguments, "--strict", "--json", status=1).out)["findings"] == [
         finding_table(f) for f in run.findings
     ]
