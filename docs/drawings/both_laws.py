@@ -65,7 +65,7 @@ def motion(step: StepData, law: str) -> Array:
 def rotation_of_the_bunny(law: str) -> tuple[Array, Array]:
     """Times [s], and its turn since the grip closed [deg], each of shape (steps + 1,)."""
     scenario = load_scenario("bunny_grasp", steps=STEPS, law=law, record="light", fast=True)
-    found = link_motion(scenario.system, scenario.run(progress=False), "bunny")
+    found = link_motion(scenario.system, scenario.run(progress=False, findings=False), "bunny")
     return found.times, np.degrees(found.rotation_since(CLOSED))
 
 

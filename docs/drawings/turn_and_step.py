@@ -26,7 +26,7 @@ def turn(mu_omega: float, h: float) -> float:
     """The bunny's largest turn in the hand while it is lifted [deg]; mu_omega in mm."""
     changes = {"contacts.grip.mu_omega": 1e-3 * mu_omega, "h": h, "solver.certify": "off"}
     scenario = load_scenario("bunny_grasp", changes, steps=round(END / h), fast=True)
-    run = scenario.run(progress=False)
+    run = scenario.run(progress=False, findings=False)
     turns = relative_turn(scenario.system, run, "bunny", "gripper", since=CLOSED)
     return float(np.degrees(turns[np.append(0, run.t) >= CLOSED].max()))
 
