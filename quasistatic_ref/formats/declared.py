@@ -4,7 +4,7 @@ A field has a kind of value, bounds, a unit, a default and a sentence. What goes
 the loader checks by hand.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -76,12 +76,10 @@ class Field:
 class Tables(dict[str, dict[str, Field]]):
     """Fields by name, by the kind of table that they are in."""
 
-    def value(self, table: TableReader, kind: str, name: str, default: Any = ...) -> Any:
-        """The value of a field in a table of some kind; `default` in place of the field's own.
+    def fields(self, table: TableReader, kind: str) -> Callable[..., Any]:
+        """The values in a table of some kind, as a function of the names of its fields.
 
-        Raises
-        ------
-        InputError
-            If it is missing and has no default, or is not of its kind.
+        A second argument is the default in place of the field's own. InputError if a field is
+        missing and has no default, or is not of its kind.
         """
-        return self[kind][name].read(table, name, default)
+        return lambda name, default=...: self[kind][name].read(table, name, default)

@@ -18,15 +18,15 @@ from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.model.urdf.urdf import BASE
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.pivots import positive_definite
-from quasistatic_ref.scenario.checks import check_names
+from quasistatic_ref.scenario.checks import checked_fields
 from quasistatic_ref.scenario.paths import folders_in, inline_text, path_in, shared_folders
 from quasistatic_ref.scenario.scenario_table import (
     BODY,
     ORIGIN,
     WAYPOINT,
     WRENCH,
+    fields_of,
     pose,
-    value,
 )
 from quasistatic_ref.simulate.stiffness import stiffness_block
 from quasistatic_ref.simulate.target import JointTrack, Wrenches
@@ -91,18 +91,18 @@ def body_entry(
 
     Robots are read from `roots`, too.
     """
-    check_names(table, BODY)
+    read = checked_fields(table, BODY)
     text = inline_text(table, "urdf")
     path = path_in(folder, table, "urdf", roots) if text is None else None
     urdf = text or path
     if urdf is None:
         raise table.error_about("urdf", "is missing")
-    base = value(table, BODY, "base")
-    actuated = value(table, BODY, "actuated")
-    xyz, rpy = pose(value(table, BODY, "pose"))
+    base = read("base")
+    actuated = read("actuated")
+    xyz, rpy = pose(read("pose"))
     positions = table.table("positions", {})
     start = {joint: positions.number(joint) for joint in positions.names_left()}
-    package_dirs = value(table, BODY, "package_dirs")
+    package_dirs = read("package_dirs")
     folders = [*folders_in(folder, table, "package_dirs", package_dirs), *roots]
     if "gravity_compensated" in table and not actuated:
         raise table.error_about(
@@ -120,14 +120,14 @@ def body_entry(
     entry = BodyEntry(
         body=body,
         table=table,
-        K_q=value(table, BODY, "K_q"),
-        targets=value(table, BODY, "targets"),
+        K_q=read("K_q"),
+        targets=read("targets"),
         cloud=path_in(folder, table, "cloud", roots),
-        gravity_compensated=value(table, BODY, "gravity_compensated"),
-        wrenches=_wrenches(name, table),
-        joint_friction=value(table, BODY, "joint_friction"),
+        gravity_compensated=read("gravity_compensated"),
+        wrenches=_wrenches(name, table, read("wrenches")),
+        joint_friction=read("joint_friction"),
         support=table.table("support") if "support" in table else None,
-        joint_limits=value(table, BODY, "joint_limits"),
+        joint_limits=read("joint_limits"),
     )
     if entry.wrenches is not None and base == "fixed":
         raise table.error_about(
@@ -196,7 +196,7 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
             if name != "t" and name not in joints:
                 hint = suggestion(name, joints if "t" in waypoint else ["t", *joints])
                 raise waypoint.error_about(name, f"is not an actuated joint of this body{hint}")
-        t = value(waypoint, WAYPOINT, "t")
+        t = fields_of(waypoint, WAYPOINT)("t")
         if not waypoint.names_left():
             problem = "sets no joint; give the position of at least one"
             raise entry.table.error_about(f"targets[{i}]", problem, record)
@@ -259,18 +259,18 @@ def _placed(waypoint: TableReader, name: str, joint: TwistJoint, body: Body) -> 
     return np.array(joint.at(xyz, rpy)), rpy
 
 
-def _wrenches(name: str, table: TableReader) -> Wrenches | None:
+def _wrenches(name: str, table: TableReader, records: Sequence[Any]) -> Wrenches | None:
     times = []
     values = []
-    for i, record in enumerate(value(table, BODY, "wrenches")):
+    for i, record in enumerate(records):
         entry = TableReader(record, table.name(f"wrenches[{i}]"), ScenarioError)
-        check_names(entry, WRENCH)
-        times.append(value(entry, WRENCH, "t"))
+        read = checked_fields(entry, WRENCH)
+        times.append(read("t"))
         if not {"force", "torque"} & set(entry.names_left()):
             raise table.error_about(
                 f"wrenches[{i}]", "must contain a force, a torque or both", record
             )
-        values.append(np.concatenate([value(entry, WRENCH, key) for key in ("force", "torque")]))
+        values.append(np.concatenate([read("force"), read("torque")]))
     if not times:
         return None
     if not (np.diff(times) > 0).all():

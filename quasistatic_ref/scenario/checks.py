@@ -4,7 +4,7 @@ The names of each table are checked before any value is read, so a misspelt name
 it is, and not as the absence of the right one.
 """
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -15,7 +15,7 @@ from quasistatic_ref.formats.quoting import known_names, nearest_name
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import System
 from quasistatic_ref.scenario.overrides import NAMED
-from quasistatic_ref.scenario.scenario_table import TABLES
+from quasistatic_ref.scenario.scenario_table import TABLES, fields_of
 from quasistatic_ref.tolerances import LARGE
 
 WELDED: Final = 1e-12
@@ -24,8 +24,8 @@ WELDED: Final = 1e-12
 Chains of rotations leave 1e-15 a link; a joint between them moves one of them by 1."""
 
 
-def check_names(table: TableReader, kind: str) -> None:
-    """Refuse a name that this kind of table does not hold.
+def checked_fields(table: TableReader, kind: str) -> Callable[..., Any]:
+    """The fields of a table, as :func:`.fields_of` has them, without a name that is none of them.
 
     Raises
     ------
@@ -41,6 +41,7 @@ def check_names(table: TableReader, kind: str) -> None:
             raise table.error_about(
                 name, f"is unknown{near or ';'} {known_names(known)}", table.take(name)
             )
+    return fields_of(table, kind)
 
 
 def _inside(name: str, table: TableReader) -> str:

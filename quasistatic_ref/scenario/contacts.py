@@ -7,6 +7,7 @@ from dataclasses import replace
 from fnmatch import fnmatchcase
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -22,8 +23,8 @@ from quasistatic_ref.model.readers.text import decimal
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.scenario.bodies import BodyEntry
-from quasistatic_ref.scenario.checks import check_names
-from quasistatic_ref.scenario.scenario_table import CONTACT, SHAPE, WITHIN, pose, value
+from quasistatic_ref.scenario.checks import checked_fields
+from quasistatic_ref.scenario.scenario_table import CONTACT, SHAPE, WITHIN, fields_of, pose
 from quasistatic_ref.scenario.world_solids import SOLIDS
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
@@ -82,7 +83,7 @@ def world_shape(name: str, table: TableReader, folder: Path) -> PlacedShape:
     InputError
         Naming the field.
     """
-    t, rpy = pose(value(table, SHAPE, "pose"))
+    t, rpy = pose(fields_of(table, SHAPE)("pose"))
     kinds = [kind for kind in table.names_left() if kind in SOLIDS]
     if len(kinds) != 1:
         raise table.error_about(
@@ -115,20 +116,20 @@ def contact_pairs(
     pairs: list[ContactPair] = []
     for name in tables.names_left():
         table = tables.table(name)
-        check_names(table, CONTACT)
-        sides = [_side(table, key, shapes) for key in ("alpha", "beta")]
-        rows = value(table, CONTACT, "rows")
-        mu_v = value(table, CONTACT, "mu_v")
+        read = checked_fields(table, CONTACT)
+        sides = [_side(table, key, read(key), shapes) for key in ("alpha", "beta")]
+        rows = read("rows")
+        mu_v = read("mu_v")
         if rows != 4 and "mu_omega" not in table:
             problem = "is missing; rows = 4 goes without torsional friction"
             raise table.error_about("mu_omega", problem)
-        mu_omega = value(table, CONTACT, "mu_omega", 0.0 if rows == 4 else REQUIRED)
+        mu_omega = read("mu_omega", 0.0 if rows == 4 else REQUIRED)
         if rows == 4 and mu_omega > 0:
             problem = "has no effect with rows = 4; set rows = 6, or remove it"
             raise table.error_about("mu_omega", problem, mu_omega)
         within = _within(table)
         k = table.integer("k", 1, least=1) if within is None else 1
-        hull = value(table, CONTACT, "hull")
+        hull = read("hull")
         count = len(pairs) + len(sides[0]) * len(sides[1])
         if count > MOST_PAIRS:
             problem = f"brings the pairs of this scenario to more than {MOST_PAIRS}"
@@ -151,7 +152,7 @@ def _within(contact: TableReader) -> float | None:
     if not isinstance(contact.peek("k"), dict):
         return None
     table = contact.table("k")
-    check_names(table, WITHIN)
+    checked_fields(table, WITHIN)
     text = table.take("within")
     length = re.fullmatch(r" *(\d[\d.eE-]*) *([a-z]+) *", text if isinstance(text, str) else "")
     if length is None or length[2] not in METRES:
@@ -162,8 +163,7 @@ def _within(contact: TableReader) -> float | None:
         return decimal(length[1]) * METRES[length[2]]
 
 
-def _side(table: TableReader, key: str, shapes: Shapes) -> list[PlacedShape]:
-    sides = value(table, CONTACT, key)
+def _side(table: TableReader, key: str, sides: Any, shapes: Shapes) -> list[PlacedShape]:
     placed: list[PlacedShape] = []
     for name in sides if isinstance(sides, list) else [sides]:
         if not isinstance(name, str):

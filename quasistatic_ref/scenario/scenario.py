@@ -25,7 +25,7 @@ from quasistatic_ref.scenario.bodies import (
     joint_tracks,
     stiffness,
 )
-from quasistatic_ref.scenario.checks import check_made, check_motion, check_names, check_sizes
+from quasistatic_ref.scenario.checks import check_made, check_motion, check_sizes, checked_fields
 from quasistatic_ref.scenario.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.paths import OwnWord, folders_in
@@ -35,7 +35,6 @@ from quasistatic_ref.scenario.scenario_table import (
     SOLVER,
     TOP,
     VERSION,
-    value,
 )
 from quasistatic_ref.scenario.scene_words import HERE, scene_tables
 from quasistatic_ref.simulate.finding import Finding
@@ -225,23 +224,24 @@ def load_scenario(
 @together()
 def _scenario(path: Path, top: TableReader) -> Scenario:
     if not {"format", "version"} <= set(top.names_left()):  # another format's names are no mistakes
-        check_names(top, TOP)
+        checked_fields(top, TOP)
     top.check_format(FORMAT, VERSION)
-    check_names(top, TOP)
-    h = value(top, TOP, "h")
-    gravity = value(top, TOP, "gravity")
-    fast = value(top, TOP, "fast")
-    named = cone(value(top, TOP, "cone")).name
-    solver = value(top, TOP, "solver")
-    check_names(solver, SOLVER)
-    certify = value(solver, SOLVER, "certify")
-    law = value(top, TOP, "law")
-    limits = _limits(value(top, TOP, "limits"))
+    read = checked_fields(top, TOP)
+    h = read("h")
+    gravity = read("gravity")
+    fast = read("fast")
+    named = cone(read("cone")).name
+    solver = read("solver")
+    of_solver = checked_fields(solver, SOLVER)
+    certify = of_solver("certify")
+    law = read("law")
+    of_limits = checked_fields(read("limits"), LIMITS)
+    limits = Limits(of_limits("penetration"), of_limits("reach"))
 
-    tables = value(top, TOP, "bodies")
+    tables = read("bodies")
     if (count := len(tables.names_left())) > MOST_BODIES:
         raise ScenarioError(f"are more than {MOST_BODIES}", field="bodies", value=count)
-    roots = folders_in(path.parent, top, "roots", value(top, TOP, "roots"))
+    roots = folders_in(path.parent, top, "roots", read("roots"))
     entries = {
         name: body_entry(name, tables.table(name), path.parent, roots)
         for name in tables.names_left()
@@ -250,14 +250,14 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     if not entries:
         raise ScenarioError("has no bodies; add at least one table [bodies.NAME]", field="bodies")
     system = System([entry.body for entry in entries.values()])
-    shapes = placed_shapes(system, entries, value(top, TOP, "shapes"), path.parent)
-    pairs = contact_pairs(value(top, TOP, "contacts"), shapes, system.kinematics(system.q_start))
+    shapes = placed_shapes(system, entries, read("shapes"), path.parent)
+    pairs = contact_pairs(read("contacts"), shapes, system.kinematics(system.q_start))
     K_q = total(stiffness(system, entry) for entry in entries.values())
     of_bodies = None
     if any(entry.extends for entry in entries.values()):
         pairs, of_bodies = extended_bodies(system, pairs, entries, h, K_q, gravity)
     of_users = isinstance(solver.peek("backend"), OwnWord)
-    backend = value(solver, SOLVER, "backend")
+    backend = of_solver("backend")
     if backend is not None and is_function(backend) and not of_users:
         problem = "would run code, which no file may; give it as --backend FILE.py:NAME"
         raise solver.error_about("backend", problem, backend)
@@ -280,7 +280,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
         return Scenario(
             path=path,
             h=h,
-            steps=value(top, TOP, "steps"),
+            steps=read("steps"),
             gravity=gravity,
             system=system,
             pairs=pairs,
@@ -289,9 +289,9 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
             targets=Targets(system.q_start[: system.n_q_a], tracks),
             wrenches=tuple(wrenches),
             backend=DEFAULT if backend is None else backend,
-            accuracy=value(solver, SOLVER, "accuracy"),
+            accuracy=of_solver("accuracy"),
             certify=certify,
-            record=value(top, TOP, "record"),
+            record=read("record"),
             cone=named,
             limits=limits,
             bodies={name: entry.body for name, entry in entries.items()},
@@ -301,10 +301,3 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
         )
     except BackendError as error:
         raise solver.error_about(error.field or "backend", error.problem, error.value) from None
-
-
-def _limits(table: TableReader) -> Limits:
-    check_names(table, LIMITS)
-    return Limits(
-        penetration=value(table, LIMITS, "penetration"), reach=value(table, LIMITS, "reach")
-    )

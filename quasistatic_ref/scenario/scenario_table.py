@@ -206,12 +206,12 @@ TABLES = Tables({
 })  # fmt: skip
 """The fields of each kind of table, in the order of the reference page."""
 
-value = TABLES.value
+fields_of = TABLES.fields
 
 
 def pose(table: TableReader, xyz: ArrayLike = ORIGIN) -> tuple[Array, Array]:
     """Origin [m] and roll, pitch, yaw [rad] of a table of these two, each of shape (3,)."""
-    origin = value(table, POSE, "xyz", xyz)
-    rpy = value(table, POSE, "rpy")
+    read = fields_of(table, POSE)
+    origin, rpy = read("xyz", xyz), read("rpy")
     table.close()
     return origin, rpy

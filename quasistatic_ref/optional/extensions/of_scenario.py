@@ -15,8 +15,8 @@ from quasistatic_ref.optional.extensions.extension import Extension, ExtensionOf
 from quasistatic_ref.optional.extensions.rises import private_rises, urdf_friction
 from quasistatic_ref.optional.extensions.stops import JointLimits, stops_of, urdf_limits
 from quasistatic_ref.scenario.bodies import BodyEntry
-from quasistatic_ref.scenario.checks import check_names
-from quasistatic_ref.scenario.scenario_table import SUPPORT, URDF, value
+from quasistatic_ref.scenario.checks import checked_fields
+from quasistatic_ref.scenario.scenario_table import SUPPORT, URDF
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,5 +159,5 @@ def _support(entry: BodyEntry, rubs: TableReader) -> tuple[float, float]:
     """mu_v [-] and mu_omega [m] of a planar base on its floor."""
     if BASES.get(entry.body.base) is not Planar:
         raise entry.table.error_about("support", 'is for a body with base = "planar"')
-    check_names(rubs, SUPPORT)
-    return value(rubs, SUPPORT, "mu_v"), value(rubs, SUPPORT, "mu_omega")
+    read = checked_fields(rubs, SUPPORT)
+    return read("mu_v"), read("mu_omega")

@@ -23,7 +23,7 @@ from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
 from quasistatic_ref.parts import fast_backend, fast_simulator
 from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
-from quasistatic_ref.scenario.scenario_table import LIMITS, SOLVER, TOP, value
+from quasistatic_ref.scenario.scenario_table import LIMITS, SOLVER, TOP, fields_of
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.limits import Limits
@@ -168,19 +168,20 @@ def mujoco_scenario(
             problem = f"is not for a MuJoCo scene{suggestion(name, FIELDS)}"
             raise ScenarioError(problem, field=name, value=tables[name])
     top.take("roots", None)
-    h, steps = value(top, TOP, "h"), value(top, TOP, "steps")
+    read = fields_of(top, TOP)
+    h, steps = read("h"), read("steps")
     margin = top.number("margin", MARGIN)
     stiffness = top.take("stiffness", {})
     if not isinstance(stiffness, Mapping):
         raise ScenarioError("must name joints: stiffness.JOINT=VALUE", field="stiffness")
-    solver = value(top, TOP, "solver")
-    limits = value(top, TOP, "limits")
+    of_solver = fields_of(read("solver"), SOLVER)
+    of_limits = fields_of(read("limits"), LIMITS)
     if data is None:
         keys = () if callable(targets) or isinstance(targets, str | Path) else targets
         data = settled(model, 0.0, keys[0] if keys else None)
     system = MujocoSystem(model, data, h, {**stiffness}, margin)
     if "cone" in tables:
-        cone = value(top, TOP, "cone")
+        cone = read("cone")
         equality = first_equality(system.rows)
         if cone == ELLIPSOID and equality:
             problem = 'is two rows, which leave the ellipsoid no interior; take cone = "pyramid"'
@@ -190,10 +191,10 @@ def mujoco_scenario(
         cone, system.notes = default_cone(model, rubs, system.rows)
     overlaps = overlapped_children(system.state(system.q_start), system.places)
     system.notes = (*system.notes, *overlaps)
-    certify = value(solver, SOLVER, "certify")
-    fast = value(top, TOP, "fast")
+    certify = of_solver("certify")
+    fast = read("fast")
     pairs = system.places.pairs
-    backend = value(solver, SOLVER, "backend")
+    backend = of_solver("backend")
     if fast and backend is None:
         backend = fast_backend(cast("System", system), pairs, cone, CONVEX)
     gravity = (
@@ -212,12 +213,12 @@ def mujoco_scenario(
         gravity_acts=np.ones(system.n_a, dtype=bool),
         targets=Targets(system.q_start[: system.n_q_a], ()),
         backend=DEFAULT if backend is None else backend,
-        accuracy=value(solver, SOLVER, "accuracy"),
+        accuracy=of_solver("accuracy"),
         certify=certify,
-        record=value(top, TOP, "record"),
+        record=read("record"),
         fast=fast,
         cone=cone,
-        limits=Limits(value(limits, LIMITS, "penetration"), value(limits, LIMITS, "reach")),
+        limits=Limits(of_limits("penetration"), of_limits("reach")),
         drive=drive_of(system, data, steps * h, targets),
     )
 
