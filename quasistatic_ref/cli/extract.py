@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 from quasistatic_ref.certify.groups import group_step, groups
+from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.files import LARGEST_TEXT
 from quasistatic_ref.formats.quoting import suggestion
@@ -24,9 +25,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help="that of the group of a body alone: nothing couples it to other bodies",
     )
-    parser.add_argument(
-        "-o", type=Path, metavar="STEP.json", dest="output", help="standard output otherwise"
-    )
+    shared.add(parser, "-o", metavar="STEP.json")
 
 
 def run(options: argparse.Namespace) -> int:

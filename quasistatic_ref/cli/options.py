@@ -18,6 +18,8 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import load_step, save_step
 
 OPTIONS: Final[dict[str, dict[str, Any]]] = {
+    "step": {"type": Path, "help": "a step file (quasistatic-ref/step)"},
+    "-o": {"type": Path, "dest": "output", "help": "standard output otherwise"},
     "--out": {"type": Path, "metavar": "FOLDER", "help": "folder for the results"},
     "--backend": {"metavar": "NAME", "help": "solver; see 'quasistatic-ref backends'"},
     "--fast": {

@@ -25,10 +25,8 @@ from quasistatic_ref.step.data import StepData
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    parser.add_argument("step", type=Path, help="a step file (quasistatic-ref/step)")
-    parser.add_argument(
-        "-o", type=Path, metavar="SOLUTION.json", dest="output", help="standard output otherwise"
-    )
+    shared.add(parser, "step")
+    shared.add(parser, "-o", metavar="SOLUTION.json")
     parser.add_argument(
         "--digits",
         type=int,

@@ -17,7 +17,7 @@ UNPROVED = ("residual", "none")
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    parser.add_argument("step", type=Path, help="a step file (quasistatic-ref/step)")
+    shared.add(parser, "step")
     parser.add_argument("solution", type=Path, help="a solution file (quasistatic-ref/solution)")
     shared.add(parser, "--cone", "--json")
 

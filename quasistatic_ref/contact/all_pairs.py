@@ -14,12 +14,12 @@ from quasistatic_ref.contact.distance import ClosestPoints, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.numbers.arrays import finite
+from quasistatic_ref.numbers.arrays import all_finite
 from quasistatic_ref.numbers.ordered import norm
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, HalfSpace, Shape, Sphere
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.shapes.shape import AXES
+from quasistatic_ref.shapes.shape import DIRECTIONS
 from quasistatic_ref.tolerances import REPEATED
 
 Kind = tuple[type[Batch], Hashable]
@@ -84,7 +84,7 @@ class AllPairs:
         """Write the same into fields of shape (n_c, ...); ContactError as of that."""
         R = kinematics.R
         t = kinematics.t
-        if not (finite(R.ravel()) and finite(t.ravel())):
+        if not (all_finite(R.ravel()) and all_finite(t.ravel())):
             raise ContactError("must be finite", field="poses")
         left = [*self._singly]
         for batch, some, rows in self._batches:
@@ -127,6 +127,6 @@ def kind_of(pair: ContactPair) -> Kind | None:
 
 def _corners_are_apart(solid: Shape) -> bool:
     """Whether no corner is where another is: seen from any side, neither repeats the other."""
-    corners, _ = solid.corners(AXES[0])
+    corners, _ = solid.corners(DIRECTIONS[0])
     apart = norm(corners[:, None] - corners)
     return int(np.count_nonzero(apart <= 10 * REPEATED)) == len(corners)

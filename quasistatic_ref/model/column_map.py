@@ -2,7 +2,6 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from functools import cached_property
 
 import numpy as np
 import pinocchio as pin
@@ -66,11 +65,6 @@ class JointColumns(ColumnMap):
         self.owned = np.unique(self.owner, return_index=True)[1]
         copies = np.setdiff1d(np.arange(model.nvExtended), self.owned)
         self.copies = list(zip(copies.tolist(), self.owner[copies].tolist(), strict=True))
-
-    @cached_property
-    def coordinates(self) -> Array:
-        """1.0 where a column is of a coordinate, else 0.0, (n_x, n_v): not for large scenes."""
-        return np.eye(self.n_v)[self.owner]
 
     def of_coordinates(self, columns: Array) -> Array:
         """Columns per unit of delta_q, shape (..., n_v), from `columns` of pinocchio [m, rad]."""

@@ -41,10 +41,10 @@ def configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
     ModelError
         If it is not a configuration; the message names the joint.
     """
-    checked = _entries(joints, n_q, q)
+    checked = _finite_entries(joints, n_q, q)
     UnitParts(joints).check(checked)
     for joint in joints:
-        if joint.unit and checked[joint.unit_part].tolist() == W_FIRST:
+        if joint.unit_vector and checked[joint.unit_part].tolist() == W_FIRST:
             problem = (
                 "looks like the identity as [w x y z]; quaternions are [x y z w], and the identity "
                 "is [0 0 0 1] (half a turn about x is [1 0 0 1e-16])"
@@ -61,10 +61,10 @@ def unit_configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array
     ModelError
         If a number is not finite, the shape another one, or a length zero.
     """
-    checked = _entries(joints, n_q, q)
+    checked = _finite_entries(joints, n_q, q)
     for joint in joints:
-        if joint.unit and not checked[joint.unit_part].any():
-            problem = f"its {joint.unit} has length 0, which gives no direction"
+        if joint.unit_vector and not checked[joint.unit_part].any():
+            problem = f"its {joint.unit_vector} has length 0, which gives no direction"
             raise ModelError(problem, field=f"q[{joint.name}]")
     return normalised(joints, checked)
 
@@ -83,7 +83,7 @@ def surely_configurations(joints: Sequence[Joint], q: Array) -> bool:
         return False
     for joint in joints:
         unit = q[..., joint.unit_part]
-        if joint.unit and not (np.abs(norm(unit) - 1) <= UNIT_ROUNDING).all():
+        if joint.unit_vector and not (np.abs(norm(unit) - 1) <= UNIT_ROUNDING).all():
             return False
         if unit.shape[-1] == len(W_FIRST) and (unit == W_FIRST).all(axis=-1).any():
             return False
@@ -100,7 +100,7 @@ class UnitParts:
     """
 
     def __init__(self, joints: Sequence[Joint]) -> None:
-        self._joints = [joint for joint in joints if joint.unit]
+        self._joints = [joint for joint in joints if joint.unit_vector]
         parts = [np.arange(joint.q.stop)[joint.unit_part] for joint in self._joints]
         self._entries = np.concatenate([np.zeros(0, np.int64), *parts])
         self._starts = np.array([0, *accumulate(map(len, parts))][:-1], np.int64)
@@ -127,7 +127,7 @@ class UnitParts:
         first = int(wrong.argmax())
         joint = self._joints[first]
         problem = (
-            f"its {joint.unit} must have length one, not {lengths[first]:.10g}; "
+            f"its {joint.unit_vector} must have length one, not {lengths[first]:.10g}; "
             "system.normalised(q) divides it by its length"
         )
         raise ModelError(problem, field=f"q[{joint.name}]", value=q[joint.unit_part].tolist())
@@ -145,7 +145,7 @@ def normalised(joints: Sequence[Joint], q: Array) -> Array:
     """
     entries = q + 0.0
     for joint in joints:
-        if joint.unit:
+        if joint.unit_vector:
             unit = entries[joint.unit_part]
             size = length(unit)
             if size > 0 and abs(size - 1) > UNIT_ROUNDING:
@@ -153,7 +153,7 @@ def normalised(joints: Sequence[Joint], q: Array) -> Array:
     return entries
 
 
-def _entries(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
+def _finite_entries(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
     """The numbers of q, if finite and of shape (n_q,); ModelError else, which names the joint."""
     entries = checked_numbers(q, "q", ModelError)
     if entries.shape != (n_q,):

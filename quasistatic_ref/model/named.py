@@ -63,7 +63,7 @@ class Named:
             places = self.q(name)
             if joint is not None:
                 places = self.q(joint.name)
-            unit = None if joint is None else joint.unit
+            unit = None if joint is None else joint.unit_vector
             if joint is not None and unit == QUATERNION and isinstance(value, Mapping):
                 placed[places] = _pose(joint, name, value, placed[places])
                 continue

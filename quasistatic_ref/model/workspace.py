@@ -22,8 +22,7 @@ PART = 24
 """Most coordinates of a part, unless one body alone has more: of 48, a workspace takes several
 times as long to make."""
 
-WORLD = np.eye(3)
-ORIGIN = np.zeros(3)
+WORLD_POSE = np.eye(3), np.zeros(3)
 
 
 class WorkspacePart(NamedTuple):
@@ -69,12 +68,12 @@ class Workspace:
         self.parts: list[WorkspacePart] = []
         before = 0
         of_paper = np.argsort(order.q)
-        for model, links in _groups(world):
+        for model, links in _part_models(world):
             data = pin.Data(model)
             placements = [data.oMf[body_frame(model, link)] for link in links]
             R = [p.rotation for p in placements]
             t = [p.translation for p in placements]
-            entries, turns = _entries(world.model, model, before)
+            entries, turns = _sources(world.model, model, before)
             self.parts.append(WorkspacePart(model, data, R, t, of_paper[entries], turns))
             before += model.njoints - 1
         self._q: list[Array] = []
@@ -94,8 +93,7 @@ class Workspace:
         They are those of the last move. Columns are as in
         :class:`~quasistatic_ref.model.kinematics.Kinematics`; all are read-only.
         """
-        R = [WORLD]
-        t = [ORIGIN]
+        R, t = ([part] for part in WORLD_POSE)
         columns = []
         for part in self.parts:
             R += part.R
@@ -124,7 +122,7 @@ class Workspace:
         return torques[0] if len(torques) == 1 else np.concatenate([self._none[0], *torques])
 
 
-def _groups(world: World) -> Iterator[tuple[pin.Model, list[str]]]:
+def _part_models(world: World) -> Iterator[tuple[pin.Model, list[str]]]:
     """Models of bodies that follow one another, and the links of each.
 
     A model has PART coordinates at most, or one body that has more; its revolute joints have
@@ -147,7 +145,7 @@ def _groups(world: World) -> Iterator[tuple[pin.Model, list[str]]]:
         yield joined(bodies, models), [link for b in bodies for link in links[b.name]]
 
 
-def _entries(all_bodies: pin.Model, model: pin.Model, before: int) -> tuple[Indices, list[int]]:
+def _sources(all_bodies: pin.Model, model: pin.Model, before: int) -> tuple[Indices, list[int]]:
     """Entries of the model's q of a part after `before` other joints, and its `turns`."""
     entries = np.zeros(model.nq, dtype=np.int64)
     turns = []

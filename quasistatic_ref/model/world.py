@@ -210,7 +210,7 @@ def _add_joints(body: Body, file: UrdfFile, joints: list[Joint], start: list[flo
         base = BASES[body.base]
         rpy = np.asarray(body.rpy)
         entries = base.at(np.asarray(body.xyz), rpy)
-        if base.unit == QUATERNION:  # with the last bits of runs that are recorded
+        if base.unit_vector == QUATERNION:  # with the last bits of runs that are recorded
             entries[base.lengths :] = pin.Quaternion(rotation(rpy)).normalized().coeffs()
         add(base, BASE, entries)
     for written in visiting_order(file.root, file.joints):
@@ -221,7 +221,7 @@ def _add_joints(body: Body, file: UrdfFile, joints: list[Joint], start: list[flo
             add(kind, written.name, kind.at(np.zeros(3), np.zeros(3)))
             continue
         add(kind, written.name, kind.at(body.positions.get(written.name, 0.0)))
-        limits = written.limits if kind.unit is None else None
+        limits = written.limits if kind.unit_vector is None else None
         joints[-1] = replace(joints[-1], effort=written.effort, limits=limits)
 
 

@@ -63,7 +63,7 @@ def _has_truth(value: object) -> bool:
     return isinstance(value, bool | np.bool_)
 
 
-def finite(x: Array) -> bool:
+def all_finite(x: Array) -> bool:
     """Whether all numbers of a vector are finite: one product if they are, which may overflow."""
     return math.isfinite(x.dot(x)) or bool(np.isfinite(x).all())
 

@@ -40,7 +40,7 @@ unit; decided without rounding (numbers/pivots.py).
 Cholesky of a singular matrix leaves rounding of 1e-16 for a pivot; a matrix this near to one has
 a condition number above 1e14, and its inverse no correct digit."""
 
-U = 2.0**-53
+UNIT = 2.0**-53
 """Largest relative error of one operation."""
 RANGE = 2.0**-500, 2.0**500
 """Diagonal entries whose products and roots are far from the ends of float64's range."""
@@ -95,7 +95,7 @@ def positive_sum(S: Array, terms: Iterable[tuple[Fraction, Array]]) -> bool:
     """
     if not np.isfinite(S).all():
         return False
-    if _surely_positive(S * (1 - 16 * len(S) * U * np.eye(len(S)))):
+    if _surely_positive(S * (1 - 16 * len(S) * UNIT * np.eye(len(S)))):
         return True
     exact = np.frompyfunc(Fraction, 1, 1)
     return _exactly_positive(sum(factor * exact(term) for factor, term in terms))
@@ -136,7 +136,7 @@ def _surely_positive(S: Array) -> bool:
     n = S.shape[-1]
     least, most = RANGE
     try:
-        L = np.linalg.cholesky(S * (1 - 2 * n * (n + 3) * U * np.eye(n)))  # S - c D
+        L = np.linalg.cholesky(S * (1 - 2 * n * (n + 3) * UNIT * np.eye(n)))  # S - c D
     except np.linalg.LinAlgError:
         return False
     s = np.linalg.diagonal(S)

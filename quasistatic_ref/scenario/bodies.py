@@ -207,7 +207,7 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
             else:
                 target = turned = np.array([waypoint.number(name)])
             # Between waypoints a continuous joint turns as often as they say.
-            if joint.unit and (isinstance(joint, TwistJoint) or name not in times):
+            if joint.unit_vector and (isinstance(joint, TwistJoint) or name not in times):
                 _check_turn(waypoint, name, angles[name], turned)
                 angles[name] = turned
             times.setdefault(name, []).append(t)

@@ -14,7 +14,7 @@ from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.quoting import known_names, nearest_name
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import System
-from quasistatic_ref.scenario.overrides import NAMED
+from quasistatic_ref.scenario.overrides import ESSENTIAL
 from quasistatic_ref.scenario.scenario_table import TABLES, fields_of
 from quasistatic_ref.tolerances import LARGE
 
@@ -86,7 +86,7 @@ def check_made(made: Collection[tuple[str, str]], tables: dict[str, Any]) -> Non
         Naming the nearest table that was there.
     """
     for kind, name in made:
-        if kind in NAMED and NAMED[kind] not in tables[kind][name]:
+        if kind in ESSENTIAL and ESSENTIAL[kind] not in tables[kind][name]:
             existing = [other for other in tables[kind] if (kind, other) not in made]
             near = f"{nearest_name(name, existing) or ';'} {known_names(existing)}"
             raise ScenarioError(f"is not a table of this file{near}", field=f"{kind}.{name}")

@@ -12,7 +12,7 @@ from quasistatic_ref.scenario.paths import OwnWord
 
 Changes = Sequence[str] | Mapping[str, Any]
 
-NAMED = {"bodies": "urdf", "contacts": "alpha"}
+ESSENTIAL = {"bodies": "urdf", "contacts": "alpha"}
 """Tables of tables, and a field without which none of theirs can be."""
 
 
@@ -70,10 +70,10 @@ def _is_dotted(key: str) -> bool:
 
 def _check_whole(kind: str, before: Any, after: Any) -> None:
     """Refuse a table that would replace one of the file, and is only a part of it."""
-    if kind not in NAMED or not (isinstance(before, dict) and isinstance(after, dict)):
+    if kind not in ESSENTIAL or not (isinstance(before, dict) and isinstance(after, dict)):
         return
     for name, table in after.items():
-        if name in before and isinstance(table, dict) and table and NAMED[kind] not in table:
+        if name in before and isinstance(table, dict) and table and ESSENTIAL[kind] not in table:
             problem = (
                 f"would replace the whole table; a single field is the setting "
                 f'"{kind}.{name}.{next(iter(table))}"'

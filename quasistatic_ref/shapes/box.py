@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.shapes.frozen import freeze_array, positive_lengths, set_half
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.shapes.shape import AXES
+from quasistatic_ref.shapes.shape import DIRECTIONS
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -44,7 +44,7 @@ class Box(Rounded):
     def faces(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m], above six planes."""
         heights = np.concatenate([points, -points], axis=1) - np.tile(self.half_extents, 2)
-        return heights, np.broadcast_to(AXES, (len(points), 6, 3))
+        return heights, np.broadcast_to(DIRECTIONS, (len(points), 6, 3))
 
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Its vertices, shape (8, 3) [m], whichever way `towards` [-] is."""

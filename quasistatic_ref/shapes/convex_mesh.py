@@ -14,7 +14,7 @@ from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.ordered import dot, norm, product
 from quasistatic_ref.shapes.facets import Facets
 from quasistatic_ref.shapes.frozen import freeze_array
-from quasistatic_ref.shapes.shape import CHUNK, Shape, lengths
+from quasistatic_ref.shapes.shape import CHUNK, Shape, dimensions
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 CONVEX_EXCESS: Final = 1e-3
@@ -157,7 +157,7 @@ class ConvexMesh(Shape):
 
     def words(self) -> str:
         """Kind, number of corners, and the edges of the box about them [m]."""
-        extent = lengths(np.ptp(self.vertices, axis=0))
+        extent = dimensions(np.ptp(self.vertices, axis=0))
         what = "convex mesh" if self.is_convex else "convex hull of a mesh"
         return f"{what}, {len(self.vertices)} corners within {extent}"
 

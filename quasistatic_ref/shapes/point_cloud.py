@@ -13,7 +13,7 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
 from quasistatic_ref.numbers.ordered import norm
 from quasistatic_ref.shapes.frozen import freeze_array
-from quasistatic_ref.shapes.shape import Shape, lengths
+from quasistatic_ref.shapes.shape import Shape, dimensions
 
 GROUP: Final = 64
 """Most points of a group of neighbours."""
@@ -90,5 +90,5 @@ class PointCloud(Shape):
 
     def words(self) -> str:
         """How many points it has, and the edges of the box about them [m]."""
-        extent = lengths(np.ptp(self.points, axis=0))
+        extent = dimensions(np.ptp(self.points, axis=0))
         return f"cloud of {len(self.points)} points within {extent}"

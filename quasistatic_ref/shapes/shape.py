@@ -9,7 +9,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 
-AXES = np.concatenate([np.eye(3), -np.eye(3)])
+DIRECTIONS = np.concatenate([np.eye(3), -np.eye(3)])
 CHUNK = 1 << 17
 """Points times faces handled at once: some tens of megabytes."""
 
@@ -134,7 +134,7 @@ class Shape(Plain):
     @cached_property
     def corner_count(self) -> int:
         """Number of corners, which does not depend on the direction."""
-        return len(self.corners(AXES[0])[0])
+        return len(self.corners(DIRECTIONS[0])[0])
 
     @property
     def edge_count(self) -> int:
@@ -144,7 +144,7 @@ class Shape(Plain):
     @cached_property
     def extent(self) -> float:
         """Longest edge of the bounding box along its own axes [m]; of a half-space, infinity."""
-        reach = self.support_value(AXES)
+        reach = self.support_value(DIRECTIONS)
         return float((reach[:3] + reach[3:]).max())
 
     @property
@@ -167,7 +167,7 @@ class Shape(Plain):
         """Kind and sizes, e.g. ``box 0.1 x 0.2 x 0.3 m`` or ``sphere of radius 0.1 m``."""
         sizes = self.sizes
         if "size" in sizes:
-            return f"{self.kind} {lengths(sizes['size'])}"
+            return f"{self.kind} {dimensions(sizes['size'])}"
         return f"{self.kind} of {', '.join(f'{name} {size:g} m' for name, size in sizes.items())}"
 
     def lacks(self, problem: str) -> ContactError:
@@ -175,7 +175,7 @@ class Shape(Plain):
         return ContactError(problem, field="shape", value=type(self).__name__)
 
 
-def lengths(values: Array) -> str:
+def dimensions(values: Array) -> str:
     """Lengths as in ``0.1 x 0.2 x 0.3 m``.
 
     Parameters

@@ -16,7 +16,7 @@ from quasistatic_ref.certify.norm import digits_by_groups
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.certify.warm import basic_rows, warm_rows
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import finite, without_warnings
+from quasistatic_ref.numbers.arrays import all_finite, without_warnings
 from quasistatic_ref.parts import extended_step
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.choice import solver_for
@@ -159,7 +159,7 @@ def solved(
     if certify != "off":
         numbers.append(solution.wrench.ravel())
     residuals = solution.certificate.residuals.values()
-    if not (all(map(finite, numbers)) and all(map(math.isfinite, residuals))):
+    if not (all(map(all_finite, numbers)) and all(map(math.isfinite, residuals))):
         raise out_of_range()
     return solution
 

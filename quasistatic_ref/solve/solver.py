@@ -13,7 +13,7 @@ import numpy as np
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import one_line
-from quasistatic_ref.numbers.arrays import Mask, finite
+from quasistatic_ref.numbers.arrays import Mask, all_finite
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     QPSOLVERS,
@@ -181,7 +181,7 @@ class BackendSolver(Solver):
             cause = None
             if reply.x is None or reply.lam is None:
                 status = "an answer without multipliers" if reply.solved else reply.status
-            elif finite(reply.x) and finite(reply.lam):
+            elif all_finite(reply.x) and all_finite(reply.lam):
                 if out_of_reach is not None:
                     # Residuals are those of the true gap.
                     reply.lam[out_of_reach] = 0.0

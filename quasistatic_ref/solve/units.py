@@ -23,7 +23,7 @@ from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.norm import energy_norm, joined, single_lengths
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.numbers.arrays import Array, Mask, finite, read_only
+from quasistatic_ref.numbers.arrays import Array, Mask, all_finite, read_only
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import UNMOVED
@@ -137,7 +137,7 @@ def natural_step(step: StepData, units: Units) -> StepData:
     arrays = [*of_step.values(), *of_contacts.values(), *of_extra.values()]
     for array in arrays:
         array.setflags(write=False)
-    if not finite(np.concatenate([array.ravel() for array in arrays])):
+    if not all_finite(np.concatenate([array.ravel() for array in arrays])):
         raise out_of_range()
     # Shapes, signs, frames and definiteness are those of the step, which are checked.
     if not extra.empty:

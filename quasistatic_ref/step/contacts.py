@@ -27,7 +27,7 @@ from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.step.cones import has_torsion
 from quasistatic_ref.tolerances import ORTHONORMAL
 
-AXES = np.eye(3)
+IDENTITY = np.eye(3)
 ROWS = {4, 6}
 
 
@@ -166,7 +166,7 @@ class Contacts(Plain, Shown):
     def _check_frames(self, n_c: int) -> None:
         axes = np.array([self.d1, self.d2, self.n])
         # Not by matmul, which warns where numbers overflow: such axes are refused below.
-        defect = np.abs(np.einsum("aci,bci->cab", axes, axes) - AXES)
+        defect = np.abs(np.einsum("aci,bci->cab", axes, axes) - IDENTITY)
         right_handed = np.linalg.det(axes.transpose(1, 0, 2)) > 0
         if n_c and not (defect.max() <= ORTHONORMAL and right_handed.all()):
             j = int((~(defect.max(axis=(1, 2)) <= ORTHONORMAL) | ~right_handed).argmax())

@@ -23,7 +23,7 @@ from quasistatic_ref.optional.show.figures.draw import draw_scene
 from quasistatic_ref.optional.show.figures.moments import moment
 from quasistatic_ref.scenario.world_solids import SOLIDS, Kind
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.shapes.shape import lengths
+from quasistatic_ref.shapes.shape import dimensions
 from tests.closeness import assert_relative, assert_within
 from tests.contact.still import in_world
 from tests.errors.scene import SCENE, changed, scene_written
@@ -48,7 +48,7 @@ class Pad(Rounded):
 
     def words(self):
         """Kind and sizes [m]."""
-        return f"pad {lengths(2 * self.half_extents)}, rounded by {self.radius:g} m"
+        return f"pad {dimensions(2 * self.half_extents)}, rounded by {self.radius:g} m"
 
 
 PAD = Pad(HALF, RADIUS)

@@ -16,7 +16,7 @@ from quasistatic_ref.contact.separations import UNIQUE_NORMAL
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.ordered import dot, product, rotated
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Shape, Sphere
-from quasistatic_ref.shapes.shape import AXES
+from quasistatic_ref.shapes.shape import DIRECTIONS
 
 FAR: Final = 1e3
 """Places relative to the solid's size [-] up to which rounding, 1e-16 of them, is far below the
@@ -28,7 +28,7 @@ def ends(solid: Shape) -> tuple[Array, float]:
     """Its corners, shape (N, 3) [m], or its centre; and the radius of the ball about each [m]."""
     if isinstance(solid, Sphere):
         return np.zeros((1, 3)), solid.radius
-    return solid.corners(AXES[0])
+    return solid.corners(DIRECTIONS[0])
 
 
 class OnHalfSpaces(Batch):

@@ -16,7 +16,7 @@ class Ball(TwistJoint):
     entries = ("qx", "qy", "qz", "qw")
     pinocchio = pin.JointModelSpherical
     lengths = 0
-    unit = QUATERNION
+    unit_vector = QUATERNION
 
     @classmethod
     def at(cls, xyz: Array, rpy: Array) -> list[float]:

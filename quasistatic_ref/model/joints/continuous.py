@@ -25,7 +25,7 @@ class Continuous(AxisJoint):
     """A wheel."""
 
     pinocchio = (pin.JointModelRUBX, pin.JointModelRUBY, pin.JointModelRUBZ, _wheel)
-    unit = COSINE_SINE
+    unit_vector = COSINE_SINE
     in_c = 2
 
     @property

@@ -16,7 +16,7 @@ class Floating(TwistJoint):
     entries = ("x", "y", "z", "qx", "qy", "qz", "qw")
     pinocchio = pin.JointModelFreeFlyer
     lengths = 3
-    unit = QUATERNION
+    unit_vector = QUATERNION
     free = True
     in_c = 0
 

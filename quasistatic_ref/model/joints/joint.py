@@ -74,7 +74,7 @@ class Joint(Plain, ABC):
     ----------
     lengths : int
         How many of its entries of q, and of delta_q, are lengths.
-    unit : str or None
+    unit_vector : str or None
         What its other entries of q are called if they are a vector of length one.
     free : bool
         Whether nothing guides the link that it moves.
@@ -92,7 +92,7 @@ class Joint(Plain, ABC):
     effort: float = math.inf
 
     lengths: ClassVar[int]
-    unit: ClassVar[str | None] = None
+    unit_vector: ClassVar[str | None] = None
     free: ClassVar[bool] = False
     in_c: ClassVar[int | None] = None
 

@@ -16,7 +16,7 @@ class Planar(TwistJoint):
     entries = ("x", "y", "cos", "sin")
     pinocchio = pin.JointModelPlanar
     lengths = 2
-    unit = COSINE_SINE
+    unit_vector = COSINE_SINE
     in_c = 1
 
     @classmethod

@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 from quasistatic_ref.model.joints.joint import Coordinate, Joint, Position
 from quasistatic_ref.numbers.arrays import Array
 
-AXES = (("x", "m"), ("y", "m"), ("z", "m"), ("rx", "rad"), ("ry", "rad"), ("rz", "rad"))
+TWIST = (("x", "m"), ("y", "m"), ("z", "m"), ("rx", "rad"), ("ry", "rad"), ("rz", "rad"))
 """Entries of a twist, and their units."""
 
 
@@ -37,7 +37,7 @@ class TwistJoint(Joint):
         """Its entries of delta_q."""
         return tuple(
             Coordinate(f"{self.name}.{axis}", self.name, unit, self.actuated)
-            for axis, unit in (AXES[i] for i in self.twist)
+            for axis, unit in (TWIST[i] for i in self.twist)
         )
 
     @property
@@ -59,7 +59,7 @@ class TwistJoint(Joint):
         way = [*(xyz - start), *rpy]
         if all(i in cls.twist or part == 0 for i, part in enumerate(way)):
             return None
-        held = ", ".join(axis for i, (axis, _) in enumerate(AXES) if i not in cls.twist)
+        held = ", ".join(axis for i, (axis, _) in enumerate(TWIST) if i not in cls.twist)
         return (
             f"moves or turns by {held}, which this joint cannot; place shapes so in the URDF, or "
             'take base = "floating"'

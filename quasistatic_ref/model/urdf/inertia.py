@@ -56,7 +56,7 @@ def checked_inertias(
     mover = _movers(file, unactuated, base)
     loaded = _loaded(file)
     notes = []
-    for first, links in _groups(file).items():
+    for first, links in _rigid_groups(file).items():
         defects = [(link.name, link.defect) for link in links if link.defect is not None]
         connects = first in loaded and not any(
             link.mass or link.defect or link.collisions for link in links
@@ -91,7 +91,7 @@ def _poses(model: pin.Model) -> dict[str, pin.SE3]:
     return {frame.name: data.oMf[i].copy() for i, frame in enumerate(model.frames)}
 
 
-def _groups(file: UrdfFile) -> dict[str, list[FileLink]]:
+def _rigid_groups(file: UrdfFile) -> dict[str, list[FileLink]]:
     """The links of each rigid group, by the name of its first."""
     first = {file.root: file.root}
     groups = {file.root: [file.links[file.root]]}

@@ -136,8 +136,8 @@ def visiting_order(root: str, joints: Sequence[FileJoint]) -> list[FileJoint]:
     for joint in joints:
         if joint.mimic is None:
             continue
-        followers = _movers(joint, mover)
-        leaders = _movers(named[joint.mimic.of], mover)
+        followers = _joints_above(joint, mover)
+        leaders = _joints_above(named[joint.mimic.of], mover)
         for after, before in zip(followers, leaders, strict=False):
             if after != before:
                 waits[after].add(before)
@@ -170,7 +170,7 @@ def _after_waiting(
     return order
 
 
-def _movers(joint: FileJoint, mover: Mapping[str, FileJoint]) -> list[str]:
+def _joints_above(joint: FileJoint, mover: Mapping[str, FileJoint]) -> list[str]:
     """The joints from the root to a joint."""
     chain = [joint.name]
     while above := mover.get(joint.parent):

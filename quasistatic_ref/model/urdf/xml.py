@@ -19,7 +19,7 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import length
 from quasistatic_ref.tolerances import LARGE
 
-ALIKE = 0.6
+MISPRINT = 0.6
 """Similarity by which a short name is taken for a misprint of another [-], as difflib counts it."""
 
 
@@ -96,7 +96,7 @@ class Tag:
 
     def only(self, *known: str) -> None:
         """Note attributes that nothing reads; ModelError for one that looks like a misprint."""
-        for name in self._unknown(list(self.element.attrib), known, ALIKE):
+        for name in self._unknown(list(self.element.attrib), known, MISPRINT):
             longer = [one for one in known if name.rpartition(".")[2].startswith(one)]
             if longer:  # such as rpy_deg
                 raise ModelError(f"is unknown; did you mean {longer[0]!r}?", field=name)
@@ -164,28 +164,27 @@ class Tag:
         origin = self.perhaps("origin", "xyz", "rpy", "quat_xyzw")
         if origin is None:
             return np.eye(3), np.zeros(3)
-        turn = quaternion(origin.rpy())
+        turn = origin.turn()
         R = pin.Quaternion(turn / length(turn)).matrix()
         return R, origin.numbers("xyz", 3, default=0.0)
 
-    def rpy(self) -> Array:
-        """Roll, pitch and yaw of an origin, shape (3,) [rad].
+    def turn(self) -> Array:
+        """The rotation of an origin as a quaternion [x y z w] of any length, shape (4,) [-].
 
         Raises
         ------
         ModelError
-            If it has a quaternion too, or one that is zero.
+            If it has both a quaternion and roll, pitch, yaw, or a quaternion that is zero.
         """
         if "quat_xyzw" not in self.element.attrib:
-            return self.numbers("rpy", 3, default=0.0)
+            return quaternion(self.numbers("rpy", 3, default=0.0))
         where = f"{self.where}.quat_xyzw"
         if "rpy" in self.element.attrib:
             raise ModelError("cannot stand next to rpy; leave one out", field=where)
-        quaternion = self.numbers("quat_xyzw", 4)
-        if not quaternion.any():
-            raise ModelError("must not be zero", field=where, value=quaternion.tolist())
-        R = pin.Quaternion(quaternion).normalized().matrix()
-        return np.asarray(pin.rpy.matrixToRpy(R))
+        turn = self.numbers("quat_xyzw", 4)
+        if not turn.any():
+            raise ModelError("must not be zero", field=where, value=turn.tolist())
+        return turn
 
     def position_limits(self) -> tuple[float, float] | None:
         """Lower and upper bound of a joint's ``limit`` [m, rad].

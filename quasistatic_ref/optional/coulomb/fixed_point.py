@@ -39,7 +39,7 @@ from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import field_values
-from quasistatic_ref.numbers.arrays import Array, finite, read_only
+from quasistatic_ref.numbers.arrays import Array, all_finite, read_only
 from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
 from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.solve.choice import solver_for
@@ -169,7 +169,7 @@ def coulomb_step(
     """
     contacts = step.contacts
     s = np.zeros(contacts.n_c) if start is None else np.array(start, dtype=np.float64)
-    if s.shape != (contacts.n_c,) or not (finite(s) and s.min(initial=0.0) >= 0):
+    if s.shape != (contacts.n_c,) or not (all_finite(s) and s.min(initial=0.0) >= 0):
         raise InputError("must have one length >= 0 for each contact", field="start", value=start)
     if most < 1:
         raise InputError("must be at least 1", field="most", value=most)

@@ -28,7 +28,11 @@ def target_obstacles(simulator: Simulator, rates: StepRates) -> list[Obstacle]:
     obstacles = []
     for joint in simulator.system.joints:
         turn = change[joint.v][joint.lengths :]
-        if joint.unit and joint.v.stop <= len(change) and np.linalg.norm(turn) >= np.pi - ON_RIM:
+        if (
+            joint.unit_vector
+            and joint.v.stop <= len(change)
+            and np.linalg.norm(turn) >= np.pi - ON_RIM
+        ):
             says = f"{joint.name}: the target is half a turn away, where (-) jumps"
             fields = ("dq_dq", "dq_dq_bar_a")
             obstacles.append(rates.obstacle(reason.HALF_TURN, (joint.name,), fields, says))

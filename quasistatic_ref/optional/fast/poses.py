@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
-from quasistatic_ref.model.workspace import ORIGIN, WORLD
+from quasistatic_ref.model.workspace import WORLD_POSE
 from quasistatic_ref.numbers.arrays import Array
 
 
@@ -32,8 +32,7 @@ class Poses:
         self._column_map = system.column_map
         self._order = system.column_map.order
         self.q = system.q_start.copy()
-        R = [WORLD]
-        t = [ORIGIN]
+        R, t = ([part] for part in WORLD_POSE)
         columns: list[int] = []
         gravity: list[int] = []
         for part in self._workspace.parts:

@@ -81,7 +81,7 @@ def own_system(mechanism: dict[str, Any]) -> OwnSystem:
         if body["joint"] == "fixed":
             continue
         joint = joints[f"t{tree[body['name']]}/{_joint(body, numbers[body['name']])}"]
-        if joint.unit:
+        if joint.unit_vector:
             units.append(slice(slices.start + joint.lengths, slices.stop))
         q += range(joint.q.start, joint.q.stop)
         v += range(joint.v.start, joint.v.stop)

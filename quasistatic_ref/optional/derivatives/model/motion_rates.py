@@ -39,7 +39,7 @@ class MotionRates:
     def __init__(self, kinematics: Kinematics, column_map: JointColumns) -> None:
         columns = kinematics.columns
         self.moves = column_map.moves[:, 0]
-        self.coordinates = column_map.coordinates
+        self.coordinates = np.eye(column_map.n_v)[column_map.owner]
         self.J: Array = (columns * column_map.moves) @ self.coordinates
         # Column k carries column j along if it moves every link that j moves.
         carried = self.moves.T @ (1 - self.moves) == 0

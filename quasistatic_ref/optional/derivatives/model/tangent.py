@@ -118,10 +118,10 @@ def _joint_rates(joint: Joint, q: Array) -> Array:
     n = joint.lengths
     turn = q[n:]
     E = np.eye(len(q), joint.v.stop - joint.v.start)
-    if joint.unit == QUATERNION:
+    if joint.unit_vector == QUATERNION:
         E[:n, :n] = rows((turn / length(turn)).tolist())[:n]
         E[n:, n:] = _quaternion_rates(turn)
-    if joint.unit == COSINE_SINE:
+    if joint.unit_vector == COSINE_SINE:
         c, s = turn
         E[:n, :n] = np.array([[c, -s], [s, c]])[:n, :n] / length(turn)
         E[n:, n:] = [[-s], [c]]
