@@ -64,8 +64,9 @@ def test_every_number_of_the_data_has_the_bits_of_cvxpy_s(cone, n_a, n_u, rows, 
 
 
 @pytest.mark.parametrize("moved", [None, "cvxpy.cvxcore.python.canonInterface"])
-def test_answers_have_the_bits_of_the_problem_s_own_solve(moved, step, monkeypatch):
+def test_answers_have_the_bits_of_the_problem_s_own_solve(moved, rng, monkeypatch):
     """Also where CVXPY has moved a name that is private to it."""
+    step = planted_step(rng)[0]
     if moved is not None:
         monkeypatch.setitem(sys.modules, moved, None)
         monkeypatch.delitem(sys.modules, CompiledMap.__module__)
@@ -118,7 +119,8 @@ CALLS = {
 
 
 @cases("spoil", CALLS)
-def test_a_call_that_fails_or_answers_otherwise_costs_no_answer(spoil, step, monkeypatch):
+def test_a_call_that_fails_or_answers_otherwise_costs_no_answer(spoil, rng, monkeypatch):
+    step = planted_step(rng)[0]
     expected = solve_step(step, CvxpySolver(step), certify="off")
     spoil(monkeypatch)
     found = [solve_step(step, solver, certify="off") for solver in 2 * [CvxpySolver(step)]]
