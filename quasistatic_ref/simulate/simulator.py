@@ -258,7 +258,7 @@ class Simulator(Settings, Shown):
             lap("distances")
             step = self.step_data(here, q_bar_a, force, points, kinematics)
             lap("rows")
-            solution = self.solution(step) if self.extension is None else self.extended(step, here)
+            solution = self.extended(step, here)
             # After the solve: a proof of infeasibility says more.
             self.limits.check_penetration(step)
             # An extension adds rows and coordinates: from here on the step is the one that was
@@ -344,8 +344,9 @@ class Simulator(Settings, Shown):
         return tuple(findings_of_scene(self, q, checked_force(self.system, force)))
 
     def extended(self, step: StepData, q: Array) -> StepSolution:
-        """A step solved with the user's own constraints and costs at q, shape (n_q,)."""
-        assert self.extension is not None
+        """A step solved, with the user's own constraints and costs at q, (n_q,), if any."""
+        if self.extension is None:
+            return self.solution(step)
         return extended_solution(self, step, self.extension(q))
 
     def fitting_solver(self, step: StepData) -> Solver:

@@ -277,7 +277,7 @@ class FastSimulator(Simulator):
     def _solution(self, step: StepData, both: FormedStep | None, q: Array) -> StepSolution:
         """The solution of a step from q, (n_q,); errors as of the plain path."""
         if both is None:
-            return self.solution(step) if self.extension is None else self.extended(step, q)
+            return self.extended(step, q)
         assert self.solver is not None  # which fits the step in both units
         try:
             return self.solved(both, self.solver)
