@@ -8,7 +8,6 @@ import ast
 import re
 import runpy
 import sys
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 import pytest
@@ -16,8 +15,9 @@ from matplotlib.testing.compare import compare_images
 
 from tests.extras import marked_as_long
 from tests.meta.remedies import assert_alike
+from tests.pages import ROOT
 
-GALLERY = Path(__file__).parents[1] / "docs" / "gallery"
+GALLERY = ROOT / "docs" / "gallery"
 SCRIPTS = sorted(GALLERY.glob("*.py"))
 IMPORTED = {"matplotlib.pyplot", "numpy", "quasistatic_ref"}
 SHORT = {"a_closed_loop", "gradient_of_a_step", "spun_sphere"}

@@ -7,15 +7,15 @@ looks at them. Outputs are not compared: they depend on the machine.
 import json
 import re
 import runpy
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 import pytest
 
 from tests.extras import marked_as_long
+from tests.pages import ROOT
 from tests.processes import python
 
-FOLDER = Path(__file__).parents[1] / "docs" / "notebooks"
+FOLDER = ROOT / "docs" / "notebooks"
 SCRIPTS = sorted(FOLDER.glob("*.py"))
 LARGEST = 300_000  # bytes
 WITHOUT_ROBOTS = "one_contact"

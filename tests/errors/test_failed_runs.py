@@ -92,7 +92,7 @@ def test_the_depth_that_is_allowed_is_the_scenario_s(tmp_path, depth, fails):
     else:
         trajectory = scenario.run()
         # Pushed out in one step: the sphere's lowest point is on the floor.
-        assert_relative(trajectory["q"][1, 3], 0.05, ROUNDING)
+        assert_relative(scenario.system.of(trajectory.q[1], "ball.z"), 0.05, ROUNDING)
 
 
 def test_a_position_that_is_no_number_is_out_of_the_scene():

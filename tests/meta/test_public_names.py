@@ -6,7 +6,6 @@ tests.meta.test_public_names`` writes again.
 
 import inspect
 from operator import attrgetter
-from pathlib import Path
 
 import quasistatic_ref as qr
 from quasistatic_ref.certify import solution_files
@@ -18,6 +17,7 @@ from quasistatic_ref.scenario import scenario_table
 from quasistatic_ref.simulate import trajectory
 from quasistatic_ref.step import files
 from tests.meta.remedies import assert_alike
+from tests.pages import ROOT
 
 FORMATS = {
     files.STEP_FORMAT: files.VERSION,
@@ -26,7 +26,7 @@ FORMATS = {
     trajectory.FORMAT: trajectory.VERSION,
     versions.FORMAT: versions.FORMAT_VERSION,
 }
-LIST = Path(__file__).parents[1] / "public_names.txt"
+LIST = ROOT / "tests" / "public_names.txt"
 
 
 def frozen_lines():

@@ -19,6 +19,7 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.shapes.frozen import SHORT
 from quasistatic_ref.tolerances import ORTHONORMAL
+from tests.cases import cases
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import ROUNDING
 
@@ -28,35 +29,32 @@ def sheared_matrix(by):
     return np.array([[1.0, by, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
 
 
-REFUSED = [
-    ("zero radius", lambda: Sphere(0.0), r"radius: must be a positive length \(got 0.0\)"),
-    ("radius too large to double", lambda: Sphere(1.7e308), "radius: must be a positive length"),
-    ("a radius below a proton's", lambda: Sphere(0.9 * SHORT), "radius: must be at least 1e-15 m"),
-    ("flat box", lambda: Box((1, 0, 1)), "half_extents: must be three positive lengths"),
-    ("one edge", lambda: Box(0.1), r"half_extents: must be three .*, half of its size \(got 0.1"),
-    ("short cylinder", lambda: Cylinder(1.0, 0.0), "half_length: must be a positive length"),
-    ("no normal", lambda: HalfSpace(np.zeros(3), 0.0), "normal: must not be zero"),
-    ("nan offset", lambda: HalfSpace(np.eye(3)[0], np.nan), "offset: must be a finite number"),
-    ("no points", lambda: PointCloud(np.zeros((0, 3))), "points: must contain at least one point"),
-    (
-        "a body",
+REFUSED = {
+    "zero radius": (lambda: Sphere(0.0), r"radius: must be a positive length \(got 0.0\)"),
+    "radius too large to double": (lambda: Sphere(1.7e308), "radius: must be a positive length"),
+    "a radius below a proton's": (lambda: Sphere(0.9 * SHORT), "radius: must be at least 1e-15 m"),
+    "flat box": (lambda: Box((1, 0, 1)), "half_extents: must be three positive lengths"),
+    "one edge": (lambda: Box(0.1), r"half_extents: must be three .*, half of its size \(got 0.1"),
+    "short cylinder": (lambda: Cylinder(1.0, 0.0), "half_length: must be a positive length"),
+    "no normal": (lambda: HalfSpace(np.zeros(3), 0.0), "normal: must not be zero"),
+    "nan offset": (lambda: HalfSpace(np.eye(3)[0], np.nan), "offset: must be a finite number"),
+    "no points": (lambda: PointCloud(np.zeros((0, 3))), "points: must contain at least one point"),
+    "a body": (
         lambda: PlacedShape.in_world("a#0", Body.of_shape("ball", Sphere(1.0), mass=1.0)),
         r"a#0.shape: must be a Shape \(got 'Body'\)",
     ),
-    (
-        "reflection",
+    "reflection": (
         lambda: PlacedShape.in_world("a#0", Sphere(1.0), R=np.diag([1.0, 1.0, -1.0])),
         "a#0.R: must be a rotation",
     ),
-    (
-        "shear",
+    "shear": (
         lambda: PlacedShape("a#0", 0, sheared_matrix(2 * ORTHONORMAL), np.zeros(3), Sphere(1.0)),
         "a#0.R: must be a rotation",
     ),
-]
+}
 
 
-@pytest.mark.parametrize(("make", "words"), [r[1:] for r in REFUSED], ids=[r[0] for r in REFUSED])
+@cases("make, words", REFUSED)
 def test_an_impossible_shape_is_refused(make, words):
     with pytest.raises(ModelError, match=words):
         make()
