@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import Path
 from typing import Final, NamedTuple
-from xml.etree.ElementTree import Element
 
 import numpy as np
 
@@ -189,33 +188,30 @@ def _content(path: Path, text: str) -> UrdfFile:
     if version not in _VERSIONS:
         problem = f"must be one of {', '.join(_VERSIONS)}"
         raise ModelError(problem, field="robot.version", value=version)
-    ignored: list[str] = []
-    top = Tag(robot, "robot", ignored)
+    top = Tag(robot, "robot")
     top.text("name")
-    notes = []
     if "xmlns" in robot.attrib:
-        notes.append(f"its elements are read without their namespace, {robot.attrib['xmlns']}")
+        top.notes.append(f"its elements are read without their namespace, {robot.attrib['xmlns']}")
     top.pass_over("link", "joint", attributes=_ROBOT)
     links: dict[str, FileLink] = {}
     _check_count(len(robot.findall("link")), MOST_LINKS, "links")
     _check_count(len(robot.findall("link/collision")), MOST_SHAPES, "collisions")
-    for element in robot.findall("link"):
-        link = _link(element, ignored, notes)
+    for tag in top.named("link"):
+        link = _link(tag)
         if link.name in links:
             raise ModelError("is the name of two links; rename one", field=f"link[{link.name}]")
         links[link.name] = link
     if not links:
         raise ModelError("has no <link>", field="robot")
     needed = version != "1.2"  # which made limits optional
-    joints = [_joint(element, ignored, notes, needed) for element in robot.findall("joint")]
-    joints = _followers(joints, notes)
+    joints = _followers([_joint(tag, needed) for tag in top.named("joint")], top.notes)
     moving = [joint.kind for joint in joints if joint.kind != "fixed"]
     coordinates = sum(3 if kind == "ball" else 1 for kind in moving)
     if coordinates > MOST_COORDINATES:
         problem = f"has joints of more than {MOST_COORDINATES} coordinates; fix some of them"
         raise ModelError(problem, field="robot", value=coordinates)
     root, ordered = checked_tree(links, joints)
-    return UrdfFile(path, text, root, links, ordered, tuple(ignored), tuple(notes))
+    return UrdfFile(path, text, root, links, ordered, tuple(top.unread), tuple(top.notes))
 
 
 def _check_count(count: int, most: int, what: str) -> None:
@@ -223,23 +219,21 @@ def _check_count(count: int, most: int, what: str) -> None:
         raise ModelError(f"holds more than {most} {what}", field="robot", value=count)
 
 
-def _link(element: Element, ignored: list[str], notes: list[str]) -> FileLink:
-    name = Tag(element, "link").text("name")
-    link = Tag(element, f"link[{name}]", ignored)
+def _link(link: Tag) -> FileLink:
     link.pass_over("inertial", "collision", attributes=("name",))
     mass, com, inertia, defect, digit = _inertial(link)
     collisions = []
-    for number, each in enumerate(element.findall("collision")):
-        collision = Tag(each, f"{link.where}.collision[{number}]", ignored)
+    for number, each in enumerate(link.element.findall("collision")):
+        collision = link.inner(each, f"{link.where}.collision[{number}]")
         collision.pass_over("origin", "geometry", attributes=("name",))
         R, t = collision.frame()
-        shape = written_shape(collision, notes)
+        shape = written_shape(collision)
         collision.child("geometry").pass_over(*_GEOMETRIES)
         if shape is None:
-            notes.append(f"{collision.where}: left out, since its shape has no size")
+            link.notes.append(f"{collision.where}: left out, since its shape has no size")
             continue
         collisions.append(FileCollision(each.get("name"), shape, R, t))
-    return FileLink(name, mass, com, inertia, tuple(collisions), defect, digit)
+    return FileLink(link.text("name"), mass, com, inertia, tuple(collisions), defect, digit)
 
 
 def _inertial(link: Tag) -> tuple[float, Array, Array, Defect | None, float]:
@@ -295,7 +289,7 @@ def inertia_defect(inertia: Array, digit: float = 0.0) -> Defect | None:
     return None
 
 
-def written_shape(collision: Tag, notes: list[str]) -> FileShape | None:
+def written_shape(collision: Tag) -> FileShape | None:
     """The shape of a collision or visual element; None if one of its sizes is 0.
 
     Of a mesh's scale the first three numbers count; the others are taken away, and noted.
@@ -310,14 +304,16 @@ def written_shape(collision: Tag, notes: list[str]) -> FileShape | None:
     if len(tags) != 1:
         raise ModelError("must contain exactly one shape", field=geometry.where, value=tags)
     kind = tags[0]
-    shape = Tag(geometry.element[0], f"{collision.where}.{tags[0]}", collision.unread)
+    shape = geometry.inner(geometry.element[0], f"{collision.where}.{kind}")
     if kind not in _GEOMETRIES:
         raise ModelError(f"is not a shape{suggestion(kind, _GEOMETRIES)}", field=shape.where)
     shape.only(*_GEOMETRIES[kind])
     if kind == "mesh":
         scales = shape.element.get("scale", "").split()
         if len(scales) > 3:
-            notes.append(f"{shape.where}.scale: of its {len(scales)} numbers the first three count")
+            shape.notes.append(
+                f"{shape.where}.scale: of its {len(scales)} numbers the first three count"
+            )
             shape.element.set("scale", " ".join(scales[:3]))
         scale = shape.numbers("scale", 3, default=1.0)
         if not (scale != 0).all():
@@ -338,11 +334,7 @@ def written_shape(collision: Tag, notes: list[str]) -> FileShape | None:
         raise
 
 
-def _joint(
-    element: Element, ignored: list[str], notes: list[str], limits_needed: bool
-) -> FileJoint:
-    name = Tag(element, "joint").text("name")
-    joint = Tag(element, f"joint[{name}]", ignored)
+def _joint(joint: Tag, limits_needed: bool) -> FileJoint:
     kind = joint.text("type")
     if kind != "fixed" and kind not in _MOVING:
         problem = f"this type is not supported; use {', '.join(_MOVING)} or fixed"
@@ -360,7 +352,7 @@ def _joint(
     axis = np.array([1.0, 0.0, 0.0])  # what URDF says where nothing is written
     written = joint.perhaps("axis")
     if written is not None and kind in ("fixed", "ball"):
-        ignored.append(written.where)
+        joint.unread.append(written.where)
     elif written is not None:
         written.only("xyz")
         axis = written.numbers("xyz", 3)
@@ -368,12 +360,12 @@ def _joint(
         if not size > 0:
             raise ModelError("must not be zero", field=f"{written.where}.xyz", value=axis.tolist())
         axis = axis / size
-    limits, effort = _limits(joint, notes, limits_needed and kind in _TURNING, kind in _TURNING)
+    limits, effort = _limits(joint, limits_needed and kind in _TURNING, kind in _TURNING)
     mimic = _mimic(joint)
     if kind == "fixed" and mimic is not None:
-        ignored.append(f"{joint.where}.mimic")
+        joint.unread.append(f"{joint.where}.mimic")
         mimic = None
-    return FileJoint(name, kind, parent, child, R, t, axis, mimic, limits, effort)
+    return FileJoint(joint.text("name"), kind, parent, child, R, t, axis, mimic, limits, effort)
 
 
 def _followers(joints: list[FileJoint], notes: list[str]) -> list[FileJoint]:
@@ -402,9 +394,7 @@ _ENDLESS = ("continuous", "ball")
 """Types of joints whose positions have no bounds."""
 
 
-def _limits(
-    joint: Tag, notes: list[str], needed: bool, bounded: bool
-) -> tuple[tuple[float, float] | None, float]:
+def _limits(joint: Tag, needed: bool, bounded: bool) -> tuple[tuple[float, float] | None, float]:
     """Bounds of a joint's position [m, rad], if it has any, and its largest effort [N, N m]."""
     limit = joint.perhaps("limit")
     bounds = None
@@ -421,11 +411,11 @@ def _limits(
             joint.unread.append(f"{limit.where}.bounds")
         missing = [name for name in ("lower", "upper") if name not in limit.element.attrib]
         if bounded and bounds is None:
-            notes.append(f"{limit.where}: has no bounds, and limits no position")
+            limit.notes.append(f"{limit.where}: has no bounds, and limits no position")
         elif bounded and missing:
-            notes.append(f"{limit.where}: has no {missing[0]} bound, which is 0 then")
+            limit.notes.append(f"{limit.where}: has no {missing[0]} bound, which is 0 then")
         elif bounded and bounds == (0.0, 0.0):
-            notes.append(f"{limit.where}: both bounds are 0, which hold the joint there")
+            limit.notes.append(f"{limit.where}: both bounds are 0, which hold the joint there")
     return bounds if bounds is not None and bounds[0] <= bounds[1] else None, effort or np.inf
 
 

@@ -5,8 +5,8 @@ attribute, a number with a tail.
 """
 
 import difflib
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -33,12 +33,26 @@ class Tag:
     where : str
         E.g. ``link[base].inertial``.
     unread : list of str
-        Elements and attributes that nothing reads, shared by all elements that are read of it.
+        Elements and attributes that nothing reads.
+    notes : list of str
+        What is left out, or taken in another way than it is written; both lists are shared by all
+        elements that are read of it.
     """
 
     element: Element
     where: str
     unread: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def inner(self, element: Element, where: str) -> "Tag":
+        """An element inside of this one, and what it is called in messages."""
+        return replace(self, element=element, where=where)
+
+    def named(self, tag: str) -> Iterator["Tag"]:
+        """The children of that kind, which are called by their names, as ``link[base]``."""
+        for element in self.element.findall(tag):
+            name = self.inner(element, tag).text("name")
+            yield self.inner(element, f"{tag}[{name}]")
 
     def text(self, name: str) -> str:
         """Text of an attribute; ModelError unless it is there and not blank."""
@@ -111,7 +125,7 @@ class Tag:
         where = f"{self.where}.{tag}"
         if len(children) > 1:
             raise ModelError("must occur only once", field=where, value=len(children))
-        child = Tag(children[0], where, self.unread) if children else None
+        child = self.inner(children[0], where) if children else None
         if child is not None and attributes:
             child.only(*attributes)
         return child

@@ -65,7 +65,7 @@ def _of_body(body: Body, system: System, body_colour: str) -> Iterator[Visual]:
         for element in link.findall("visual"):
             visual = Tag(element, f"link[{link.get('name')}].visual")
             try:
-                shape = written_shape(visual, [])
+                shape = written_shape(visual)
                 if shape is None:
                     continue
                 R, t = visual.frame()
