@@ -75,11 +75,15 @@ def contact_row(contacts, j, i):
     return np.array(row)
 
 
+def rows_by_hand(step):
+    """[J'(n~ + d~_i)]' of every row by hand, contact-major, shape (m, n_v)."""
+    c = step.contacts
+    return np.array([contact_row(c, j, i) for j, count in enumerate(c.rows) for i in range(count)])
+
+
 def slacks(step, delta_q):
     """Phi + [J'(n~ + d~_i)]' delta_q of every row by hand, contact-major."""
-    c = step.contacts
-    rows = [(j, i) for j, count in enumerate(c.rows) for i in range(count)]
-    return np.array([c.phi[j] + contact_row(c, j, i) @ delta_q for j, i in rows])
+    return np.repeat(step.contacts.phi, step.contacts.rows) + rows_by_hand(step) @ delta_q
 
 
 def planted_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):

@@ -28,6 +28,8 @@ from tests.tolerances import CLOSED_FORM
 TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 DENTED = TETRAHEDRON.replace("f 2 3 4", "v 0.2 0.2 0.2\nf 2 3 5\nf 3 4 5\nf 4 2 5")
 
+UNSCALED = np.ones(3)
+
 
 def urdf_of_mesh(folder, name, more=""):
     """A link whose shape is a mesh next to its file."""
@@ -170,7 +172,7 @@ def test_a_malformed_collada_mesh_is_refused_by_name(tmp_path, right, wrong):
     assert COLLADA.count(right) == 1
     path = urdf_of_text(tmp_path, COLLADA.replace(right, wrong), "a.dae")
     with pytest.raises(ModelError, match=r"a\.dae: "):
-        mesh_hull(path, np.ones(3))
+        mesh_hull(path, UNSCALED)
 
 
 @pytest.mark.parametrize(
@@ -181,7 +183,7 @@ def test_the_unit_of_a_collada_mesh_is_applied(tmp_path, asset, metres):
     text = COLLADA.replace('<unit name="meter" meter="1"/>', asset)
     for up in ("Z_UP", "Y_UP"):  # which is left as it is
         path = urdf_of_text(tmp_path, text.replace("Z_UP", up), "a.dae")
-        hull = mesh_hull(path, np.ones(3))
+        hull = mesh_hull(path, UNSCALED)
         assert_within(hull.vertices, metres * CORNERS, 1e-15)
 
 
@@ -190,7 +192,7 @@ def test_the_unit_of_a_3mf_mesh_is_applied(tmp_path, unit, metres):
     path = tmp_path / "a.3mf"
     new = f'unit="{unit}"'.encode()
     path.write_bytes(of_3mf(lambda text: re.sub(rb'unit="\w+"', new, text)))
-    assert_within(mesh_hull(path, np.ones(3)).volume, 8 * metres**3, 1e-12)
+    assert_within(mesh_hull(path, UNSCALED).volume, 8 * metres**3, 1e-12)
 
 
 CORNERS = np.array([[0, 0, 0], [0, 0, 1], [0, 1, 0], [1, 0, 0]])
@@ -206,7 +208,7 @@ f 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8
 
 
 def test_a_hull_is_of_all_vertices_of_all_objects(tmp_path):
-    hull = mesh_hull(urdf_of_text(tmp_path, TWO, "a.obj"), np.ones(3))
+    hull = mesh_hull(urdf_of_text(tmp_path, TWO, "a.obj"), UNSCALED)
     corners = {(0, 0, 0), (0, 0, 1), (0, 1, 0), (4, 0, 0), (3, 1, 0), (3, 0, 1)}
     assert {tuple(p) for p in hull.vertices} == corners  # the others are on an edge
     assert not hull.is_convex
@@ -221,7 +223,7 @@ def test_two_materials_are_one_convex_mesh(tmp_path):
 
 def test_two_nodes_of_a_collada_file_stand_where_it_places_them(tmp_path):
     text = COLLADA.replace("</node>\n", f"</node>{MOVED}\n")
-    hull = mesh_hull(urdf_of_text(tmp_path, text, "a.dae"), np.ones(3))
+    hull = mesh_hull(urdf_of_text(tmp_path, text, "a.dae"), UNSCALED)
     assert_within(hull.vertices.max(axis=0), np.array([4.0, 2.0, 2.0]), CLOSED_FORM)
 
 
@@ -243,14 +245,14 @@ def test_an_empty_mesh_is_left_out_of_a_urdf_and_noted(tmp_path):
     assert urdf.shapes == ()
     assert urdf.notes == ("a#0: left out, since a.stl is empty",)
     with pytest.raises(ModelError, match=r"a\.stl: vertices: is empty: the mesh has no vertices"):
-        mesh_hull(tmp_path / "a.stl", np.ones(3))
+        mesh_hull(tmp_path / "a.stl", UNSCALED)
 
 
 @pytest.mark.parametrize("kind", ["off", "ply", "glb", "stl"])
 def test_a_format_is_read_as_trimesh_wrote_it(tmp_path, kind):
     path = tmp_path / f"a.{kind}"
     path.write_bytes(exported(kind))
-    hull = mesh_hull(path, np.ones(3))
+    hull = mesh_hull(path, UNSCALED)
     assert_within(hull.volume, 8.0, 1e-6)
     assert hull.is_convex
 
@@ -431,7 +433,7 @@ def test_a_vertex_that_no_triangle_uses_is_in_no_hull(tmp_path):
     """Nor one of a line, nor in glTF; and the y axis of glTF is said to be up."""
     for stray in ("v 0 0 9\n", "v 0 0 9\nl 1 5\n"):
         path = urdf_of_text(tmp_path, TETRAHEDRON + stray, "a.obj")
-        assert_within(mesh_hull(path, np.ones(3)).volume, 1 / 6, CLOSED_FORM)
+        assert_within(mesh_hull(path, UNSCALED).volume, 1 / 6, CLOSED_FORM)
         (note,) = urdf_of_mesh(tmp_path, "a.obj").notes
         assert note.endswith("4 corners; vertices that no triangle uses are left out: 1")
     (tmp_path / "a.gltf").write_bytes(plain_gltf())
