@@ -3,6 +3,7 @@
 import gc
 import os
 import resource
+import shlex
 import sys
 
 import numpy as np
@@ -88,11 +89,17 @@ def count(request):
 
 @pytest.fixture
 def cli(capsys):
-    """A command's ``out`` and ``err``, once it has ended with the exit status that is expected."""
+    """A command's ``out`` and ``err``, once it has ended with the exit status that is expected.
+
+    Its words are given as in a shell, several in one text; a path is one word.
+    """
     from quasistatic_ref.cli.main import main  # here, so that light tests stay light
 
-    def printed(*arguments, status=0):
-        assert main([*map(str, arguments)]) == status
+    def printed(*parts, status=0):
+        words = []
+        for part in parts:
+            words += shlex.split(part) if isinstance(part, str) else [str(part)]
+        assert main(words) == status
         return capsys.readouterr()
 
     return printed

@@ -158,7 +158,7 @@ def test_inspect_says_from_which_time_step_on_drag_is_small(scene, record_and_wo
     assert record["between_waypoints"] == 0.1
     assert "move by up to 0.2 m/s; drag is below a tenth of friction" in text
     assert "on a body's weight from h = 0.68 s on; waypoints are at least 0.1 s apart" in text
-    weightless, text = record_and_words(scene, "--set", "gravity=[0, 0, 0]")
+    weightless, text = record_and_words(scene, "--set", "gravity=[0,0,0]")
     assert weightless == record | {"small_drag_from": None}
     assert "drag" not in text
 

@@ -1,5 +1,6 @@
 """The command line in this process, held to its manners."""
 
+import shlex
 import time
 
 import pytest
@@ -12,7 +13,7 @@ SLOWEST = 10.0
 
 @pytest.fixture
 def refused(tmp_path, cli):
-    """Run a command that must fail, and return its one sentence.
+    """Run a command that must fail, each argument one word, and return its one sentence.
 
     Nothing is printed but that sentence, nothing is written, and it does not take long.
     """
@@ -20,7 +21,7 @@ def refused(tmp_path, cli):
     def run(*arguments, status=2):
         before = set(tmp_path.rglob("*"))
         start = time.process_time()
-        printed = cli(*arguments, status=status)
+        printed = cli(*(shlex.quote(str(word)) for word in arguments), status=status)
         assert time.process_time() - start < SLOWEST
         assert printed.out == ""
         assert set(tmp_path.rglob("*")) == before

@@ -14,7 +14,7 @@ from tests.extras import is_missing
 
 @pytest.mark.extra("fast")
 def test_a_quick_run_measures_every_figure(tmp_path, cli):
-    tables = json.loads(cli("bench", "--quick", "--json", "--out", tmp_path).out)
+    tables = json.loads(cli("bench --quick --json --out", tmp_path).out)
     assert json.loads((tmp_path / "bench.json").read_text()) == tables
     assert list(tables["scenes"]) == [*SCENES][:2]
     without = {MUJOCO} if is_missing("engines") else set()

@@ -23,6 +23,6 @@ def test_a_lift_that_does_not_end_is_not_compared():
 def test_demo_takes_settings_and_refuses_a_wrong_one_before_any_work(tmp_path, cli):
     assert (
         "contacts.grip.mu_w"
-        in cli("demo", "--out", tmp_path, "--set", "contacts.grip.mu_w=1", status=2).err
+        in cli("demo --out", tmp_path, "--set contacts.grip.mu_w=1", status=2).err
     )
     assert list(tmp_path.iterdir()) == []

@@ -72,7 +72,7 @@ def test_a_claim_fails_with_its_worst_comparison_or_with_an_error():
 
 
 def test_the_command_prints_a_table_and_writes_the_page(tmp_path, cli):
-    printed = cli("validate", "approach", "grasp", "--out", tmp_path)
+    printed = cli("validate approach grasp --out", tmp_path)
     assert re.search(r"^approach +holds +162 ", printed.out, re.MULTILINE)
     assert "2 holds" in printed.out
     assert "[2/2] grasp ... holds" in printed.err
@@ -87,20 +87,18 @@ def test_a_claim_that_fails_ends_with_status_one_and_a_sentence(tmp_path, cli, m
     bad = claim_of(comparison("weight [N]", [1.0, np.nan], 2.0, 0.1))
     monkeypatch.setattr(command, "BY_NAME", {"planted": bad})
     monkeypatch.setattr(command, "CLAIMS", {"Planted": {"planted": bad}})
-    printed = cli("validate", "--out", tmp_path, status=1)
+    printed = cli("validate --out", tmp_path, status=1)
     assert "quasistatic-ref: planted fails: weight [N] is None, not 2.0" in printed.err
     assert "FAILS" in (tmp_path / "claims.md").read_text()
-    assert json.loads(cli("validate", "--json", "--out", tmp_path, status=1).out)["failed"] == [
-        "planted"
-    ]
+    assert json.loads(cli("validate --json --out", tmp_path, status=1).out)["failed"] == ["planted"]
 
 
 def test_nothing_is_measured_for_a_folder_that_cannot_be_written(tmp_path, cli):
     (tmp_path / "file").touch()
-    said = cli("validate", "--out", tmp_path / "file", status=2).err
+    said = cli("validate --out", tmp_path / "file", status=2).err
     assert "cannot be written" in said
     assert "[1/" not in said
 
 
 def test_an_unknown_claim_is_bad_input(tmp_path, cli):
-    assert "did you mean 'approach'" in cli("validate", "aproach", "--out", tmp_path, status=2).err
+    assert "did you mean 'approach'" in cli("validate aproach --out", tmp_path, status=2).err

@@ -12,6 +12,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.lab.oracle.pipes import lines_served
 from quasistatic_ref.lab.oracle.served import ANSWERS, Scenes
+from tests.helpers import first_step
 from tests.lab.vectors.committed_cases import ROOT
 from tests.pages import shell_lines
 
@@ -85,7 +86,7 @@ def test_what_cannot_be_is_a_sentence_and_the_next_line_is_answered():
 
 def test_a_server_without_standard_input_says_so(monkeypatch, cli):
     monkeypatch.setattr(sys, "stdin", None)
-    assert "standard input: is closed" in cli("serve", "sphere_spin", status=2).err
+    assert "standard input: is closed" in cli("serve sphere_spin", status=2).err
 
 
 @pytest.mark.long
@@ -96,7 +97,5 @@ def test_the_line_on_the_page_is_answered_by_the_step_of_the_simulator():
     command = [sys.executable, "-m", "quasistatic_ref", *serve[1:]]
     done = subprocess.run(command, input=echo[1], capture_output=True, text=True, check=True)
     _, answer = (json.loads(one) for one in done.stdout.splitlines())
-    scenario = qr.load_scenario("sphere_spin")
-    q = scenario.system.q_start
-    assert answer["q"] == scenario.simulator().step(q, []).q.tolist()
+    assert answer["q"] == first_step(qr.load_scenario("sphere_spin")).q.tolist()
     assert answer["forces"][0][2] == pytest.approx(0.3 * 9.81)  # the weight

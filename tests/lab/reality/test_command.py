@@ -6,14 +6,12 @@ import json
 import numpy as np
 import pytest
 
-from quasistatic_ref.cli.main import main
 from validation.tools.scripts import RESULTS
 
 
-def test_the_command_repeats_committed_predictions(tmp_path, capsys):
-    where = ("--sets", "abs/rect1", "--fraction", "0.008", "--out", str(tmp_path), "--jobs", "1")
-    assert main(["validate", "reality", *where, "--json"]) == 0
-    record = json.loads(capsys.readouterr().out)
+def test_the_command_repeats_committed_predictions(tmp_path, cli):
+    asked = "validate reality --sets abs/rect1 --fraction 0.008 --jobs 1 --json --out"
+    record = json.loads(cli(asked, tmp_path).out)
     assert json.loads((tmp_path / "reality.json").read_text()) == record
     committed = json.loads((RESULTS / "reality.json").read_text())
     ratio = committed["mu_omega_over_mu_v"]["abs/rect1"]
@@ -35,19 +33,19 @@ def read_rows(path):
     return {tuple(row[:3]): np.array(row[3:], dtype=float) for row in rows}
 
 
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        (("reality", "--cone", "elipsoid"), "ellipsoid"),
-        (("reality", "--fraction", "0"), "--fraction"),
-        (("reality", "--fraction", "0.001"), "fewer than two pushes"),
-        (("reality", "--jobs", "0"), "--jobs"),
-        (("reality", "--sets", "abs/rekt1"), "abs/rect1"),
-        (("incline", "--fraction", "0.1"), "validate reality"),
-    ],
-)
-def test_what_is_not_usable_ends_in_one_sentence(tmp_path, monkeypatch, cli, arguments, says):
+UNUSABLE = {
+    "reality --cone elipsoid": "ellipsoid",
+    "reality --fraction 0": "--fraction",
+    "reality --fraction 0.001": "fewer than two pushes",
+    "reality --jobs 0": "--jobs",
+    "reality --sets abs/rekt1": "abs/rect1",
+    "incline --fraction 0.1": "validate reality",
+}
+
+
+@pytest.mark.parametrize("command", UNUSABLE)
+def test_what_is_not_usable_ends_in_one_sentence(tmp_path, monkeypatch, cli, command):
     monkeypatch.chdir(tmp_path)
-    said = cli("validate", *arguments, status=2).err
-    assert says in said
+    said = cli("validate", command, status=2).err
+    assert UNUSABLE[command] in said
     assert said.count("\n") == 1

@@ -28,9 +28,8 @@ def test_the_committed_data_are_whole():
     assert sum(len(loads.wrench) for loads in loads_read(pairs).values()) == 9327
 
 
-def test_a_load_means_the_same_about_another_point():
+def test_a_load_means_the_same_about_another_point(rng):
     # Power does not depend on the point of reference: f . v + tau omega.
-    rng = np.random.default_rng(0)
     own = Loads(rng.normal(size=(20, 3)), rng.normal(size=(20, 3)))
     other = own.about(np.array([0.3, -0.2]))
     power = [np.einsum("ij,ij->i", x.wrench, x.twist) for x in (own, other)]

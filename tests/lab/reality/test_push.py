@@ -47,9 +47,13 @@ def test_steps_are_refused_whose_drag_is_not_small():
         pushed_scene(Settings(h=0.01), PAIR, RATIO)
 
 
+def predicted(path=PATH, certify="full", **settings):
+    return prediction(pushed_scene(Settings(**settings), PAIR, RATIO), START, path, certify)
+
+
 def test_a_finger_that_passes_by_moves_nothing():
-    path = np.array([[0.0, 0.0], [0.4, 0.0]])  # 55 mm below the side that is nearest
-    found = prediction(pushed_scene(Settings(), PAIR, RATIO), START, path)
+    # 55 mm below the side that is nearest
+    found = predicted(np.array([[0.0, 0.0], [0.4, 0.0]]))
     assert (found.pose == START).all()
     assert found.kinds == {}
 
@@ -65,11 +69,10 @@ def test_steps_begin_where_the_finger_first_touches():
 
 @pytest.mark.parametrize("cone", ["pyramid", "product", "facets-8"])
 def test_steps_in_polyhedral_cones_are_exact(cone):
-    found = prediction(pushed_scene(Settings(cone=cone), PAIR, RATIO), START, PATH)
+    found = predicted(cone=cone)
     assert set(found.kinds) == {"exact"}
     assert found.error_bound == 0.0
 
 
 def test_a_push_whose_steps_have_no_bound_has_none():
-    found = prediction(pushed_scene(Settings(), PAIR, RATIO), START, PATH, certify="off")
-    assert found.error_bound is None
+    assert predicted(certify="off").error_bound is None

@@ -3,7 +3,6 @@
 import functools
 import json
 import sys
-from pathlib import Path
 
 import numpy as np
 
@@ -13,8 +12,8 @@ from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import FILES, LAYERS
 from quasistatic_ref.lab.vectors.trees import mapped
+from tests.pages import ROOT
 
-ROOT = Path(__file__).parents[3]
 VECTORS = ROOT / "validation" / "vectors"
 NUMPY = LAYERS[:8]
 """Layers that the plain program answers."""
@@ -75,6 +74,15 @@ def expected_files(folder, names=FILES):
     for name in names:
         path = f"expected/{name}.json"
         text_written(folder / path, (VECTORS / path).read_text("utf-8"))
+
+
+def few_written(folder, count, names=FILES):
+    """Write the shortest inputs of each layer, and what is expected of layers that are files."""
+    for layer in LAYERS:
+        # The first quadratic programs have a solution.
+        every = cases("qp") if layer == "qp" else by_size(layer)
+        inputs_file(folder, layer, every[:count])
+    expected_files(folder, names)
 
 
 def answer_file(folder, layer, outputs, **head):

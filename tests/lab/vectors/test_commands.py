@@ -4,32 +4,25 @@ import json
 
 import pytest
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.vectors.layers import LAYERS
-from tests.lab.vectors.committed_cases import by_size, cases, expected_files, inputs_file
+from tests.lab.vectors.committed_cases import few_written
 
 
 @pytest.fixture
-def few(tmp_path):
+def few(tmp_path, cli):
     """A folder of vectors with two cases of each layer, generated."""
-    for layer in LAYERS:
-        # The first quadratic programs have a solution.
-        chosen = cases("qp") if layer == "qp" else by_size(layer)
-        inputs_file(tmp_path / "source", layer, chosen[:2])
-    expected_files(tmp_path / "source")
-    source = str(tmp_path / "source")
-    out = str(tmp_path / "vectors")
-    assert main(["vectors", "generate", "--vectors", source, "--out", out]) == 0
-    return tmp_path / "vectors"
+    few_written(tmp_path / "source", 2)
+    out = tmp_path / "vectors"
+    cli("vectors generate --vectors", tmp_path / "source", "--out", out)
+    return out
 
 
 def test_the_packages_own_answers_pass_and_a_changed_one_fails(few, tmp_path, cli):
     answers = tmp_path / "answers"
-    cli("vectors", "own", "--vectors", few, "--out", answers)
-    cli("vectors", "check", answers, "--vectors", few)
+    cli("vectors own --vectors", few, "--out", answers)
+    cli("vectors check", answers, "--vectors", few)
     report = json.loads(
-        cli("vectors", "check", answers, "--vectors", few, "--json").out.splitlines()[-1]
+        cli("vectors check", answers, "--vectors", few, "--json").out.splitlines()[-1]
     )
     assert (report["format"], report["ok"]) == ("quasistatic-ref/vectors-report", True)
     worst = {layer["layer"]: layer["worst_digits"] for layer in report["layers"]}
@@ -37,12 +30,12 @@ def test_the_packages_own_answers_pass_and_a_changed_one_fails(few, tmp_path, cl
     content = json.loads((answers / "qp.json").read_text())
     content["answers"][0]["output"]["delta_q"][0] += 1.0
     (answers / "qp.json").write_text(json.dumps(content))
-    assert "qp" in cli("vectors", "check", answers, "--vectors", few, status=1).err
+    assert "qp" in cli("vectors check", answers, "--vectors", few, status=1).err
 
 
 def test_one_layer_alone_can_be_answered(few, tmp_path, cli):
     out = tmp_path / "answers"
-    cli("vectors", "own", "--vectors", few, "--out", out, "--layer", "rows")
+    cli("vectors own --vectors", few, "--out", out, "--layer rows")
     assert [path.name for path in out.iterdir()] == ["rows.json"]
 
 
@@ -62,9 +55,7 @@ def test_one_layer_alone_can_be_answered(few, tmp_path, cli):
 def test_a_bad_file_of_inputs_is_refused_by_name(record, says, tmp_path, cli):
     head = {"format": "quasistatic-ref/vectors-inputs", "version": 1, "layer": "distance"}
     text_written(tmp_path / "inputs" / "distance.json", json.dumps(head | {"cases": []} | record))
-    errors = cli(
-        "vectors", "generate", "--vectors", tmp_path, "--out", tmp_path / "o", status=2
-    ).err
+    errors = cli("vectors generate --vectors", tmp_path, "--out", tmp_path / "o", status=2).err
     assert "distance.json" in errors
     assert says in errors
 
@@ -76,5 +67,5 @@ def test_a_case_that_cannot_be_answered_is_named(few, cli):
     path.write_text(json.dumps(content))
     assert (
         content["cases"][0]["id"]
-        in cli("vectors", "generate", "--vectors", few, "--out", few, status=2).err
+        in cli("vectors generate --vectors", few, "--out", few, status=2).err
     )

@@ -1,8 +1,6 @@
 """The committed vectors: valid, whole, what `generate` writes, and certified."""
 
 import json
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -17,16 +15,14 @@ from quasistatic_ref.lab.vectors.layers import COMPUTED, FILES, LAYERS
 from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, cone_step, step_of
 from quasistatic_ref.lab.vectors.versions import MANIFEST
 from tests.lab.vectors.committed_cases import (
-    ROOT,
     VECTORS,
     answer_file,
-    by_size,
     cases,
-    expected_files,
     expected_of,
-    inputs_file,
+    few_written,
     right_answers,
 )
+from tests.meta.test_layers import printed_text
 
 MEBIBYTES = 25
 """Promised size of the folder."""
@@ -86,9 +82,7 @@ def test_what_is_computed_again_is_what_is_committed_byte_for_byte(layer):
 
 @pytest.mark.parametrize("layer", FILES)
 def test_cases_without_the_answers_that_are_copied_are_refused(layer, tmp_path):
-    for name in LAYERS:
-        inputs_file(tmp_path / "a", name, by_size(name)[:1])
-    expected_files(tmp_path / "a", {*FILES} - {layer})
+    few_written(tmp_path / "a", 1, {*FILES} - {layer})
     with pytest.raises(InputError, match=rf"expected/{layer}\.json.*is missing"):
         generate_folder(tmp_path / "a", tmp_path / "b")
     assert not (tmp_path / "b").exists()
@@ -111,9 +105,7 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
 
 
 def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
-    for layer in LAYERS:
-        inputs_file(tmp_path / "a", layer, by_size(layer)[:3])
-    expected_files(tmp_path / "a")
+    few_written(tmp_path / "a", 3)
     for path in ("README.md", "LICENSE.md", "schemas/rows.schema.json"):
         text_written(tmp_path / "a" / path, (VECTORS / path).read_text())
     counts = generate_folder(tmp_path / "a", tmp_path / "b")
@@ -142,7 +134,4 @@ for layer, wanted in {few!r}.items():
     assert expected_record(layer, case)["output"]
 print("done")
 """
-    run = subprocess.run(
-        [sys.executable, "-c", source], capture_output=True, text=True, check=False, cwd=ROOT
-    )
-    assert (run.returncode, run.stdout.strip()) == (0, "done"), run.stderr
+    assert printed_text(source) == "done"

@@ -15,9 +15,9 @@ from quasistatic_ref.lab.study.problems import exports
 def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(
     tmp_path, monkeypatch, capsys, cli
 ):
-    command = ["study", "problems", "export", "--units", "natural"]
-    some = ["--families", "condition,infeasible,capped_wedge", "--every", "15", "--out", tmp_path]
-    assert "left out 4 problems" in cli(*command, *some).err
+    some = "--families condition,infeasible,capped_wedge --every 15 --out"
+    said = cli("study problems export --units natural", some, tmp_path).err
+    assert "left out 4 problems" in said
     program = Path(sys.executable).with_name("qpbenchmark")
     module = "contact_qp_natural.py"
     done = subprocess.run(

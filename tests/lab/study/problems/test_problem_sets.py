@@ -87,13 +87,13 @@ def test_a_set_whose_numbers_were_changed_is_refused(tmp_path):
 
 
 def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, cli):
-    export = ["study", "problems", "export", "--out", tmp_path]
+    export = "study problems export --out", tmp_path
     for more, words in (
-        (["--id", "wedge/9/9"], "is not a problem of the set"),
-        (["--every", "0"], "must be at least 1"),
-        (["--families", "limits", "--tag", "nothing"], "holds no problem"),
+        ("--id wedge/9/9", "is not a problem of the set"),
+        ("--every 0", "must be at least 1"),
+        ("--families limits --tag nothing", "holds no problem"),
     ):
-        assert words in cli(*export, *more, status=2).err
+        assert words in cli(*export, more, status=2).err
 
 
 def test_the_family_whose_answers_are_not_proved_is_data_alone(members, cli):
@@ -103,8 +103,8 @@ def test_the_family_whose_answers_are_not_proved_is_data_alone(members, cli):
     assert len(members) == 1510 - 24
     walls = [facts["answer"]["kind"] for facts, _ in readme_reader()(FOLDER, "sparse")]
     assert walls == ["bounded"] * 24
-    export = ("study", "problems", "export", "--families", "sparse")
-    assert "is not a family with proved answers" in cli(*export, status=2).err
+    export = "study problems export --families sparse"
+    assert "is not a family with proved answers" in cli(export, status=2).err
 
 
 @pytest.mark.parametrize("family", PROVED)

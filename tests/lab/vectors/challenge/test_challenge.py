@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import ContactError, InputError
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.program.layers import LAYERS as PROGRAM
 from quasistatic_ref.lab.program.layers import plain
 from quasistatic_ref.lab.vectors.challenge.agreed import agreed_record
@@ -90,8 +89,8 @@ def test_every_fresh_case_is_the_same_again_and_has_an_answer(name, level):
 def test_the_command_writes_counterexamples_that_can_be_asked_again(tmp_path, cli):
     out = tmp_path / "found"
     program = command("wrong", tmp_path)
-    asked = ["vectors", "challenge", "--command", program, "--layer", "selection", "--cases", "1"]
-    printed = cli(*asked, "--out", out, "--quiet", status=1)
+    asked = f"--command '{program}' --layer selection --cases 1 --quiet --out"
+    printed = cli("vectors challenge", asked, out, status=1)
     (folder,) = out.iterdir()
     assert printed.out.splitlines()[-1] == str(folder)
     assert "selection is the first layer that is wrong" in printed.err
@@ -99,13 +98,11 @@ def test_the_command_writes_counterexamples_that_can_be_asked_again(tmp_path, cl
     (line,) = (line for line in page.splitlines() if "--again" in line)
     wanted = ["--command", program, "--again", str(folder / "counterexample.json")]
     assert shlex.split(line)[3:] == wanted  # as a shell takes it apart
-    again = ["--again", folder / "counterexample.json"]
-    (record,) = json.loads(
-        cli("vectors", "challenge", "--command", program, *again, "--json", status=1).out
-    )["findings"]
+    again = "vectors challenge --again", folder / "counterexample.json"
+    (record,) = json.loads(cli(*again, f"--command '{program}' --json", status=1).out)["findings"]
     assert record == json.loads((folder / "counterexample.json").read_text())
     right = command("right", tmp_path)
-    cli("vectors", "challenge", "--command", right, *again, "--quiet")
+    cli(*again, f"--command '{right}' --quiet")
 
 
 @pytest.mark.parametrize(
@@ -119,10 +116,9 @@ def test_a_bug_that_shows_in_special_cases_alone_is_found(name, program):
     assert challenge(program, layers=[name], cases=120).findings
 
 
-def test_the_plain_program_is_right(tmp_path, capsys):
-    asked = ["vectors", "challenge", "--command", PLAIN_PROGRAM, "--cases", "44", "--seed", "1"]
-    asked += ["--timeout", "100", "--quiet", "--out", str(tmp_path)]
-    assert main(asked) == 0, capsys.readouterr().err
+def test_the_plain_program_is_right(tmp_path, cli):
+    asked = f"--command '{PLAIN_PROGRAM}' --cases 44 --seed 1 --timeout 100 --quiet --out"
+    cli("vectors challenge", asked, tmp_path)
 
 
 def test_the_package_itself_is_right():

@@ -11,6 +11,6 @@ def test_a_runner_that_forgets_h_is_answered_as_the_page_shows(tmp_path, cli):
     for layer, change in (("rows", {}), ("wrench", {"h": 1.0})):
         outputs = {c.id: plain(LAYERS[layer](c.input | change)) for c in cases(layer)}
         answer_file(tmp_path, layer, outputs, implementation="mine")
-    answer = cli("vectors", "check", tmp_path, "--layer", "rows", "--layer", "wrench", status=1)
+    answer = cli("vectors check", tmp_path, "--layer rows --layer wrench", status=1)
     (shown,) = printed_blocks(PAGE.read_text("utf-8"))
     assert flat(answer.out + answer.err) == flat(shown)
