@@ -1,5 +1,6 @@
 """Processes that tests start, and wait for."""
 
+import os
 import subprocess
 import sys
 import time
@@ -15,6 +16,16 @@ def python(*arguments, status=0, cwd=ROOT, env=None):
     )
     assert done.returncode == status, done.stdout + done.stderr
     return done
+
+
+def started(code, folder, **surroundings):
+    """A process that runs Python's code in a folder, with the package of this checkout."""
+    return subprocess.Popen(
+        [sys.executable, "-c", code],
+        cwd=folder,
+        env=os.environ | {"PYTHONPATH": str(ROOT)} | surroundings,
+        stderr=subprocess.DEVNULL,
+    )
 
 
 def has_ended(pid):

@@ -2,10 +2,6 @@
 
 import csv
 import json
-import os
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,7 +12,7 @@ from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.processes import descendants
 from quasistatic_ref.lab.sweep import TABLE, simulate_many, swept_values
 from tests.optional.doctor.mistake_scenes import scenes_written
-from tests.processes import has_ended, waited_for
+from tests.processes import has_ended, started, waited_for
 from tests.scenes import BALL, PUSH, written_scenario
 
 
@@ -27,9 +23,9 @@ def table(folder):
 
 def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, cli):
     sideways = "gravity=[0.0, 0.5, -9.81]"
-    argv = ["run", "block_incline", "--set", sideways, "--set", "fast=true", "--quiet",
-            "--sweep", "contacts.rough.mu_v=0:0.9:2", "--sweep", "steps=1,2",
-            "--jobs", "1", "--out", tmp_path]  # fmt: skip
+    run = f"run block_incline --set '{sideways}' --set fast=true --quiet"
+    sweep = "--sweep contacts.rough.mu_v=0:0.9:2 --sweep steps=1,2 --jobs 1 --out"
+    argv = run, sweep, tmp_path
     assert "4 runs (fast path), 0 of which not done" in cli(*argv).out
     header = next(csv.reader((tmp_path / TABLE).read_text().splitlines()))
     assert len(set(header)) == len(header)
@@ -128,13 +124,7 @@ simulate_many("block_incline", {"steps": [1, 100_000, 100_001, 100_002]}, "map",
 
 
 def test_workers_end_with_the_process_of_the_sweep_also_when_it_is_killed(tmp_path):
-    root = str(Path(__file__).parents[2])
-    process = subprocess.Popen(
-        [sys.executable, "-c", MANY],
-        cwd=tmp_path,
-        env=os.environ | {"PYTHONPATH": root},
-        stderr=subprocess.DEVNULL,
-    )
+    process = started(MANY, tmp_path)
     waited_for(lambda: any((tmp_path / "map").glob("runs/*.npz")))
     workers = descendants(process.pid)
     assert len(workers) >= 2
@@ -187,7 +177,7 @@ def test_a_sliding_block_travels_as_its_closed_form_says(tmp_path, mu):
     It is then mu times its last slip above the slope: docs/derivations.md.
     """
     given = {"contacts.smooth.mu_v": [mu], "h": [0.01, 0.02], "steps": [2]}
-    rows = simulate_many("block_incline", given, tmp_path, workers=1)
+    rows = swept("block_incline", tmp_path, **given)
     angle = np.radians(25)
     for row in rows:
         d = row["values"]["h"] ** 2 * 9.81 * (np.sin(angle) - mu * np.cos(angle))
@@ -205,8 +195,7 @@ def test_a_sliding_block_travels_as_its_closed_form_says(tmp_path, mu):
 
 def test_a_run_that_ends_early_is_a_row_too(tmp_path):
     """The block starts at 0.20616 m from the origin and slides past 0.2063 m on its way down."""
-    reach = {"limits.reach": [100.0, 0.2063]}
-    rows = simulate_many("block_incline", reach, tmp_path, workers=1)
+    rows = swept("block_incline", tmp_path, **{"limits.reach": [100.0, 0.2063]})
     assert [row["outcome"] for row in rows] == ["done", "ended_early"]
     assert [row["reason"] is None for row in rows] == [True, False]
     steps = [row["measures"]["steps"] for row in rows]

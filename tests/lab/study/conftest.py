@@ -1,7 +1,6 @@
 """Studies small enough for a test."""
 
 from functools import partial
-from pathlib import Path
 
 import pytest
 
@@ -13,6 +12,7 @@ from quasistatic_ref.lab.study.run import study
 from quasistatic_ref.lab.study.solvers import function_solver
 from quasistatic_ref.lab.study.store import rows_read
 from tests.lab.study import broken
+from tests.pages import ROOT
 
 
 @pytest.fixture(scope="session")
@@ -39,7 +39,7 @@ def whole(small, tmp_path_factory):
 @pytest.fixture(scope="session")
 def committed():
     """The rows of the committed study of solvers."""
-    return rows_read(Path(__file__).parents[3] / "validation" / "studies" / "default")
+    return rows_read(ROOT / "validation" / "studies" / "default")
 
 
 @pytest.fixture(scope="session")

@@ -5,7 +5,6 @@ import os
 import shlex
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pandas
@@ -15,6 +14,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.study.limits import Limits
 from quasistatic_ref.lab.study.run import study
 from tests.pages import EXAMPLES, ROOT, named_files, shell_lines
+from tests.processes import python
 
 PAGE = (ROOT / "docs" / "studies.md").read_text("utf-8")
 FILES = named_files(PAGE)
@@ -33,7 +33,7 @@ def folder(tmp_path, monkeypatch):
 def test_a_function_runs_in_a_study_of_ten_problems(folder, capsys):
     script, report = shell_lines(PAGE)
     paths = os.environ | {"PYTHONPATH": str(ROOT)}
-    subprocess.run([sys.executable, *shlex.split(script)[1:]], env=paths, check=True)
+    python(*shlex.split(script)[1:], cwd=folder, env=paths)
     assert main(shlex.split(report)[1:]) == 0
     rows = pandas.read_parquet("study/rows.parquet")
     assert rows.groupby("solver").size().to_dict() == {"clarabel": 10, "daqp": 10, "solve": 10}

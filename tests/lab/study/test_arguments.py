@@ -59,12 +59,11 @@ MISTAKES = {
 
 @pytest.mark.parametrize(("argument", "says"), MISTAKES.values(), ids=MISTAKES)
 def test_a_mistake_is_one_sentence_before_anything_is_written(argument, says, tmp_path):
-    def called():
-        arguments = {"problems": {"gaps": 1}, "solvers": [MINE]} | argument()
-        study(folder=tmp_path / "store", **arguments)
-
     with pytest.raises(InputError) as refused:
-        called()
+        study(
+            **{"problems": {"gaps": 1}, "solvers": [MINE], "folder": tmp_path / "store"}
+            | argument()
+        )
     assert says in str(refused.value)
     assert "\n" not in str(refused.value)
     assert not (tmp_path / "store").exists()

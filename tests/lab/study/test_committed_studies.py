@@ -1,6 +1,5 @@
 """The committed studies: each summary is what the rows beside it give, by plain loops, too."""
 
-from pathlib import Path
 from statistics import median
 
 import pytest
@@ -9,8 +8,8 @@ from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.default import default_problems
 from quasistatic_ref.lab.study.page import page, page_written, table_of
 from quasistatic_ref.lab.study.store import rows_read
+from tests.pages import ROOT
 
-ROOT = Path(__file__).parents[3]
 STUDIES = ROOT / "validation" / "studies"
 pytestmark = pytest.mark.long
 

@@ -2,8 +2,6 @@
 
 import os
 import signal
-import subprocess
-import sys
 from collections import Counter
 from dataclasses import fields, replace
 from pathlib import Path
@@ -12,7 +10,6 @@ import duckdb
 import pandas
 import pytest
 
-import quasistatic_ref
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.folders import CONTACT_QP
 from quasistatic_ref.lab.lock import locked
@@ -23,9 +20,9 @@ from quasistatic_ref.lab.study.row import Row, key_of
 from quasistatic_ref.lab.study.run import measured, study
 from quasistatic_ref.lab.study.store import ROWS, rows_read, rows_written
 from tests.lab.study import broken
-from tests.processes import has_ended, waited_for
+from tests.pages import ROOT
+from tests.processes import has_ended, python, started, waited_for
 
-ROOT = str(Path(quasistatic_ref.__file__).parents[1])
 CALLS = 3 * (2 + 1) * 2
 """Three problems, to a solver at two settings and to a function at one, in two units."""
 MEASURED = ("seconds", "seconds_low", "seconds_high", "seconds_first", "seconds_solver",
@@ -55,7 +52,7 @@ def test_every_measurement_is_a_row_once_and_libraries_read_them(whole):
 def test_rows_that_stand_twice_count_once(whole, tmp_path, cli):
     rows, store = whole
     assert rows_read(rows_written(tmp_path / ROWS, [*rows, rows[0], rows[0]]).parent) == rows
-    said = [cli("study", "report", *folders, "--out", tmp_path / "report") and
+    said = [cli("study report", *folders, "--out", tmp_path / "report") and
             (tmp_path / "report" / "summary.md").read_text()
             for folders in ([store], [store, tmp_path])]  # fmt: skip
     assert said[0] == said[1]
@@ -110,7 +107,7 @@ def test_ctrl_c_ends_the_command_with_130_and_says_that_it_goes_on(monkeypatch, 
         raise KeyboardInterrupt
 
     monkeypatch.setattr(default, "study", interrupted)
-    said = cli("study", "run", "--quick", "--out", tmp_path, status=130).err
+    said = cli("study run --quick --out", tmp_path, status=130).err
     assert f"what was measured is in {tmp_path}; the same command goes on from there" in said
 
 
@@ -129,10 +126,7 @@ study({"gaps": 1}, ["qpsolvers:daqp", sleeps], folder="store", limits=limits)
 )
 def test_a_solver_and_what_it_starts_end_with_the_process_of_the_study(end, tmp_path):
     child = tmp_path / "child"
-    surroundings = os.environ | {"PYTHONPATH": ROOT, "CHILD": str(child)}
-    process = subprocess.Popen(
-        [sys.executable, "-c", HANGS], cwd=tmp_path, env=surroundings, stderr=subprocess.DEVNULL
-    )
+    process = started(HANGS, tmp_path, CHILD=str(child))
     waited_for(lambda: child.exists() and child.read_text())
     process.send_signal(end)
     process.wait()
@@ -153,8 +147,7 @@ simulate_many("block_incline", {"steps": [1, 2]}, "map", workers=2)
 
 def test_a_script_needs_no_guard_against_processes_that_import_it(tmp_path):
     (tmp_path / "script.py").write_text(SIX_LINES)
-    command = [sys.executable, "script.py"]
-    subprocess.run(command, cwd=tmp_path, env=os.environ | {"PYTHONPATH": ROOT}, check=True)
+    python("script.py", cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(ROOT)})
     assert [row.solver for row in rows_read(tmp_path / "store")] == ["solve"]
     assert len(list((tmp_path / "map" / "runs").iterdir())) == 2
 
@@ -204,7 +197,7 @@ def test_on_two_workers_of_dask_the_rows_are_the_same_and_limits_hold(
 
 
 @pytest.fixture(scope="module")
-def started(tmp_path_factory):
+def warm_and_cold(tmp_path_factory):
     """The rows of steps, cold and from an answer, of solvers that use it and that do not."""
     solvers = ["qpsolvers:osqp", "qpsolvers:piqp", "cvxpy:osqp", broken.warm]
     problems = problems_taken(CONTACT_QP, {"moving": 12, "gaps": 2}, {"moving": 1})
@@ -213,9 +206,9 @@ def started(tmp_path_factory):
     return {name: [row for row in rows if row.family == name] for name in ("moving", "gaps")}
 
 
-def test_steps_in_order_start_from_the_step_before_and_only_where_a_start_is_used(started):
+def test_steps_in_order_start_from_the_step_before_and_only_where_a_start_is_used(warm_and_cold):
     """The function says "again" where it starts from the very answer to this step: never."""
-    rows = started["moving"]
+    rows = warm_and_cold["moving"]
     counts = Counter((row.door, row.solver, row.start) for row in rows)
     assert counts == {
         ("qpsolvers", "osqp", "cold"): 12, ("qpsolvers", "osqp", "warm"): 12,
@@ -227,8 +220,8 @@ def test_steps_in_order_start_from_the_step_before_and_only_where_a_start_is_use
     assert {row.status for row in warm} == {"optimal"}
 
 
-def test_problems_alone_start_from_a_neighbour(started):
-    rows = [row for row in started["gaps"] if row.start == "warm"]
+def test_problems_alone_start_from_a_neighbour(warm_and_cold):
+    rows = [row for row in warm_and_cold["gaps"] if row.start == "warm"]
     assert {(row.door, row.solver) for row in rows} == {
         ("qpsolvers", "osqp"), ("cvxpy", "osqp"), ("function", "warm")}  # fmt: skip
     assert all(row.started for row in rows)

@@ -15,13 +15,13 @@ MINE = Solver("mine", "function", "m:f")
 TIGHT = Setting("tight", 1e-9)
 
 
-def dual_gradient(form, accuracy, sweeps=4000):
+def dual_gradient(form, accuracy):
     """Projected ascent of the dual, one row after the other, until all residuals are small."""
     x = np.linalg.solve(form.H, form.g)
     W = np.linalg.solve(form.H, form.A.T)
     lam = np.zeros(len(form.b))
     size = np.einsum("ij,ji->i", form.A, W)
-    for _ in range(sweeps):
+    for _ in range(4000):
         for i in np.flatnonzero(size):
             step = max((form.b[i] - form.A[i] @ x) / size[i], -lam[i])
             lam[i] += step
@@ -32,9 +32,9 @@ def dual_gradient(form, accuracy, sweeps=4000):
     raise AssertionError("did not converge")
 
 
-def row_of(problem, x, lam, units="natural", setting=TIGHT):
+def row_of(problem, x, lam, units="natural", setting=TIGHT, claim="optimal"):
     promise = MINE.promise(setting, {})
-    reply = Reply(x, lam, True, "optimal")
+    reply = Reply(x, lam, claim == "optimal", claim)
     return grades(problem_forms(problem), units, reply, MINE, promise, setting.accuracy)
 
 
@@ -100,10 +100,8 @@ def test_a_certificate_clears_a_claim_only_where_it_holds_to_the_accuracy(wedge)
     size = abs(form.A.T @ y).max()
     assert certificate_holds(form, y, size)
     assert not certificate_holds(form, y, size / (2 * FACTOR))
-    reply = Reply(None, y, False, "infeasible")
     for accuracy, false in ((1e-6, False), (1e-12, True)):
-        promise = MINE.promise(TIGHT, {})
-        row = grades(problem_forms(wedge), "natural", reply, MINE, promise, accuracy)
+        row = row_of(wedge, None, y, setting=Setting("mine", accuracy), claim="infeasible")
         assert (row["claim"], row["false_claim"]) == ("infeasible", false)
 
 

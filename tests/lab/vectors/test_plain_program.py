@@ -3,8 +3,6 @@
 import ast
 import json
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +18,7 @@ from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.files import Case
 from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import NUMPY, PLAIN_PROGRAM, VECTORS
+from tests.processes import python
 from tests.tolerances import CLOSED_FORM
 
 PROGRAM = Path(program.__file__).parent
@@ -34,18 +33,11 @@ def test_a_cone_that_it_does_not_know_is_refused():
         cone_table("pyramid-45", 4, 0.5)
 
 
-@pytest.fixture(scope="module")
-def numpy_answers(tmp_path_factory):
-    """What a copy of the plain program answers, from its own folder; warnings are errors."""
-    folder = tmp_path_factory.mktemp("numpy")
-    shutil.copytree(PROGRAM, folder / "program")
-    command = [sys.executable, "-W", "error", "-m", "program", str(VECTORS), "answers"]
-    subprocess.run(command, cwd=folder, check=True, timeout=120)
-    return folder / "answers"
-
-
-def test_the_plain_program_passes_layers_1_to_8(numpy_answers):
-    report = check_answers(numpy_answers, VECTORS, NUMPY)
+def test_the_plain_program_passes_layers_1_to_8(tmp_path):
+    """A copy of it answers from its own folder; warnings are errors."""
+    shutil.copytree(PROGRAM, tmp_path / "program")
+    python("-W", "error", "-m", "program", VECTORS, "answers", cwd=tmp_path)
+    report = check_answers(tmp_path / "answers", VECTORS, NUMPY)
     assert report.ok, report.sentences
     assert all(layer.count("passed") > 0 for layer in report.layers)
 
