@@ -1,8 +1,5 @@
 """Normals of curved solids that nearly touch, and answers that do not depend on earlier ones."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -12,7 +9,7 @@ from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.optional.curved.faces import face
 from tests.closeness import assert_within
 from tests.contact.still import in_world
-from tests.pages import ROOT
+from tests.meta.test_layers import printed_text
 from tests.tolerances import CURVED_PAIR
 
 BOX = Box((0.05, 0.035, 0.025))
@@ -67,7 +64,6 @@ def test_a_corner_near_a_rim_and_almost_across_an_edge_has_its_own_normal(solid,
 
 
 ASKED = """
-import sys
 import numpy as np
 from scipy.spatial.transform import Rotation
 from quasistatic_ref import Box, Cone, Cylinder, Ellipsoid
@@ -75,7 +71,7 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 
 box = Box((0.05, 0.035, 0.025))
-if "turned" in sys.argv:  # coal is first asked along a direction without zeros in the box's frame
+if turned:  # coal is first asked along a direction without zeros in the box's frame
     can = ShapeInWorld(Cylinder(0.03, 0.05), np.eye(3), np.zeros(3))
     R = Rotation.from_rotvec([0.3, 0.4, 0.5]).as_matrix()
     solid_pair("p", can, ShapeInWorld(box, R, np.array([0.3, 0.2, 0.1])))
@@ -91,15 +87,6 @@ for _ in range(4):
 
 
 def test_answers_for_a_box_do_not_depend_on_what_coal_was_asked_before():
-    said = [
-        subprocess.run(
-            [sys.executable, "-c", ASKED, word],
-            cwd=ROOT,
-            check=True,
-            capture_output=True,
-            text=True,
-        ).stdout
-        for word in ("first", "turned")
-    ]
-    assert said[0].count("\n") == 12
-    assert said[0] == said[1]
+    first, turned = (printed_text(f"turned = {turned}", ASKED) for turned in (False, True))
+    assert len(first.splitlines()) == 12
+    assert first == turned

@@ -17,7 +17,7 @@ from quasistatic_ref.lab.scenes.nudge import RADIUS, body_at_rest, points
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step_jax import smoothed_jax, step_jax
-from tests.closeness import assert_relative, assert_within
+from tests.closeness import assert_relative, assert_same, assert_within
 from tests.extras import reason as needs
 from tests.optional.derivatives.free_bodies import (
     BOX,
@@ -27,7 +27,7 @@ from tests.optional.derivatives.free_bodies import (
     free,
     vector_scene,
 )
-from tests.tolerances import JAX_GRADIENT, JAX_STEP, ROUNDING
+from tests.tolerances import JAX_GRADIENT, JAX_STEP
 
 jax = pytest.importorskip("jax", reason=needs("jax"))
 pytestmark = pytest.mark.extra("jax")
@@ -146,7 +146,7 @@ def test_one_sided_gradients_are_those_of_the_side_that_is_named(way, slope):
     assert float(height) == simulator.step(q, NONE).q[2]
     assert verdict.any()
     # Above the kink it falls as a free body does; below it ends on the floor.
-    assert_within(by_q[2], slope, ROUNDING)
+    assert_within(by_q[2], slope)
 
 
 def test_smoothed_gradients_at_kinks_leave_the_step_exact():
@@ -186,7 +186,7 @@ def test_elements_of_a_vmap_are_steps_taken_once(monkeypatch):
     monkeypatch.setattr(type(simulator), "step", lambda *args: taken.append(1) or step_of(*args))
     step = step_jax(simulator)
     three = np.tile(q, (3, 1))
-    np.testing.assert_array_equal(jax.vmap(lambda q: step(q, NONE)[0])(three), [end] * 3)
+    assert_same(jax.vmap(lambda q: step(q, NONE)[0])(three), [end] * 3)
     taken.clear()
     by_q = jax.jit(jax.vmap(jax.jacfwd(lambda q: step(q, NONE)[0])))
     jax.block_until_ready(by_q(three))
@@ -215,10 +215,10 @@ def test_whole_numbers_are_numbers_and_float32_is_named():
     simulator, q, target = floating_hand_and_body()
     step = step_jax(simulator)
     force = 3 * np.arange(12)
-    np.testing.assert_array_equal(step(q, target, force)[0], simulator.step(q, target, force).q)
-    np.testing.assert_array_equal(step(q, target, 0)[0], simulator.step(q, target).q)
+    assert_same(step(q, target, force)[0], simulator.step(q, target, force).q)
+    assert_same(step(q, target, 0)[0], simulator.step(q, target).q)
     smooth = smoothed_jax(simulator)
-    np.testing.assert_array_equal(smooth(q, target, 1)[0], smooth(q, target, 1.0)[0])
+    assert_same(smooth(q, target, 1)[0], smooth(q, target, 1.0)[0])
     with pytest.raises(InputError, match=r"q: must be float64; make it so .*float32"):
         step(q.astype(np.float32), target)
     with pytest.raises(InputError, match="kappa: must be float64; make it so"):

@@ -10,7 +10,6 @@ from quasistatic_ref.optional.ellipsoid.interior import Pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from tests.closeness import assert_relative
 from tests.helpers import point_on_floor
-from tests.tolerances import ROUNDING
 
 M, MU, PHI, H_STEP = 0.3, 0.5, 2e-3, 0.01
 """Mass [kg], friction [-], gap [m] and time step [s] of the point."""
@@ -42,4 +41,4 @@ def test_the_gap_of_a_pair_is_the_distance_to_the_optimum_of_its_lagrangian_and_
     s = np.array([PHI, 0.0, 0.0]) + AXES @ x
     expected = M / (2 * H_STEP) * off @ off + lam[:3] @ s
     gap = checked(frame, frame.start(x, lam)).gap / FORM.h
-    assert_relative(float(gap), expected, ROUNDING)
+    assert_relative(float(gap), expected)

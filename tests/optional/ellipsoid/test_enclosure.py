@@ -28,7 +28,7 @@ from quasistatic_ref.optional.ellipsoid.interior import interior_point
 from quasistatic_ref.optional.ellipsoid.tolerances import ENCLOSED
 from quasistatic_ref.optional.friction import cone_matrix
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
-from tests.closeness import assert_relative, assert_within
+from tests.closeness import assert_relative, assert_same, assert_within
 from tests.helpers import (
     pinch,
     point_on_floor,
@@ -61,9 +61,9 @@ def test_a_sliding_point_has_the_closed_form_of_a_circular_cone(angle):
         answer = solve_step(step, backend)
         assert answer.certificate.kind == "enclosure"
         np.testing.assert_allclose(answer.delta_q, expected, rtol=ROUNDING, atol=ROUNDING * v)
-        assert_relative(answer.net_impulse, m / h * expected - h * load, ROUNDING)
+        assert_relative(answer.net_impulse, m / h * expected - h * load)
         f_1, f_2, f_n, _ = answer.wrench[0]
-        assert_relative(np.hypot(f_1, f_2), mu * f_n, ROUNDING)
+        assert_relative(np.hypot(f_1, f_2), mu * f_n)
         assert verify(answer)
 
 
@@ -74,7 +74,7 @@ def test_a_grasp_is_enclosed_and_every_backend_gives_the_same_bits(rng):
         assert answer.certificate.kind == "enclosure"
         assert answer.certificate.error_bound < ENCLOSED
         assert max(answer.certificate.residuals.values()) < ROUNDING
-        np.testing.assert_array_equal(answer.delta_q, answers[0].delta_q)
+        assert_same(answer.delta_q, answers[0].delta_q)
     assert verify(answers[0])
 
 
@@ -118,7 +118,7 @@ def test_rows_of_the_user_s_own_stand_beside_the_ellipsoid():
     step = round_step(pinch(grip=5.0, offset=0.2)).replace(extra=extra)
     answer = solve_step(step)
     assert answer.certificate.kind == "enclosure"
-    assert_relative(answer.delta_q[4], -1e-4, ROUNDING)
+    assert_relative(answer.delta_q[4], -1e-4)
     assert answer.lam_extra[0] > 0
     assert verify(answer)
 
@@ -137,7 +137,7 @@ def test_a_contact_without_load_is_inside_of_its_cone():
     step = round_step(point_on_floor(phi=1.0, force=(1.0, 0.0, -1.0)))
     answer = solve_step(step)
     assert (answer.certificate.kind, answer.certificate.active) == ("exact", ())
-    assert_relative(answer.delta_q, 1e-4 * np.array([1.0, 0.0, -1.0]) / 0.3, ROUNDING)
+    assert_relative(answer.delta_q, 1e-4 * np.array([1.0, 0.0, -1.0]) / 0.3)
     assert not answer.lam.any()
     assert verify(replace(answer, certificate=replace(answer.certificate, gap=None)))
 

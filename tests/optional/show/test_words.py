@@ -68,8 +68,8 @@ def test_every_object_of_a_run_is_short():
     assert loads[0] > 1e-3 * max(loads) >= loads[-1]  # what bears load comes first
 
 
-def test_empty_things_are_short_too(tmp_path):
-    nothing = random_step(np.random.default_rng(3), rows=()).replace(contacts=no_contacts(7))
+def test_empty_things_are_short_too(tmp_path, rng):
+    nothing = random_step(rng, rows=()).replace(contacts=no_contacts(7))
     empty = load_scenario("sphere_spin", steps=0, fast=True).run()
     check(nothing, solve_step(nothing).certificate, empty)
     assert "0 contacts" in repr(nothing)

@@ -22,7 +22,7 @@ from quasistatic_ref.step.friction import frame_jacobian
 from tests.closeness import assert_within
 from tests.helpers import changed
 from tests.oracles.random_steps import any_step
-from tests.oracles.rational_kkt import exact
+from tests.oracles.rational_kkt import exact, fractions
 from tests.oracles.solution_truth import problem, record_of
 
 TINY = F(1, 2**80)
@@ -107,7 +107,7 @@ def optimum(record):
     end = dual_active_set(MatrixForm(arb_mat(H), arb_mat(g), rows), [])
     if isinstance(end, Farkas):
         return None
-    return [F(int(v.p), int(v.q)) for v in end.fractions.point]
+    return fractions(end.fractions.point)
 
 
 def whole(matrix, column, n):

@@ -20,7 +20,7 @@ from quasistatic_ref.optional.show.figures.viewer import (
 )
 from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.simulate.scene import Scene
-from tests.closeness import assert_close, assert_relative, assert_within
+from tests.closeness import assert_close, assert_relative, assert_same, assert_within
 from tests.model.urdf.urdf_texts import collision, joint, link, robot
 from tests.tolerances import ROUNDING
 
@@ -60,9 +60,9 @@ def test_links_move_as_in_the_trajectory(commands, pushed):
     link = scenario.system.link("block")
     track = tracks(sent, f"links/{link}")
     poses = [scenario.system.kinematics(q) for q in run["q"][:-1:2]]
-    np.testing.assert_array_equal(track[".position"], [p.t[link] for p in poses])
+    assert_same(track[".position"], [p.t[link] for p in poses])
     R = Rotation.from_quat(track[".quaternion"]).as_matrix()
-    assert_within(R, [p.R[link] for p in poses], ROUNDING)
+    assert_within(R, [p.R[link] for p in poses])
     (whole,) = [
         c["matrix"] for c in sent if c["type"] == "set_transform" and c["path"] == "/meshcat"
     ]
@@ -74,15 +74,15 @@ def test_forces_start_at_beta_along_the_force_and_are_as_long_as_it_is_strong(co
     moments, sent = commands
     for j, _ in enumerate(run.pair_names):
         track = tracks(sent, f"forces/{j}")
-        np.testing.assert_array_equal(track[".position"], run["beta"][::2, j])
+        assert_same(track[".position"], run["beta"][::2, j])
         force = np.linalg.norm(run.forces[::2, j, :3], axis=1)
         length = np.maximum(0.01 * force, 1e-9)
-        assert_relative(track[".scale"][:, 1], length, ROUNDING)
+        assert_relative(track[".scale"][:, 1], length)
         along = Rotation.from_quat(track[".quaternion"]).apply([0.0, 1.0, 0.0])
         world = np.array([moment.contacts[j].force for moment in moments])
         strong = force > 0
         arrows = force[strong, None] * along[strong]
-        assert_close(arrows, world[strong], ROUNDING)
+        assert_close(arrows, world[strong])
     assert force_scale(moments, None, 0.1, LONGEST) * max(
         np.linalg.norm(c.force) for m in moments for c in m.contacts
     ) <= 0.05 * (1 + ROUNDING)
@@ -140,12 +140,12 @@ def test_visual_elements_are_drawn_in_their_colours_and_missing_meshes_are_not()
     found, hat = visuals(Scene(system, ()))
     assert (found.link, found.colour) == (system.link("crate/box"), "#ff0000")
     assert (hat.link, hat.colour) == (system.link("crate/hat"), ROBOTS[0])
-    assert_within(found.corners.min(axis=0), [-0.1, -0.2, 0.2], ROUNDING)
-    assert_within(found.corners.max(axis=0), [0.1, 0.2, 0.8], ROUNDING)
+    assert_within(found.corners.min(axis=0), [-0.1, -0.2, 0.2])
+    assert_within(found.corners.max(axis=0), [0.1, 0.2, 0.8])
 
 
 def test_without_meshcat_a_sentence_says_what_to_install(tmp_path, monkeypatch, cli):
     monkeypatch.setitem(sys.modules, "meshcat", None)
-    arguments = ["run", "block_push", "--view", "--set", "steps=2", "--out", tmp_path]
-    assert "pip install 'quasistatic-ref[view]'" in cli(*arguments, status=2).err
+    said = cli("run block_push --view --set steps=2 --out", tmp_path, status=2).err
+    assert "pip install 'quasistatic-ref[view]'" in said
     assert list(tmp_path.iterdir()) == []  # refused before the run
