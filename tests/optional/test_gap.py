@@ -23,14 +23,11 @@ from quasistatic_ref.optional.gap import (
 )
 from tests.oracles.random_steps import any_step, mixed_step
 from tests.oracles.rational_kkt import exact, proved_optimum, solution
-from tests.oracles.solution_truth import program
+from tests.oracles.rational_kkt import fractions as in_python
+from tests.oracles.solution_truth import gap, program
 
 SEEDS = (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13)
 """Of mixed steps that have a solution."""
-
-
-def fraction(q):
-    return Fraction(int(q.p), int(q.q))
 
 
 def steps():
@@ -44,18 +41,13 @@ def test_gap_and_energies_are_those_of_their_formulas(step, rng):
     delta_q = rng.normal(size=step.n_v)
     lam = rng.random(form.m)
     x = fractions(delta_q)
-    # f(x) - d(lam) = 1/2 ||H x - g - A' lam||^2 in the norm of H^-1, plus lam'(A x - b).
-    H, g, A, b = program(step)
+    H, g, _, _ = of = program(step)
     X = exact(delta_q)
-    Y = exact(lam)
-    off = H @ X - g - Y @ A
-    expected = off @ solution(H, off) / 2 + Y @ (A @ X - b)
-    found = duality_gap(form, x, fractions(lam))
-    assert fraction(found) == expected
+    expected = gap(of, X, exact(lam))
     free = g @ solution(H, g) / 2
     taken = X @ H @ X / 2
-    assert fraction(free_energy(form)) == free
-    assert fraction(energy(form, x)) == taken
+    found = duality_gap(form, x, fractions(lam))
+    assert in_python([found, free_energy(form), energy(form, x)]) == [expected, free, taken]
     joules = rounded_up(found)
     assert Fraction(joules) >= expected > Fraction(math.nextafter(joules, -math.inf))
     limit = Fraction(IMPULSES) * (free + taken)
@@ -83,12 +75,7 @@ def test_r47_a_gap_bounds_the_error_of_any_displacement(seed):
     rng = np.random.default_rng(seed)
     step = mixed_step(seed)
     best = optimum(step)
-    H, g, A, b = program(step)
-
-    def gap(x, lam):
-        off = H @ x - g - lam @ A
-        return off @ solution(H, off) / 2 + lam @ (A @ x - b)
-
+    H, _, A, b = of = program(step)
     lam = exact(rng.random(len(b)) * (rng.random(len(b)) < 0.3) * step.h)
     near = best[0] + exact(10.0 ** rng.uniform(-9, -3) * rng.normal(size=step.n_v))
     pushed = replace(step, tau_a=rng.normal(size=step.n_a), tau_u=rng.normal(size=step.n_u))
@@ -97,9 +84,9 @@ def test_r47_a_gap_bounds_the_error_of_any_displacement(seed):
         v = np.maximum(b - A @ x, 0)
         assert x is near or not v.any()
         error = (x - best[0]) @ H @ (x - best[0])
-        bound = 2 * (gap(x, lam) + best[1] @ v)
+        bound = 2 * (gap(of, x, lam) + best[1] @ v)
         assert error <= bound
-        assert bound - error == 2 * (gap(best[0], lam) + best[1] @ (A @ x - b + v))
+        assert bound - error == 2 * (gap(of, best[0], lam) + best[1] @ (A @ x - b + v))
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -7,7 +7,7 @@ from itertools import count
 
 import numpy as np
 
-from quasistatic_ref import Contacts, InputError
+from quasistatic_ref import InputError
 from tests.oracles.random_steps import any_step, mixed_step
 from tests.oracles.rational_kkt import exact
 
@@ -43,10 +43,10 @@ def hostile_step(rng):
     c = step.contacts
     S = scale(n_a + n_u) if draw.random() < 0.3 else scale()  # one for each coordinate, or for all
     S = np.broadcast_to(S, n_a + n_u)
-    contacts = Contacts(
-        c.name, c.phi * scale(n_c) * scale(), c.n, c.d1, c.d2,
-        c.J * S * (scale(n_c)[:, None, None] if draw.random() < 0.3 else scale()),
-        np.minimum(c.mu_v * scale(n_c), 1e12), c.mu_omega * scale(), c.rows,
+    contacts = replace(
+        c, phi=c.phi * scale(n_c) * scale(),
+        J=c.J * S * (scale(n_c)[:, None, None] if draw.random() < 0.3 else scale()),
+        mu_v=np.minimum(c.mu_v * scale(n_c), 1e12), mu_omega=c.mu_omega * scale(),
     )  # fmt: skip
     return step.replace(
         h=step.h * float(scale()),

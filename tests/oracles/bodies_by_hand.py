@@ -23,7 +23,6 @@ from quasistatic_ref import (
     Box,
     ContactPair,
     Cylinder,
-    PlacedShape,
     QuasistaticError,
     Simulator,
     System,
@@ -31,6 +30,7 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.tolerances import CLOSED_FORM
+from tests.contact.still import placed_shape
 
 Array = np.ndarray
 H = 0.01
@@ -95,15 +95,13 @@ def step_of(scene, k, mu_v):
     places = [t for _, _, t in scene.bodies[:count]]
     system = System([Body.of_shape(f"b{i}", BOX, MASS, xyz=t) for i, t in enumerate(places)])
     placed = [
-        PlacedShape(f"s{i}", system.link(f"b{i}/solid"), R, np.zeros(3), shape)
-        if i < count else PlacedShape(f"s{i}", 0, R, t, shape)
+        placed_shape(shape, system.link(f"b{i}/solid"), R)
+        if i < count else placed_shape(shape, 0, R, t)
         for i, (shape, R, t) in enumerate(scene.bodies)
     ]  # fmt: skip
     pairs = [ContactPair(f"{a}-{b}", placed[a], placed[b], mu_v, 0.0, 4, k)
              for a, b in scene.normals]  # fmt: skip
-    simulator = Simulator(
-        system, pairs, h=H, K_q=np.zeros((0, 0)), gravity=[0.0, 0.0, 0.0], backend="none"
-    )
+    simulator = Simulator(system, pairs, h=H, K_q=1.0, gravity=[0.0, 0.0, 0.0], backend="none")
     # The frames of the bodies are along the world's axes, and their centres are the origins.
     force = np.broadcast_to(scene.load, scene.motion.shape).ravel()
     return simulator.step(system.q_start, np.zeros(0), force)

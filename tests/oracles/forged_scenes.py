@@ -3,15 +3,10 @@
 import numpy as np
 
 from quasistatic_ref import Extra
-from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.contacts import X, Y, contacts_of, frames_about
 from quasistatic_ref.lab.scenes.rigid import free_step, point_step
 
-FACING = np.array(
-    [
-        [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        [[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]],
-    ]
-)
+FACING = frames_about(np.array([Y, -Y]), X)
 """Frames of two walls that face each other along y; rows d1, d2, n."""
 
 

@@ -17,6 +17,11 @@ def exact(values):
     return np.frompyfunc(Fraction, 1, 1)(np.asarray(values, dtype=object))
 
 
+def fractions(values):
+    """Python's fractions of FLINT's."""
+    return [Fraction(int(v.p), int(v.q)) for v in values]
+
+
 def solution(M, right):
     """The solution of M x = right: FLINT finds it, and here it is put into the equations.
 
@@ -30,7 +35,7 @@ def solution(M, right):
     both = np.column_stack([M, right])
     rows = np.array([whole(row) for row in both], dtype=object)
     found = fmpz_mat(rows[:, :-1].tolist()).solve(fmpz_mat(rows[:, -1:].tolist()))
-    x = [Fraction(int(v.p), int(v.q)) for v in found.entries()]
+    x = fractions(found.entries())
     *parts, unit = whole([*x, Fraction(1)])
     assert not any(rows @ np.array([*parts, -unit], dtype=object))
     return exact(x)

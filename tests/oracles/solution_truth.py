@@ -14,7 +14,7 @@ from flint import arb
 
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
 from quasistatic_ref.step.files import step_text
-from tests.oracles.rational_kkt import exact, on_rows, solution
+from tests.oracles.rational_kkt import exact, fractions, on_rows, solution
 from validation import check_solution as checker
 
 MAY_CHANGE = {
@@ -122,7 +122,7 @@ class Judge:
         if claims["kind"] == "enclosure":
             found = checked_pair(step, arb(2) ** -280, 1536)
             assert found is not None
-            return exact([Fraction(int(v.p), int(v.q)) for v in point(found)])
+            return exact(fractions(point(found)))
         working = [4 * j + i for j, i in claims["active"]]  # where every loaded contact sticks
         return on_rows(self.program, working)[0]
 
@@ -137,10 +137,14 @@ class Judge:
 
     def gap(self, record):
         """f(x*) - d(lam) [N m s]."""
-        H, g, A, b = self.program
-        lam = self.lam(record)
-        left = H @ self.x - g - lam @ A
-        return left @ solution(H, left) / 2 + lam @ (A @ self.x - b)
+        return gap(self.program, self.x, self.lam(record))
+
+
+def gap(of, x, lam):
+    """f(x) - d(lam) = 1/2 ||H x - g - A'lam||^2 in the norm of H^-1, plus lam'(A x - b)."""
+    H, g, A, b = of
+    left = H @ x - g - lam @ A
+    return left @ solution(H, left) / 2 + lam @ (A @ x - b)
 
 
 def proof(step, y):

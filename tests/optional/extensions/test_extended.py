@@ -17,6 +17,7 @@ from quasistatic_ref.optional.extensions.extended import simulated_solution
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.units import StepInBothUnits, natural_step
+from tests.closeness import assert_same
 from tests.helpers import changed, point_on_floor, random_step
 from tests.tolerances import ROUNDING
 
@@ -28,8 +29,8 @@ def test_an_equation_is_a_row_either_way_and_an_inequality_one_row(rng):
     own = extension_data(step, Extension(lambda s: [C @ s.delta_q == d, s.delta_q_u[1] <= 2.0]))
     numbers = ("0[0]", "0[1]", "0[0] reversed", "0[1] reversed", "1[0]")
     assert own.names == tuple(f"extension {number}" for number in numbers)
-    np.testing.assert_array_equal(own.A, [*-C, *C, -np.eye(7)[4]])
-    np.testing.assert_array_equal(own.b, [*-d, *d, -2.0])
+    assert_same(own.A, [*-C, *C, -np.eye(7)[4]])
+    assert_same(own.b, [*-d, *d, -2.0])
 
 
 def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):

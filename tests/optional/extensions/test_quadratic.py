@@ -26,7 +26,7 @@ from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.trajectory import load_trajectory, save_trajectory
 from quasistatic_ref.solve.backends import REQUIRED
 from quasistatic_ref.step.files import step_from_record, step_text
-from tests.closeness import assert_relative
+from tests.closeness import assert_relative, assert_same
 from tests.helpers import pinch, point_on_floor, random_step, verify_refusal
 from tests.oracles.rational_kkt import exact
 from tests.oracles.records import value_at, with_value
@@ -96,11 +96,11 @@ def test_a_quadratic_cost_is_data_of_the_step(rng, name):
     terms, H_cost, g_cost = quadratic_terms(step)[name]
     full, whole = posed(step, Extension(terms))
     assert whole
-    np.testing.assert_array_equal(full.extra.H, H_cost)
-    np.testing.assert_array_equal(full.extra.g, g_cost)
+    assert_same(full.extra.H, H_cost)
+    assert_same(full.extra.g, g_cost)
     form, plain = qr.standard_form(full), qr.standard_form(step)
-    np.testing.assert_array_equal(form.H, plain.H + H_cost)
-    np.testing.assert_array_equal(form.g, plain.g + g_cost)
+    assert_same(form.H, plain.H + H_cost)
+    assert_same(form.g, plain.g + g_cost)
 
 
 def test_equations_that_bind_no_variable_stay_equations(rng):
@@ -247,15 +247,15 @@ def test_a_run_with_a_cost_is_recorded_and_replayed(tmp_path, settings):
     assert back == run
     step = back.step_data(2)
     assert step.extra.H[2, 2] == 80.0
-    np.testing.assert_array_equal(back["H"][2], step.H)
-    np.testing.assert_array_equal(back["g"][2], qr.standard_form(step).g)
+    assert_same(back["H"][2], step.H)
+    assert_same(back["g"][2], qr.standard_form(step).g)
     if not settings:
-        np.testing.assert_array_equal(solve_step(step, "daqp").delta_q, run["delta_q"][2])
+        assert_same(solve_step(step, "daqp").delta_q, run["delta_q"][2])
         assert set(run["certificate"].tolist()) == {"exact"}
         fast = qr.FastSimulator(simulator)
         other = rollout(fast, scenario.system.q_start, scenario.targets, 3)
         for name in ("q", "delta_q", "H", "g", "extra_H", "extra_g"):
-            np.testing.assert_array_equal(other[name], run[name])
+            assert_same(other[name], run[name])
 
 
 def test_every_step_of_a_run_has_a_cost_or_none():
