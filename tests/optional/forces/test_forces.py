@@ -35,17 +35,16 @@ POLYHEDRAL = ("pyramid", "product", "facets-6", "frictionless")
 CONES = (*POLYHEDRAL, "ellipsoid")
 
 
-def block(rows=6, push=0.0, mu_omega=0.01, cone="pyramid"):
+def block(push=0.0):
     """A block of 0.1 x 0.1 x 0.06 m on four corners, pushed at its bottom."""
     wrench = [push, 0, -M * G, 0, 0.03 * -push, 0]
-    frames = [np.eye(3)] * 4
-    args = {"mu_v": MU_V, "mu_omega": mu_omega, "rows": rows, "h": H}
-    return rigid_step(M, (0.002, 0.002, 0.003), wrench, CORNERS, frames, **args).replace(cone=cone)
+    friction = {"mu_v": MU_V, "mu_omega": 0.01, "rows": 6}
+    return rigid_step(M, (0.002, 0.002, 0.003), wrench, CORNERS, [np.eye(3)] * 4, **friction, h=H)
 
 
-def walled_block(wall=1e-4):
+def walled_block():
     """One that slides against a wall, x <= 0.1 mm, before another one, x <= 1 m."""
-    rows = Extra(("beyond", "wall"), -np.eye(6)[[0, 0]], [-1.0, -wall])
+    rows = Extra(("beyond", "wall"), -np.eye(6)[[0, 0]], [-1.0, -1e-4])
     return block(push=9.0).replace(extra=rows)
 
 
@@ -74,7 +73,7 @@ def test_walls_that_overlap_have_forces_only_where_a_solution_is_claimed():
     with pytest.raises(StepInfeasible):
         contact_forces(step)
     found = contact_forces(step, near=(np.ones(3), np.zeros((2, 4))))
-    assert_relative(found.wrench[:, 2], 1e-3 / found.compliance, ROUNDING)
+    assert_relative(found.wrench[:, 2], 1e-3 / found.compliance)
     assert found.imbalance == np.inf  # these forces exert nothing, and delta_q is zero
 
 
@@ -147,7 +146,7 @@ def test_noise_of_phi_changes_forces_by_no_more_than_its_length_over_the_complia
     change = noisy.wrench[:, 2] - clean.wrench[:, 2]
     assert_relative(change, -phi / c, 1e-3)
     load = clean.wrench[:, 2].sum()
-    assert_relative(clean.sensitivity, np.sqrt(4) / (c * load), ROUNDING)
+    assert_relative(clean.sensitivity, np.sqrt(4) / (c * load))
     assert np.abs(change).max() <= 1e-15 * clean.sensitivity * load
 
 
@@ -173,12 +172,11 @@ SLIGHT = 1 + 1e-6
 """What rounding adds to a bound."""
 
 
-def test_r42_noise_and_the_norm_of_forces_at_random():
+def test_r42_noise_and_the_norm_of_forces_at_random(rng):
     """||dx||_H^2 + h c ||dp||^2 <= h ||dp|| ||eps||, and ||p_c|| <= ||p|| of any optimal p.
 
     Steps of all polyhedral cones, with doubled contacts, penetration and coefficients of 0.
     """
-    rng = np.random.default_rng(42)
     for _, step in checks.random_steps(25):
         k = step.contacts
         near = rigid_optimum(step)
@@ -196,12 +194,11 @@ def test_r42_noise_and_the_norm_of_forces_at_random():
         assert np.linalg.norm(p_c) <= SLIGHT * np.linalg.norm(p)
 
 
-def test_r43_the_loss_at_random():
+def test_r43_the_loss_at_random(rng):
     """||x_c - x||_H^2 <= h c p_c'(p - p_c) <= h c ||p||^2 / 4, for any optimal p.
 
     The imbalance is ||x_c - x||_H over the H^-1 norm of the impulses that the forces exert.
     """
-    rng = np.random.default_rng(43)
     for _, step in checks.random_steps(25):
         rigid, wrench = rigid_optimum(step)
         p = scaled_forces(step, wrench)
@@ -220,9 +217,8 @@ def test_r43_the_loss_at_random():
         assert_relative(found.imbalance * load, np.sqrt(lost), 1e-9)
 
 
-def test_r43_what_the_floor_of_a_pile_loses_at_random():
+def test_r43_what_the_floor_of_a_pile_loses_at_random(rng):
     """Of the weight of N alike c S / n (N + 1) (2 N + 1) / 6, to first order."""
-    rng = np.random.default_rng(43)
     for N in (1, 2, 5, 8):
         m, h = 10.0 ** rng.uniform(-2, 4), 10.0 ** rng.uniform(-3, -1)
         small = 1e-7

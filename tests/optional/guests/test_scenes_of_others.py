@@ -22,7 +22,8 @@ def scene(bodies, rest="", option="", **fields):
 WELD = '<equality><weld body1="box"/></equality>'
 ELLIPTIC = '<option cone="elliptic"/>'
 FLOOR = '<geom name="floor" type="plane" size="1 1 1"/>'
-ON_FLOOR = FLOOR + FREE.format("0 0 0.05", BOX.format("", ""))
+LYING = FREE.format("0 0 0.05", BOX.format("", ""))
+ON_FLOOR = FLOOR + LYING
 
 
 def test_equalities_in_the_elliptic_cone_take_the_pyramid_with_a_note():
@@ -65,8 +66,7 @@ def test_what_a_mocap_body_carries_is_borne():
     table = (
         '<body name="table" mocap="true"><geom type="box" size="1 1 0.1" pos="0 0 -0.1"/></body>'
     )
-    box = FREE.format("0 0 0.05", BOX.format("", ""))
-    run = scene(table + box, steps=3).run()
+    run = scene(table + LYING, steps=3).run()
     assert not run.findings
     assert np.abs(run["q"][-1] - run["q"][0]).max() < 1e-9
 

@@ -30,8 +30,7 @@ def joined(*meshes):
     return np.concatenate([v for v, _ in meshes]), np.concatenate(faces)
 
 
-def test_a_box_as_it_is_as_loose_triangles_and_off_by_a_bit():
-    rng = np.random.default_rng(0)
+def test_a_box_as_it_is_as_loose_triangles_and_off_by_a_bit(rng):
     loose = V[F].reshape(-1, 3)
     apart = loose * (1 + 1e-7 / 4 * rng.uniform(-1, 1, loose.shape))
     for vertices, faces in (
