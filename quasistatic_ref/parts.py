@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from quasistatic_ref.model.readers.mesh import Mesh
     from quasistatic_ref.model.system import System
     from quasistatic_ref.numbers.arrays import Array
-    from quasistatic_ref.optional.cvxpy_map.mapped_call import MappedCall
     from quasistatic_ref.optional.doctor.accounts import Account
     from quasistatic_ref.optional.extensions.extension import Extension, OfBodies
     from quasistatic_ref.scenario.bodies import BodyEntry
@@ -34,7 +33,6 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
     from quasistatic_ref.simulate.trajectory import Trajectory
     from quasistatic_ref.solve.solver import Solver
-    from quasistatic_ref.solve.step_problem import StepProblem
     from quasistatic_ref.step.data import StepData
 
 OPTIONAL = "quasistatic_ref.optional"
@@ -241,15 +239,6 @@ def qpsolvers_names() -> list[str]:
     from quasistatic_ref.optional.qpsolvers.through_qpsolvers import available_solvers
 
     return available_solvers()
-
-
-def mapped_call(page: StepProblem, name: str) -> MappedCall | None:
-    """What calls a backend of CVXPY sooner, to the same bits, for a problem that is filled."""
-    if not is_there("cvxpy_map"):
-        return None
-    from quasistatic_ref.optional.cvxpy_map.mapped_call import mapped_call as call
-
-    return call(page, name)
 
 
 def qpsolvers_solver(step: StepData, name: str) -> Solver:

@@ -10,18 +10,19 @@ import cvxpy as cp
 import cvxpy.settings as words
 
 from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.parts import mapped_call
 from quasistatic_ref.solve.backends import DEFAULT, Options
-from quasistatic_ref.solve.problem_data import ProblemData, problem_data, saved
+from quasistatic_ref.solve.problem_data import ProblemData, is_large, problem_data, saved
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
 from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.units import StepInBothUnits, within_reach
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import KIND, StepData
 
 if TYPE_CHECKING:
-    from quasistatic_ref.optional.cvxpy_map.mapped_call import MappedCall
+    from quasistatic_ref.solve.compiled import ClarabelCall, CompiledMap
 
 MOST_CONTACTS = 2000
 """Most contacts that are compiled: 6 s, in a time that grows with their square."""
@@ -56,6 +57,7 @@ class CvxpySolver(BackendSolver):
     def __init__(self, template: StepData, name: str = DEFAULT) -> None:
         super().__init__(template, name)
         self.problem = StepProblem(template)
+        self._compared = False
 
     def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:
         """The backend's answer, unless CVXPY would compile the step for minutes: StepNotSolved."""
@@ -79,14 +81,43 @@ class CvxpySolver(BackendSolver):
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY
         raises TypeError on a second warm start anyway.)
         """
-        if self._mapped_call is not None:
-            return self._mapped_call.reply(options)
-        return cvxpy_reply(self.problem, self.name, options, False)
+        compiled, call = self._compiled
+        direct = None
+        if call is not None:
+            try:
+                direct = call.reply(options)
+            except Exception:  # CVXPY's own call says what is wrong, if anything is
+                self._compiled = compiled, None
+        if direct is not None and self._compared:
+            return direct
+        data = None if compiled is None else compiled.data(options)
+        reply = cvxpy_reply(self.problem, self.name, options, False, data)
+        if direct is not None:  # the first one: each bit has to be CVXPY's
+            self._compared = bits((direct.x, direct.lam)) == bits((reply.x, reply.lam))
+            if not self._compared:
+                self._compiled = compiled, None
+        return reply
 
     @cached_property
-    def _mapped_call(self) -> MappedCall | None:
-        """What calls the backend sooner, to the same bits; the problem is filled."""
-        return mapped_call(self.problem, self.name)
+    def _compiled(self) -> tuple[CompiledMap | None, ClarabelCall | None]:
+        """The compiled map from parameters to data, and the call; the problem is filled.
+
+        None where they do not serve, or where CVXPY has moved what is private to it.
+        """
+        page = self.problem
+        if is_large(page.problem):
+            return None, None
+        template = problem_data(page.problem, self.name, {})
+        try:
+            from quasistatic_ref.solve.compiled import ClarabelCall, CompiledMap
+
+            if not CompiledMap.serves(template):
+                return None, None
+            compiled = CompiledMap(page.problem, template)
+            called = self.name == DEFAULT and cone(page.template.cone).polyhedral
+            return compiled, ClarabelCall(page, compiled) if called else None
+        except Exception:
+            return None, None
 
 
 def cvxpy_reply(

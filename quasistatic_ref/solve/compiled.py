@@ -8,7 +8,7 @@ whose numbers are linear in the parameters; it keeps that map as sparse matrices
 ``get_problem_data`` applies them one by one, and makes sparse matrices of the numbers step by step.
 Here they are applied as one matrix, to the same bits, in a twentieth of the time. Clarabel is then
 called as CVXPY calls it, with what does not change formed once. That takes names private to CVXPY:
-where one is missing, ``mapped_call.py`` does without this file.
+where one is missing, ``through_cvxpy`` does without this file.
 """
 
 from __future__ import annotations

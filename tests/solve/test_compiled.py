@@ -8,9 +8,8 @@ import pytest
 import scipy.sparse as sp
 
 from quasistatic_ref import Extra, solve_step
-from quasistatic_ref.optional.cvxpy_map import compiled as of_compiled
-from quasistatic_ref.optional.cvxpy_map import mapped_call
-from quasistatic_ref.optional.cvxpy_map.compiled import CompiledMap
+from quasistatic_ref.solve import compiled as of_compiled
+from quasistatic_ref.solve.compiled import CompiledMap
 from quasistatic_ref.solve.problem_data import problem_data
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.step_problem import StepProblem
@@ -73,7 +72,7 @@ def test_answers_have_the_bits_of_the_problem_s_own_solve(moved, rng, monkeypatc
     solver = CvxpySolver(step, "clarabel")
     both = StepInBothUnits(step)
     solver.write(both)
-    assert (solver._mapped_call is None) == (moved is not None)
+    assert (solver._compiled == (None, None)) == (moved is not None)
     _, options = solver.option_sets(1e-12)[0]
     reply = solver.reply(options, both)
     problem = solver.problem
@@ -100,7 +99,7 @@ def test_clarabel_is_called_as_by_cvxpy(cone, rng, monkeypatch):
     solver = CvxpySolver(steps[0])
     solve_step(steps[0], solver)
     plain = [solve_step(step, CvxpySolver(step), certify="off") for step in steps]
-    monkeypatch.setattr(mapped_call, "cvxpy_reply", None)
+    monkeypatch.setattr("quasistatic_ref.solve.through_cvxpy.cvxpy_reply", None)
     for step, expected in zip(steps, plain, strict=True):
         found = solve_step(step, solver, certify="off")
         assert bits(found.delta_q) == bits(expected.delta_q)
