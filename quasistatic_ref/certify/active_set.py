@@ -30,8 +30,8 @@ from quasistatic_ref.numbers.precision import working_precision
 
 
 @dataclass(frozen=True, eq=False)
-class Farkas:
-    """Proof that A x >= b has no solution: y >= 0, A'y = 0, b'y > 0, without rounding.
+class Combination:
+    """Rows that contradict each other: y >= 0, A'y = 0, b'y > 0, without rounding (Farkas).
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ negative."""
 
 def dual_active_set(
     form: ExactForm, warm: Sequence[int] = (), entering_row: EnteringRule = most_violated
-) -> Minimiser | Farkas:
+) -> Minimiser | Combination:
     """The optimum of min 1/2 x'Hx - g'x s.t. Ax >= b, or a proof that there is none.
 
     Parameters
@@ -90,7 +90,7 @@ def dual_active_set(
 
     Returns
     -------
-    Minimiser or Farkas
+    Minimiser or Combination
         At the optimum all of its multipliers are positive; its `walks` are the rows that were
         added, none if the warm start was right.
     """
@@ -105,7 +105,7 @@ def dual_active_set(
             minimiser.walks = walks
             return minimiser
         after = _walk(minimiser, p)
-        if isinstance(after, Farkas):
+        if isinstance(after, Combination):
             return after
         minimiser = after
         walks += 1
@@ -127,25 +127,20 @@ def _start(form: ExactForm, warm: Sequence[int]) -> Minimiser:
         working = positive
 
 
-def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
+def _walk(minimiser: Minimiser, p: int) -> Minimiser | Combination:
     """The minimiser that the violated row p leads to, or a proof that there is none."""
     while True:
         working = minimiser.working
-        relation = minimiser.relation(p)
-        if relation is None:
-            after = minimiser.on((*working, p))
-            leaving = _first_to_vanish(minimiser, after)
-            if leaving is None:
-                return after
-        else:
-            leaving = _first_to_vanish(minimiser, relation)
-            if leaving is None:  # a_p = sum c_j a_j with c <= 0, and b_p > sum c_j b_j
-                u = [relation.end(j) for j in range(len(working))]
-                support = {i: u_j for i, u_j in zip(working, u, strict=True) if u_j}
-                return Farkas({**support, p: fmpq(1)})
-        rest = working[:leaving] + working[leaving + 1 :]
-        # The start of the next line; the walk is already inside of it.
-        minimiser = minimiser.on(rest)
+        line = minimiser.towards(p)
+        leaving = _first_to_vanish(minimiser, line)
+        if leaving is not None:
+            # The start of the next line; the walk is already inside of it.
+            minimiser = minimiser.on(working[:leaving] + working[leaving + 1 :])
+        elif isinstance(line, Minimiser):
+            return line
+        else:  # a_p = sum c_j a_j with c <= 0, and b_p > sum c_j b_j
+            y = {i: u_j for j, i in enumerate(working) if (u_j := line.end(j))}
+            return Combination({**y, p: fmpq(1)})
 
 
 def _first_to_vanish(minimiser: Minimiser, line: Line) -> int | None:

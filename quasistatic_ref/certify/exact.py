@@ -16,8 +16,8 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.certify.active_set import (
+    Combination,
     EnteringRule,
-    Farkas,
     dual_active_set,
     most_violated,
 )
@@ -83,7 +83,7 @@ class ExactOptimum:
 
 def form_optimum(
     form: ExactForm, warm: Sequence[int] = (), entering_row: EnteringRule = most_violated
-) -> ExactOptimum | Farkas:
+) -> ExactOptimum | Combination:
     """The exact optimum, or an exact proof that there is none.
 
     Parameters
@@ -97,11 +97,11 @@ def form_optimum(
 
     Returns
     -------
-    ExactOptimum or Farkas
+    ExactOptimum or Combination
 
     """
     end = dual_active_set(form, warm, entering_row)
-    return end if isinstance(end, Farkas) else _rounded(form, end)
+    return end if isinstance(end, Combination) else _rounded(form, end)
 
 
 def _rounded(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
@@ -177,7 +177,7 @@ def optimum_by_groups(
     for (group, part), start in zip(parts, starts, strict=True):
         form = StepForm(part)
         optimum = form_optimum(form, start)
-        if isinstance(optimum, Farkas):
+        if isinstance(optimum, Combination):
             raise StepInfeasible(step, farkas_vector(step, form, optimum, group.rows))
         if part is step:
             return optimum

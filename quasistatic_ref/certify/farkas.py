@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from flint import fmpq, fmpz
 
-from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import row_owners
@@ -52,7 +52,9 @@ class FarkasVector(Plain):
         return f"{', '.join(named[:-1])} and {named[-1]} contradict each other"
 
 
-def farkas_vector(step: StepData, form: ExactForm, proof: Farkas, rows: Indices) -> FarkasVector:
+def farkas_vector(
+    step: StepData, form: ExactForm, proof: Combination, rows: Indices
+) -> FarkasVector:
     """An exact proof in the terms of its step.
 
     Parameters
@@ -60,7 +62,7 @@ def farkas_vector(step: StepData, form: ExactForm, proof: Farkas, rows: Indices)
     step : StepData
     form : ExactForm
         That of a group of the step.
-    proof : Farkas
+    proof : Combination
         About the rows of `form`.
     rows : ndarray of int, shape (form.m,)
         Which rows of the step these are.

@@ -21,7 +21,7 @@ that float64 shows to be positive needs none.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property, lru_cache
 from typing import Final, TypeAlias
 
@@ -34,6 +34,7 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.standard_form import inequalities
 
 EXACT: Final = 1 << 30
 """Bits at which no sum or product is rounded. What is short costs no more than at few bits."""
@@ -116,7 +117,21 @@ class ExactForm(ABC):
     def exact_rows(self, some: Iterable[int]) -> list[Row]:
         """Some rows [a, c]."""
 
+    @property
     @abstractmethod
+    def inequalities(self) -> tuple[Array, Array]:
+        """A, shape (m, n) [m] per unit of x, and b, shape (m,) [m], of A x >= b in float64."""
+
+    @abstractmethod
+    def sizes(self, most: Array) -> Array:
+        """At least the sum of sizes that each slack is rounded from, shape (m,) [m].
+
+        Parameters
+        ----------
+        most : ndarray, shape (n,)
+            At least `|x|` [m, rad].
+        """
+
     def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
         """All slacks in float64, and bounds of their errors, each shape (m,).
 
@@ -129,11 +144,19 @@ class ExactForm(ABC):
             Each entry is off by at most UNIT times that of `most` from the point that is meant.
         most : ndarray, shape (n,)
             At least `|x|` [m, rad].
-        """
 
-    @abstractmethod
-    def float_rows(self, some: Sequence[int]) -> Array:
-        """Some rows [a, c] in float64, shape (rows, n + 1) [m] per unit of x: no proof."""
+        Notes
+        -----
+        Let u = UNIT and s a row's size. Sums and products of k numbers in any order, fused or not,
+        have an error of at most k u (1 + O(u)) of the sum of their sizes: that of the row with
+        [x, 1] is off by (n + 1) u s from its rounding, by u s from what x is off by, and by at most
+        10 u s from that of the row itself. In all (n + 12) u s. The bound is (2 n + 64) u s: what
+        is left, more than twice that, is for the rounding of s itself. Each underflow takes 2^-1074
+        at most, times a factor of s if it is in another; TINY, added to all factors of s and to the
+        bound, is more.
+        """
+        A, b = self.inequalities
+        return A @ x - b, (2 * self.n + 64) * UNIT * self.sizes(most) + TINY
 
     def implied_by_cone(self, working: Sequence[int], some: Iterable[int]) -> list[int]:
         """Those of some rows that W implies wherever its contacts are: their slacks are zero."""
@@ -200,14 +223,15 @@ class MatrixForm(ExactForm):
         """Some rows [a, c]."""
         return [self._rows[i] for i in some]
 
-    def float_rows(self, some: Sequence[int]) -> Array:
-        """As of the base, shape (rows, n + 1) [m] per unit of x."""
-        rows = [[float(v) for v in self._rows[i]] for i in some]
-        return np.array(rows).reshape(-1, self.n + 1)
+    @cached_property
+    def inequalities(self) -> tuple[Array, Array]:
+        """A, (m, n), and b, (m,) [any unit], of A x >= b: each number rounded once."""
+        rows = np.array([[float(v) for v in row] for row in self._rows]).reshape(-1, self.n + 1)
+        return rows[:, :-1], -rows[:, -1]
 
-    def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
-        """All slacks in float64, and bounds of their errors; `x`, `most` are (n,) [any unit]."""
-        return row_slacks(self.float_rows(range(self.m)), x, most)
+    def sizes(self, most: Array) -> Array:
+        """That of a row is `|a|` `most` + `|b|`, shape (m,); `most` is (n,) [any unit]."""
+        return row_sizes(*self.inequalities, most)
 
 
 class StepForm(ExactForm):
@@ -225,23 +249,14 @@ class StepForm(ExactForm):
 
     def __init__(self, step: StepData) -> None:
         check_arithmetic()
-        contacts = step.contacts
-        friction_cone = cone(step.cone)
-        self._J = contacts.J
-        self._phi = contacts.phi
-        self._mu = friction_cone.row_coefficients(contacts.mu)
-        self._mask = step.mask
-        self._cone_name = step.cone
-        self._cone_matrix = friction_cone.matrix
-        self._exact_cone = exact_matrix(self._cone_matrix)
-        self._frame = np.zeros((contacts.n_c, 4, 4))
-        for k, axis in enumerate((contacts.n, contacts.d1, contacts.d2)):
-            self._frame[:, k, :3] = axis
-        self._frame[:, 3, 3] = 1.0
-        self._extra = np.column_stack([step.extra.A, -step.extra.b])
-        contact, kind = np.nonzero(self._mask)
+        self._step = step
+        self._cone = cone(step.cone)
+        self._cone_matrix = exact_matrix(self._cone.matrix)
+        self._mu = self._cone.row_coefficients(step.contacts.mu)
+        n_c = step.contacts.n_c
+        contact, kind = np.nonzero(step.mask)
         self._places = [*zip(contact.tolist(), kind.tolist(), strict=True)]
-        self._places += [(contacts.n_c + k, 0) for k in range(len(self._extra))]
+        self._places += [(n_c + k, 0) for k in range(len(step.extra.names))]
         self._factors: dict[int, tuple[arb_mat, arb_mat, arb_mat]] = {}
         self._rows: dict[int, list[Row]] = {}
         self.n = step.n_v
@@ -262,30 +277,26 @@ class StepForm(ExactForm):
             self.g = springs * shift + (force * self.h + pull) * self.h  # Eq. (1), times h^2
 
     @cached_property
-    def _turn(self) -> Array:
-        """The frames of all contacts with friction in float64, shape (n_c, 4, 4)."""
-        frame = self._frame.copy()
-        frame[:, 1:] *= self._mu[:, :, None]
-        return frame
+    def inequalities(self) -> tuple[Array, Array]:
+        """A, (m, n) [m] per unit of x, and b, (m,) [m], of Eq. :eq:`eq-8` in float64."""
+        return inequalities(self._step)
 
-    def float_rows(self, some: Sequence[int]) -> Array:
-        """As of the base, shape (rows, n + 1) [m] per unit of x."""
-        n_c = len(self._phi)
-        places = np.array([self._places[i] for i in some], np.int64).reshape(-1, 2)
-        rows = np.empty((len(places), self.n + 1))
-        of_user = places[:, 0] >= n_c
-        rows[of_user] = self._extra[places[of_user, 0] - n_c]
-        c, kind = places[~of_user].T
-        turn = self._cone_matrix[kind][:, None] @ self._turn[c]
-        rows[~of_user, :-1] = (turn @ self._J[c])[:, 0]
-        rows[~of_user, -1] = self._cone_matrix[kind, 0] * self._phi[c]
-        return rows
+    def sizes(self, most: Array) -> Array:
+        """That of a contact's rows is `|phi|` + F R, shape (m,) [m]; `most` is (n,) [m, rad].
 
-    def motion(self, c: int) -> arb_mat:
-        """Gap, slips and spin of a contact as rows [a, c], friction included: shape (4, n + 1)."""
-        with working_precision(EXACT):
-            _, turn, J = self.factors(c)
-            return turn * J
+        R is the largest entry of `|J|` `most`, F more than the sum of the sizes of the frame with
+        friction. An entry of a row combines four products of it and J, with coefficients of at most
+        one: it is off by 3 u of three products summed, 2 u of the friction, 4 u of combining them.
+        """
+        contacts = self._step.contacts
+        axes = np.concatenate([contacts.n, contacts.d1, contacts.d2], axis=1)
+        F = (1 + np.abs(axes).sum(axis=1)) * (1 + self._mu.sum(axis=1))
+        R = (np.abs(contacts.J) @ most).max(axis=1, initial=0.0) + TINY
+        of_rows = np.repeat(np.abs(contacts.phi) + F * R, self._step.counts)
+        extra = self._step.extra
+        if not extra.names:
+            return of_rows
+        return np.concatenate([of_rows, row_sizes(extra.A, extra.b, most)])
 
     def factors(self, c: int) -> tuple[arb_mat, arb_mat, arb_mat]:
         """What the rows [a, c] of a contact are the product of; a user's own row counts as one.
@@ -293,100 +304,64 @@ class StepForm(ExactForm):
         The matrix of the cone, the frame with friction, and J with phi, of shapes (R, 4), (4, 5)
         and (5, n + 1). Of 106 bits or more, the present precision makes the last two exact.
         """
-        if c not in self._factors and c >= len(self._phi):
+        contacts = self._step.contacts
+        if c in self._factors:
+            return self._factors[c]
+        if c >= contacts.n_c:
             one = arb_mat([[1]])
-            self._factors[c] = one, one, exact_matrix(self._extra[[c - len(self._phi)]])
-        elif c not in self._factors:
-            n, d1, d2, _ = self._frame[c, :, :3].tolist()
+            extra = self._step.extra
+            k = c - contacts.n_c
+            self._factors[c] = one, one, exact_matrix(np.append(extra.A[k], -extra.b[k])[None])
+        else:
+            n, d1, d2 = (axis[c].tolist() for axis in (contacts.n, contacts.d1, contacts.d2))
             mu_1, mu_2, mu_w = map(arb, self._mu[c].tolist())
             J = np.zeros((5, self.n + 1))
-            J[:4, :-1] = self._J[c]
-            J[4, -1] = self._phi[c]
+            J[:4, :-1] = contacts.J[c]
+            J[4, -1] = contacts.phi[c]
             d1, d2 = [mu_1 * v for v in d1], [mu_2 * v for v in d2]
             turn = [*n, 0, 1, *d1, 0, 0, *d2, 0, 0, 0, 0, 0, mu_w, 0]
-            self._factors[c] = self._exact_cone, arb_mat(4, 5, turn), exact_matrix(J)
+            self._factors[c] = self._cone_matrix, arb_mat(4, 5, turn), exact_matrix(J)
         return self._factors[c]
 
     def exact_rows(self, some: Iterable[int]) -> list[Row]:
         """Some rows [a, c]: Eq. :eq:`eq-4` combines the four rows of a contact's motion."""
-        rows = []
         with working_precision(EXACT):
-            for c, kind in (self._places[i] for i in some):
-                if c not in self._rows:
-                    combined, turn, J = self.factors(c)
-                    self._rows[c] = (combined * (turn * J)).tolist()
-                rows.append(self._rows[c][kind])
-        return rows
+            return self._by_contact(some, self._rows, lambda turn, J: turn * J)
 
     def values(self, some: Iterable[int], z: arb_mat) -> list[list[arb]]:
         """Slacks of some rows at z, from the motion of each contact."""
-        of_contact: dict[int, list[list[arb]]] = {}
-        values = []
+        return self._by_contact(some, {}, lambda turn, J: turn * (J * z))
+
+    def _by_contact(
+        self,
+        some: Iterable[int],
+        of_contact: dict[int, list[Row]],
+        motion: Callable[[arb_mat, arb_mat], arb_mat],
+    ) -> list[list[arb]]:
+        """Combinations of a motion, of which those of the contacts before are kept."""
+        rows = []
         for c, kind in (self._places[i] for i in some):
             if c not in of_contact:
                 combined, turn, J = self.factors(c)
-                of_contact[c] = (combined * (turn * (J * z))).tolist()
-            values.append(of_contact[c][kind])
-        return values
+                of_contact[c] = (combined * motion(turn, J)).tolist()
+            rows.append(of_contact[c][kind])
+        return rows
 
     def implied_by_cone(self, working: Sequence[int], some: Iterable[int]) -> list[int]:
         """Rows that W implies since the six rows of a contact have rank four."""
         held: dict[int, tuple[int, ...]] = {}
         for c, kind in sorted(self._places[i] for i in working):
             held[c] = (*held.get(c, ()), kind)
-        n_c = len(self._phi)
-        kinds = {c: _implied_kinds(self._cone_name, of_c) for c, of_c in held.items() if c < n_c}
+        n_c = self._step.contacts.n_c
+        kinds = {c: _implied_kinds(self._cone.name, of_c) for c, of_c in held.items() if c < n_c}
         places = ((i, *self._places[i]) for i in some)
         return [i for i, c, kind in places if c in kinds and kinds[c][kind]]
 
-    def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
-        """All slacks in float64, and bounds of their errors; `x`, `most` of shape (n,) [m, rad].
 
-        Notes
-        -----
-        Let u = UNIT, p = J x the motion of a contact, F the sum of `|frame|` with friction, R the
-        largest entry of `|J|` `most`, and s = `|phi|` + F R. Sums and products of k numbers in any
-        order, fused or not, have an error of at most k u (1 + O(u)) of the sum of their sizes:
-
-        - p is off by (n + 1) u R, of which u R is what x is off by;
-        - gap, slips and spin are off by (n + 1) u F R from that, 4 u F R of four products summed,
-          u F R of the friction in the frame, and u s of adding phi;
-        - a row combines them with coefficients of at most one, hence 4 u s more.
-
-        In all (n + 11) u s. The bound is (2 n + 64) u s: what is left, more than twice that, is for
-        the rounding of s itself. Each underflow takes 2^-1074 at most, times F or R if it is in a
-        factor of theirs; TINY, added to both and to the bound, is more.
-        """
-        frame = self._turn
-        motion = (frame @ (self._J @ x)[:, :, None])[:, :, 0]
-        motion[:, 0] += self._phi
-        R = (np.abs(self._J) @ most).max(axis=1, initial=0.0) + TINY
-        F = np.abs(frame).sum(axis=(1, 2)) + TINY
-        size = np.abs(self._phi) + F * R
-        slack = (motion @ self._cone_matrix.T)[self._mask]
-        error = (2 * self.n + 64) * UNIT * np.repeat(size, self._mask.sum(axis=1)) + TINY
-        if not len(self._extra):
-            return slack, error
-        extra_slack, extra_error = row_slacks(self._extra, x, most)
-        return np.concatenate([slack, extra_slack]), np.concatenate([error, extra_error])
-
-
-def row_slacks(rows: Array, x: Array, most: Array) -> tuple[Array, Array]:
-    """What :meth:`ExactForm.float_slacks` returns, from rows [a, c] in float64, shape (m, n + 1).
-
-    Each entry of the rows may be off by 2 u of itself, and x by u `most`. With the size s of
-    `|a|` `most` + `|c|`, the sum of n + 1 products has an error of at most (n + 1) u s, and both
-    add 3 u s. TINY, added to the rows and to the bound, is more than what underflow takes.
-
-    Parameters
-    ----------
-    rows : ndarray, shape (m, n + 1)
-        [m] per unit of x, and c [m].
-    x, most : ndarray, shape (n,)
-        [m, rad].
-    """
-    size = (np.abs(rows) + TINY) @ [*most, 1.0]
-    return rows @ [*x, 1.0], (2 * len(x) + 64) * UNIT * size + TINY
+def row_sizes(A: Array, b: Array, most: Array) -> Array:
+    """`|a|` `most` + `|b|` of rows of A, (m, n), and b, (m,) [m]; `most` is (n,) [m, rad]."""
+    sizes: Array = (np.abs(A) + TINY) @ most + np.abs(b)
+    return sizes
 
 
 @lru_cache(maxsize=32)

@@ -37,9 +37,9 @@ from quasistatic_ref.certify.form import (
 from quasistatic_ref.certify.rounding import all_nearest, nearest
 from quasistatic_ref.certify.working_set import (
     NearSets,
-    Solution,
-    ball_solution,
-    fraction_solution,
+    Point,
+    ball_point,
+    fraction_point,
 )
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.precision import working_precision
@@ -101,7 +101,7 @@ class Relation:
 NEAR: Final = 1e-9
 """Error of a guessed sum of rows over the largest entry of W; a wrong guess costs time alone."""
 
-Numbers: TypeAlias = Callable[[Solution], "list[arb]"]
+Numbers: TypeAlias = Callable[[Point], "list[arb]"]
 """Some numbers of a solution, times its denominator."""
 
 
@@ -146,20 +146,20 @@ class Minimiser:
             return NearSets(self.form, ())
 
     @cached_property
-    def _near_balls(self) -> Solution | None:
+    def _near_balls(self) -> Point | None:
         """The solution from the system of a set near this one; None where radii hide it.
 
         They grow with each row by which the sets differ, and more where rows nearly depend on each
         other.
         """
         try:
-            balls = ball_solution(self.form, self.working, self._near) if self._near else None
+            balls = ball_point(self.form, self.working, self._near) if self._near else None
         except ZeroDivisionError:
             return None
         return None if balls is None or balls.is_wide else balls
 
     @cached_property
-    def balls(self) -> Solution:
+    def balls(self) -> Point:
         """The solution in balls, by the system of multipliers, or from the fractions.
 
         H^-1 has a radius, so that a finer system would not help where that is too wide to show x,
@@ -171,7 +171,7 @@ class Minimiser:
             If the rows are not independent.
         """
         try:
-            balls = self._near_balls or ball_solution(self.form, self.working)
+            balls = self._near_balls or ball_point(self.form, self.working)
             if not balls.is_wide:
                 return balls
         except ZeroDivisionError:
@@ -180,12 +180,12 @@ class Minimiser:
         with working_precision(PRECISION):
             share = 1 / exact.denominator
             y = [v * share for v in exact.y]
-            return Solution(exact.z * share, y, exact.net * share, arb(1))
+            return Point(exact.z * share, y, exact.net * share, arb(1))
 
     @cached_property
-    def fractions(self) -> Solution:
+    def fractions(self) -> Point:
         """The solution in fractions: milliseconds, so only where it is needed."""
-        return fraction_solution(self.form, self.working)
+        return fraction_point(self.form, self.working)
 
     @property
     def ends(self) -> list[arb]:
@@ -249,7 +249,8 @@ class Minimiser:
         if not (k and some):
             return some
         with np.errstate(all="ignore"):
-            rows = self.form.float_rows([*self.working, *some])[:, :-1]
+            every_row, _ = self.form.inequalities
+            rows = every_row[[*self.working, *some]]
             A = rows[:k]
             try:
                 halves = np.rint(2 * np.linalg.solve(A @ A.T, A @ rows[k:].T).T) / 2
@@ -300,8 +301,8 @@ class Minimiser:
             if i not in implied_rows
         }
 
-    def relation(self, p: int) -> Relation | None:
-        """That of a row to those of W; None if it is independent of them."""
+    def towards(self, p: int) -> Minimiser | Relation:
+        """The minimiser on W and a row; the relation of the row to W where it depends on that."""
         near = self.near_sets
         working = self.working
         try:
@@ -314,10 +315,11 @@ class Minimiser:
             with working_precision(PRECISION):
                 of_others = sum((v * load for v, load in zip(c, loads, strict=True)), arb(0))
                 if (a * moved)[0, 0] - of_others > 0:
-                    return None
+                    return self.on((*working, p))
         relation = Relation(self.form, working, p, [-v for v in c])
-        depends = len(working) == self.form.n or relation.exact is not None
-        return relation if depends else None
+        if len(working) == self.form.n or relation.exact is not None:
+            return relation
+        return self.on((*working, p))
 
     def _exact_slack(self, i: int) -> arb:
         with working_precision(EXACT):
@@ -350,7 +352,7 @@ class Minimiser:
         return np.flatnonzero(~is_active)
 
     @cached_property
-    def settled(self) -> Solution:
+    def settled(self) -> Point:
         """The solution in balls, where each entry of x that W implies to be zero is zero.
 
         No ball shows that by itself. From it follows what of A_W'y = H x - g is a load alone.
@@ -364,7 +366,7 @@ class Minimiser:
         with working_precision(PRECISION):
             pull = (self.form.H * arb_mat(n, 1, z.entries()[:-1]) - self.form.g).entries()
         net = arb_mat(n, 1, _chosen(moves[:-1], balls.net.entries(), pull))
-        return Solution(z, balls.y, net, balls.denominator)
+        return Point(z, balls.y, net, balls.denominator)
 
     def rounded(self, numbers: Numbers, unit: arb | None = None) -> Array:
         """Numbers of the solution over a unit, each rounded correctly, shape (k,).

@@ -147,9 +147,14 @@ def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()
     loads : iterable of ndarray, shape (n_v,)
         The step's :func:`single_loads` [N s, N m s], where they are known.
     """
-    moved = energy_norm(H).of_displacement(optimum)
-    moved_by = map(energy_norm(H).of_impulse, (g, *loads))
-    length = max(moved, *moved_by, UNMOVED * math.sqrt(H.diagonal().min()))
+    norm = energy_norm(H)
+    moved_by = map(norm.of_impulse, (g, *loads))
+    return _length(norm.of_displacement(optimum), moved_by, H.diagonal().min())
+
+
+def _length(moved: float, moved_by: Iterable[float], softest: float) -> float:
+    """Of lengths of the optimum and of the unconstrained steps, and the least entry of H."""
+    length = max(moved, *moved_by, UNMOVED * math.sqrt(softest))
     return length if length < math.inf else math.nan
 
 
@@ -217,5 +222,4 @@ def digits_by_groups(
         for v in (delta_q - exact_delta_q, exact_delta_q)
     )
     softest = min(part.H.diagonal().min() for _, part in parts)
-    length = max(moved, *joined(lengths), UNMOVED * math.sqrt(softest))
-    return digits_of_error(off / length) if length < math.inf else 0.0
+    return digits_of_error(off / _length(moved, joined(lengths), softest))

@@ -27,7 +27,7 @@ from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
 from quasistatic_ref.certify.rows import flat_rows, row_owners
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
-from quasistatic_ref.certify.working_set import Solution, fraction_solution
+from quasistatic_ref.certify.working_set import Point, fraction_point
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.step.data import StepData
@@ -129,7 +129,7 @@ def verify_answer(
         form = StepForm(part)
         working_rows = group.within(working)
         try:
-            exact = fraction_solution(form, working_rows)
+            exact = fraction_point(form, working_rows)
         except ZeroDivisionError:
             return Verdict(False, "the rows of the working set are not independent")
         with working_precision(EXACT):
@@ -161,7 +161,7 @@ def _wrong_sign(
 
 
 def _wrong_claim(
-    solved: Sequence[tuple[ExactForm, Sequence[int], Solution, Sequence[arb]]],
+    solved: Sequence[tuple[ExactForm, Sequence[int], Point, Sequence[arb]]],
     claims: Certificate,
     lam_w: Array,
 ) -> str:

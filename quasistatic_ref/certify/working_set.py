@@ -35,8 +35,8 @@ FEW = 4
 
 
 @dataclass(frozen=True, eq=False)
-class Solution:
-    """The solution of H x = g + A_W'y, A_W x + c_W = 0, as numerators and a denominator.
+class Point:
+    """The x and y of H x = g + A_W'y, A_W x + c_W = 0, as numerators and a denominator.
 
     Parameters
     ----------
@@ -73,13 +73,13 @@ class Solution:
         return not radius.max(initial=0.0) <= UNIT * np.abs(x).max(initial=0.0)
 
     def in_fractions(self, numerators: Iterable[arb]) -> list[fmpq]:
-        """Some numbers of a solution in fractions."""
+        """Some of its numerators, or of other numbers at it, over the denominator."""
         denominator = fraction(self.denominator)
         return [fraction(v) / denominator for v in numerators]
 
     @property
-    def point(self) -> list[fmpq]:
-        """X of a solution in fractions."""
+    def exact_x(self) -> list[fmpq]:
+        """The x of a point in fractions."""
         return self.in_fractions(self.x)
 
 
@@ -186,9 +186,7 @@ class NearSets:
         return [(a * self.pull(other).moved)[0, 0] for other in rows]
 
 
-def ball_solution(
-    form: ExactForm, working: Sequence[int], near: NearSets | None = None
-) -> Solution:
+def ball_point(form: ExactForm, working: Sequence[int], near: NearSets | None = None) -> Point:
     """The solution in balls.
 
     Parameters
@@ -216,10 +214,10 @@ def ball_solution(
         net = A.transpose() * y
         x = form.free + form.H_inverse * net
         z = arb_mat(form.n + 1, 1, [*x.entries(), 1])
-        return Solution(z, y.entries(), net, arb(1))
+        return Point(z, y.entries(), net, arb(1))
 
 
-def fraction_solution(form: ExactForm, working: Sequence[int]) -> Solution:
+def fraction_point(form: ExactForm, working: Sequence[int]) -> Point:
     """The solution without rounding; ZeroDivisionError if the rows are not independent."""
     n = form.n
     k = len(working)
@@ -237,4 +235,4 @@ def fraction_solution(form: ExactForm, working: Sequence[int]) -> Solution:
     z = arb_mat(n + 1, 1, [*entries[:n], denominator])
     with working_precision(EXACT):
         net = form.H * x - form.g * arb(denominator)
-    return Solution(z, entries[n:], net, arb(denominator))
+    return Point(z, entries[n:], net, arb(denominator))

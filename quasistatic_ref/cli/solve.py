@@ -10,7 +10,7 @@ from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.certify.solution_files import infeasible_text, solution_text
-from quasistatic_ref.certify.working_set import fraction_solution
+from quasistatic_ref.certify.working_set import fraction_point
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.decimals import decimal_string
@@ -84,7 +84,7 @@ def decimals(solution: StepSolution, digits: int) -> list[tuple[str, ...]]:
     working = flat_rows(step, solution.certificate.active)
     names = [f"delta_q_a[{i}]" for i in range(step.n_a)]
     names += [f"delta_q_u[{i}]" for i in range(step.n_u)]
-    exact = fraction_solution(StepForm(step), working).point
+    exact = fraction_point(StepForm(step), working).exact_x
     values = [decimal_string(Fraction(int(v.p), int(v.q)), digits) for v in exact]
     return list(zip(names, values, strict=True))
 

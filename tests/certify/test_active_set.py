@@ -36,7 +36,7 @@ def test_exactly_tied_duplicated_and_dependent_rows_end(seed):
     form, warm = lifted_corner(seed)
     end = dual_active_set(form, warm)
     assert isinstance(end, Minimiser)
-    assert end.fractions.point == [10, 10, 10, 10, 0]
+    assert end.fractions.exact_x == [10, 10, 10, 10, 0]
     assert 0 < end.walks <= form.m
 
 

@@ -41,6 +41,6 @@ def test_what_stays_where_it_is_needs_no_fractions(monkeypatch):
         pytest.fail("solved in fractions")
 
     working = step_optimum(step).working_set
-    monkeypatch.setattr("quasistatic_ref.certify.minimiser.fraction_solution", refused)
+    monkeypatch.setattr("quasistatic_ref.certify.minimiser.fraction_point", refused)
     delta_q = step_optimum(step, working).delta_q
     assert delta_q.astype(bool).tolist() == [True, True, True, False, False, False]

@@ -11,7 +11,7 @@ from quasistatic_ref import Extra
 from quasistatic_ref.certify.dependence import implied, independent_rows
 from quasistatic_ref.certify.form import EXACT, StepForm, exact_matrix
 from quasistatic_ref.certify.minimiser import Minimiser
-from quasistatic_ref.certify.working_set import NearSets, ball_solution
+from quasistatic_ref.certify.working_set import NearSets, ball_point
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.numbers.precision import working_precision
 from tests.certify.test_exact import resting_point
@@ -88,7 +88,7 @@ def test_balls_that_hide_x_are_formed_again():
     form = exact_form_of(np.eye(2), np.array([-1.0, 1.0]), A, np.array([1.0, 2.0, 3.0]))
     near = NearSets(form, (0, 1))
     minimiser = Minimiser(form, (1, 2), near)
-    _, radius = ball_solution(form, (1, 2), near).floats
+    _, radius = ball_point(form, (1, 2), near).floats
     _, formed_again = minimiser.balls.floats
     assert radius.max() > 1e-6
     assert formed_again.max() < 1e-90

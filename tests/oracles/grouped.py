@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref import StepIllPosed, StepInfeasible
-from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.form import StepForm
@@ -33,12 +33,12 @@ def faults(step):
     try:
         grouped = step_optimum(step)
     except StepInfeasible as failure:
-        if not isinstance(whole, Farkas):
+        if not isinstance(whole, Combination):
             return ["infeasible by group only"]
         reason = farkas_refutation(step, failure.farkas.exact)
         return [] if reason is None else [reason]
     except StepIllPosed as failure:
-        if isinstance(whole, Farkas):
+        if isinstance(whole, Combination):
             return ["feasible by group only"]
         return [] if failure.delta_q.tobytes() == whole.delta_q.tobytes() else ["delta_q"]
     return unlike_fields(grouped, whole)
@@ -46,7 +46,7 @@ def faults(step):
 
 def unlike_fields(one, whole):
     """In what of that no choice is left of an optimum is not that of the whole step."""
-    if isinstance(whole, Farkas):
+    if isinstance(whole, Combination):
         return ["feasible by group only"]
     names = (*SAME, "lam") if whole.multipliers_unique else SAME
     return [name for name in names if bits(getattr(one, name)) != bits(getattr(whole, name))]

@@ -12,7 +12,7 @@ from itertools import chain, combinations
 
 import numpy as np
 
-from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of, exact_slack
 from tests.oracles.rational_kkt import (
@@ -116,8 +116,8 @@ def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
         for rows in ([], list(range(len(b))), [rng.randrange(len(b)) for _ in b]):
             form = exact_form_of(H, g, A, b)
             found = form_optimum(form, rows)
-            assert isinstance(found, Farkas) == (truth.x is None), seed
-            if isinstance(found, Farkas):
+            assert isinstance(found, Combination) == (truth.x is None), seed
+            if isinstance(found, Combination):
                 y = {i: str(v) for i, v in found.y.items() if v}
                 assert farkas_refutation(A, b, y) is None, seed
                 continue
@@ -140,7 +140,7 @@ def bits_of(seed):
     """The bits of an optimum and of its slacks, and what is unique; None where there is none."""
     form = exact_form_of(*small_problem(seed))
     found = form_optimum(form)
-    if isinstance(found, Farkas):
+    if isinstance(found, Combination):
         return None
     arrays = found.delta_q, found.net, exact_slack(form, found.working_set)
     unique = found.multipliers_unique, found.differentiable

@@ -17,7 +17,7 @@ from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.dependence import independent_rows
 from quasistatic_ref.certify.form import EXACT, ExactForm, fraction
-from quasistatic_ref.certify.working_set import Solution, fraction_solution
+from quasistatic_ref.certify.working_set import Point, fraction_point
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks, inside, outside_of_cones
@@ -33,14 +33,14 @@ class Apex(NamedTuple):
     rows : tuple of int
         The first independent rows among all rows of the contacts that bear load, in increasing
         order. Directions without friction are left out: they bear nothing.
-    solution : Solution
+    solution : Point
         The minimiser on them.
     refutation : str
         Why it is not the optimum of the step; empty if it is.
     """
 
     rows: tuple[int, ...]
-    solution: Solution
+    solution: Point
     refutation: str
 
 
@@ -62,12 +62,12 @@ def apex(step: StepData, form: ExactForm, lam: Array) -> Apex:
         for i, mu in zip(block, [ONE, *c], strict=True)
         if mu > 0
     ])  # fmt: skip
-    solution = fraction_solution(form, rows)
+    solution = fraction_point(form, rows)
     return Apex(rows, solution, _refutation(step, form, rows, solution, lam))
 
 
 def _refutation(
-    step: StepData, form: ExactForm, rows: Sequence[int], solution: Solution, lam: Array
+    step: StepData, form: ExactForm, rows: Sequence[int], solution: Point, lam: Array
 ) -> str:
     """Why a solution is not the optimum; empty if it is."""
     with working_precision(EXACT):

@@ -214,7 +214,7 @@ def _not_exact(
         or wrong_claim("active", active, contact_rows(step, rows))
         or wrong_claim("error_bound", claims.error_bound, 0.0)
     )
-    return solution.point, reason
+    return solution.exact_x, reason
 
 
 def _not_enclosed(

@@ -160,8 +160,8 @@ def _at_apex(step: StepData, form: ExactForm, lam: Array) -> Enclosure | None:
     rows, exact, refutation = apex(step, form, lam)
     if refutation:
         return None
-    gap = duality_gap(form, exact.point, fractions(lam))
-    if not negligible(form, exact.point, gap):
+    gap = duality_gap(form, exact.exact_x, fractions(lam))
+    if not negligible(form, exact.exact_x, gap):
         return None
     delta_q = rounded_quotients(exact.x, exact.denominator)
     with working_precision(EXACT):

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from flint import arb, arb_mat
 
-from quasistatic_ref.certify.active_set import Farkas, dual_active_set
+from quasistatic_ref.certify.active_set import Combination, dual_active_set
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import EXACT, MatrixForm, Row, StepForm, columns
@@ -60,7 +60,9 @@ class EliminatedStep:
         self.step = step
         self.form = StepForm(step)
         self.compliance = arb(compliance)
-        self.z = [self.form.motion(j) for j in range(step.contacts.n_c)]
+        factors = map(self.form.factors, range(step.contacts.n_c))
+        with working_precision(EXACT):
+            self.z = [turn * J for _, turn, J in factors]
         self.extra_rows = self.form.exact_rows(range(int(step.offsets[-1]), step.m))
 
     def candidate(self, faces: Sequence[Rows]) -> Candidate:
@@ -103,7 +105,7 @@ class EliminatedStep:
     def _active(self, under: MatrixForm) -> tuple[int, ...]:
         """The working set of the user's own rows, which are those of a form."""
         end = dual_active_set(under)
-        if not isinstance(end, Farkas):
+        if not isinstance(end, Combination):
             return end.working
         extra_rows = np.arange(self.step.offsets[-1], self.step.m)
         raise StepInfeasible(self.step, farkas_vector(self.step, under, end, extra_rows))

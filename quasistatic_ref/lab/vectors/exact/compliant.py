@@ -40,5 +40,5 @@ def compliant_forces(program: Program, case: Json, contacts: Json, lam: Json) ->
     form = exact_form_of(*softened)
     end = dual_active_set(form, np.flatnonzero(lam).tolist())
     assert isinstance(end, Minimiser)
-    s = np.array(end.fractions.point[len(program[1]) :])
+    s = np.array(end.fractions.exact_x[len(program[1]) :])
     return rounded_results(lambda: forces_of(s, [number(c_j) for c_j in c], entries))

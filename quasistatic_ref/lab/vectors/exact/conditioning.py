@@ -29,7 +29,7 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.certify.form import ExactForm, fraction
-from quasistatic_ref.certify.working_set import fraction_solution
+from quasistatic_ref.certify.working_set import fraction_point
 from quasistatic_ref.lab.vectors.exact.rational import UNIT, inverse, largest, rationals
 
 ROUNDINGS = 8
@@ -74,7 +74,7 @@ def bounds(form: ExactForm, working: Sequence[int]) -> Bounds:
     size = form.n + len(working)
     H, A, g, c = map(rationals, (form.H, form.A, form.g, form.c))
     g, b = g[:, 0], -c[:, 0]
-    solution = fraction_solution(form, working)
+    solution = fraction_point(form, working)
     rows = list(working)
     numbers = (solution.x, solution.y)
     x, lam = (np.abs(rationals(solution.in_fractions(v))) for v in numbers)

@@ -11,12 +11,12 @@ from collections.abc import Sequence
 import numpy as np
 from flint import fmpq
 
-from quasistatic_ref.certify.active_set import Farkas, least_index
+from quasistatic_ref.certify.active_set import Combination, least_index
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.form import MatrixForm
-from quasistatic_ref.certify.working_set import fraction_solution
+from quasistatic_ref.certify.working_set import fraction_point
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
@@ -46,7 +46,7 @@ def expected(case_input: Json) -> Expected:
         return enclosed_optimum(cone_step(case_input))
     form = form_of(case_input)
     optimum = form_optimum(form, (), least_index)
-    if isinstance(optimum, Farkas):
+    if isinstance(optimum, Combination):
         return _infeasible(form, optimum)
     exact = _checked_optimum(case_input, form, optimum.working_set)
     slack = exact_slack(form, optimum.working_set)
@@ -148,7 +148,7 @@ def _checked_optimum(
     case_input: Json, form: MatrixForm, working: Sequence[int]
 ) -> dict[str, list[fmpq]]:
     """delta_q and A'lam of a working set, after the plain program looked at their conditions."""
-    exact = fraction_solution(form, working)
+    exact = fraction_point(form, working)
     x, net, lam = map(exact.in_fractions, (exact.x, exact.net.entries(), exact.y))
     every = [fmpq(0)] * form.m
     for row, value in zip(working, lam, strict=True):
@@ -182,7 +182,7 @@ def flags_of(optimum: ExactOptimum, slack: Array, bound: Bounds) -> dict[str, bo
     }
 
 
-def _infeasible(form: MatrixForm, proof: Farkas) -> Expected:
+def _infeasible(form: MatrixForm, proof: Combination) -> Expected:
     """A combination y >= 0 of the rows with A'y = 0 and b'y > 0, its largest entry being 1."""
     largest_y = max(proof.y.values())
     why = "any y >= 0 whose A'y is that small beside |A|'y and b'y proves the same"

@@ -12,7 +12,7 @@ import pytest
 from flint import arb_mat, fmpz_mat
 
 from quasistatic_ref import StepNotSolved, solve_step, standard_form
-from quasistatic_ref.certify.active_set import Farkas, dual_active_set
+from quasistatic_ref.certify.active_set import Combination, dual_active_set
 from quasistatic_ref.certify.form import MatrixForm
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.optional.derivatives.step.load_rates import load_rates
@@ -105,9 +105,9 @@ def optimum(record):
     A, b = whole(A, b, n_v)
     rows = arb_mat([[*a, -b_i] for a, b_i in zip(A.tolist(), b.entries(), strict=True)])
     end = dual_active_set(MatrixForm(arb_mat(H), arb_mat(g), rows), [])
-    if isinstance(end, Farkas):
+    if isinstance(end, Combination):
         return None
-    return fractions(end.fractions.point)
+    return fractions(end.fractions.exact_x)
 
 
 def whole(matrix, column, n):
