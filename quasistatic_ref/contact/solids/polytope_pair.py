@@ -165,22 +165,15 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Indices, Array, Array]:
     way_b = b.ways[pair, j]
     n = crossed(way_a, way_b)
     length = norm(n)
-    scale = np.sqrt(dot(way_a, way_a) * dot(way_b, way_b))
-    keep = length > ON_SURFACE * scale
-    pair = pair[keep]
-    i = i[keep]
-    j = j[keep]
-    n = n[keep] / length[keep, None]
+    steep = length > ON_SURFACE * np.sqrt(dot(way_a, way_a) * dot(way_b, way_b))
+    n = n / np.where(steep, length, 1.0)[:, None]
     # ... and they are on the same hemisphere: n is on the side of a's normals and of -b's.
-    middle_a = a.normals[pair, a.sides[i, 0]] + a.normals[pair, a.sides[i, 1]]
-    middle_b = -(b.normals[pair, b.sides[j, 0]] + b.normals[pair, b.sides[j, 1]])
-    side_a = dot(n, middle_a)
-    side_b = dot(n, middle_b)
-    same = side_a * side_b > 0
-    pair = pair[same]
-    n = n[same] * np.sign(side_a[same])[:, None]
-    apart = b.tails[pair, j[same]] - a.tails[pair, i[same]]
-    return pair, n, dot(n, apart)
+    side_a = dot(n, a.normals[pair, a.sides[i, 0]] + a.normals[pair, a.sides[i, 1]])
+    side_b = -dot(n, b.normals[pair, b.sides[j, 0]] + b.normals[pair, b.sides[j, 1]])
+    n *= np.sign(side_a)[:, None]
+    gaps = dot(n, b.tails[pair, j] - a.tails[pair, i])
+    crossing = steep & (side_a * side_b > 0)
+    return pair[crossing], n[crossing], gaps[crossing]
 
 
 def _nearest(
