@@ -41,33 +41,22 @@ class Group(NamedTuple):
         return [place[row] for row in rows if row in place]
 
 
-def groups(step: StepData, near: Mask | None = None) -> list[Group]:
-    """The groups of a step, in the order of their first coordinates.
+def groups(step: StepData) -> list[Group]:
+    """The groups of a step, in the order of their first coordinates; at least one.
 
     Rows in which nothing moves belong to the first group.
 
     Parameters
     ----------
     step : StepData
-    near : ndarray of bool, shape (n_c,), optional
-        The contacts that count; the others belong to no group. By default all do.
-
-    Returns
-    -------
-    list of Group
-        At least one.
     """
-    n_c = step.contacts.n_c
-    near = np.ones(n_c, dtype=bool) if near is None else near
-    contacts = step.contacts.J.any(axis=1) & near[:, None]
+    contacts = step.contacts.J.any(axis=1)
     couplings = np.concatenate([contacts, step.extra.A != 0, step.coupled()])
-    return [*_groups(couplings.tobytes(), couplings.shape, near.tobytes(), step.counts.tobytes())]
+    return [*_groups(couplings.tobytes(), couplings.shape, step.counts.tobytes())]
 
 
 @lru_cache(maxsize=64)
-def _groups(
-    couplings: bytes, shape: tuple[int, int], near_contacts: bytes, row_counts: bytes
-) -> tuple[Group, ...]:
+def _groups(couplings: bytes, shape: tuple[int, int], row_counts: bytes) -> tuple[Group, ...]:
     """The groups of all steps whose numbers differ from zero in the same places.
 
     Parameters
@@ -76,18 +65,15 @@ def _groups(
         Which coordinates move a contact, or a user's row, or have an entry in a row of
         H: a mask of that shape.
     shape : (int, int)
-    near_contacts : bytes
-        Of the mask `near` of :func:`groups`.
     row_counts : bytes
         Of the number of rows of each contact.
     """
-    near = np.frombuffer(near_contacts, np.bool_)
     coupling, coordinate = np.nonzero(np.frombuffer(couplings, np.bool_).reshape(shape))
-    return parted(coupling, coordinate, shape, near, np.frombuffer(row_counts, np.int64))
+    return parted(coupling, coordinate, shape, np.frombuffer(row_counts, np.int64))
 
 
 def parted(
-    coupling: Indices, coordinate: Indices, shape: tuple[int, int], near: Mask, counts: Indices
+    coupling: Indices, coordinate: Indices, shape: tuple[int, int], counts: Indices
 ) -> tuple[Group, ...]:
     """The groups of coordinates that couplings make.
 
@@ -97,15 +83,12 @@ def parted(
         Each coordinate of each coupling: of contacts, of a user's rows, of rows of H.
     shape : (int, int)
         Number of couplings and of coordinates.
-    near : ndarray of bool, shape (n_c,)
-        As of :func:`groups`.
     counts : ndarray of int, shape (n_c,)
         Number of rows of each contact.
     """
     n_v = shape[1]
     label, of_coupling = linked(coupling, coordinate, shape)
-    of_contacts = np.where(near, of_coupling[: len(near)], -1)
-    of_extra_rows = of_coupling[len(near) : shape[0] - n_v]
+    of_contacts, of_extra_rows, _ = np.split(of_coupling, [len(counts), shape[0] - n_v])
     of_rows = np.concatenate([np.repeat(of_contacts, counts), of_extra_rows])
     parts = (label, of_contacts, of_extra_rows, of_rows)
     firsts = np.unique(label) if n_v else np.zeros(1, np.int64)

@@ -182,7 +182,7 @@ class Steps:
         coupling = np.concatenate([c, n_c + of_K[0], n_c + first + i])
         coordinate = np.concatenate([self.column[c, k], of_K[1], first + j])
         shape = n_c + n_v, n_v
-        self.groups = parted(coupling, coordinate, shape, np.ones(n_c, np.bool_), rows.counts)
+        self.groups = parted(coupling, coordinate, shape, rows.counts)
         there = np.where(self.column[:, None] < n_v, np.ones((4, 1)), 0.0)
         self.template = self._step(self._names_of([0] * n_c), written, np.zeros(n_a), there)
 
