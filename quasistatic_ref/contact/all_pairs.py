@@ -6,10 +6,9 @@ from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.contact.batches.balls import OnHalfSpaces, Spheres
 from quasistatic_ref.contact.batches.batch import Batch
 from quasistatic_ref.contact.batches.boxes import Boxes
-from quasistatic_ref.contact.batches.on_half_space import OnHalfSpaces
-from quasistatic_ref.contact.batches.spheres import Spheres
 from quasistatic_ref.contact.distance import ClosestPoints, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
