@@ -21,7 +21,7 @@ that float64 shows to be positive needs none.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property, lru_cache
 from typing import Final, TypeAlias
 
@@ -254,8 +254,8 @@ class StepForm(ExactForm):
         self._cone_matrix = exact_matrix(self._cone.matrix)
         self._mu = self._cone.row_coefficients(step.contacts.mu)
         n_c = step.contacts.n_c
-        contact, kind = np.nonzero(step.mask)
-        self._places = [*zip(contact.tolist(), kind.tolist(), strict=True)]
+        self._contact, kind = np.nonzero(step.mask)
+        self._places = [*zip(self._contact.tolist(), kind.tolist(), strict=True)]
         self._places += [(n_c + k, 0) for k in range(len(step.extra.names))]
         self._factors: dict[int, tuple[arb_mat, arb_mat, arb_mat]] = {}
         self._rows: dict[int, list[Row]] = {}
@@ -292,7 +292,7 @@ class StepForm(ExactForm):
         axes = np.concatenate([contacts.n, contacts.d1, contacts.d2], axis=1)
         F = (1 + np.abs(axes).sum(axis=1)) * (1 + self._mu.sum(axis=1))
         R = (np.abs(contacts.J) @ most).max(axis=1, initial=0.0) + TINY
-        of_rows = np.repeat(np.abs(contacts.phi) + F * R, self._step.counts)
+        of_rows: Array = (np.abs(contacts.phi) + F * R)[self._contact]
         extra = self._step.extra
         if not extra.names:
             return of_rows
@@ -325,27 +325,25 @@ class StepForm(ExactForm):
 
     def exact_rows(self, some: Iterable[int]) -> list[Row]:
         """Some rows [a, c]: Eq. :eq:`eq-4` combines the four rows of a contact's motion."""
+        rows = []
         with working_precision(EXACT):
-            return self._by_contact(some, self._rows, lambda turn, J: turn * J)
+            for c, kind in (self._places[i] for i in some):
+                if c not in self._rows:
+                    combined, turn, J = self.factors(c)
+                    self._rows[c] = (combined * (turn * J)).tolist()
+                rows.append(self._rows[c][kind])
+        return rows
 
     def values(self, some: Iterable[int], z: arb_mat) -> list[list[arb]]:
         """Slacks of some rows at z, from the motion of each contact."""
-        return self._by_contact(some, {}, lambda turn, J: turn * (J * z))
-
-    def _by_contact(
-        self,
-        some: Iterable[int],
-        of_contact: dict[int, list[Row]],
-        motion: Callable[[arb_mat, arb_mat], arb_mat],
-    ) -> list[list[arb]]:
-        """Combinations of a motion, of which those of the contacts before are kept."""
-        rows = []
+        of_contact: dict[int, list[list[arb]]] = {}
+        values = []
         for c, kind in (self._places[i] for i in some):
             if c not in of_contact:
                 combined, turn, J = self.factors(c)
-                of_contact[c] = (combined * motion(turn, J)).tolist()
-            rows.append(of_contact[c][kind])
-        return rows
+                of_contact[c] = (combined * (turn * (J * z))).tolist()
+            values.append(of_contact[c][kind])
+        return values
 
     def implied_by_cone(self, working: Sequence[int], some: Iterable[int]) -> list[int]:
         """Rows that W implies since the six rows of a contact have rank four."""

@@ -58,8 +58,9 @@ def standard_form(step: StepData) -> StandardForm:
 
 def inequalities(step: StepData) -> tuple[Array, Array]:
     """A, shape (m, n_v), and b, shape (m,), of Eq. :eq:`eq-8` and of the user's rows."""
-    A = friction_rows(step.contacts, step.cone)[step.mask]  # Eq. (8)
-    b = -row_constants(step.contacts, step.cone)[step.mask]  # Eq. (8)
+    mask = step.mask
+    A = friction_rows(step.contacts, step.cone)[mask]  # Eq. (8)
+    b = -row_constants(step.contacts, step.cone)[mask]  # Eq. (8)
     if step.extra.names:
         A = np.concatenate([A, step.extra.A])
         b = np.concatenate([b, step.extra.b])
