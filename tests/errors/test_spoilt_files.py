@@ -20,6 +20,7 @@ from quasistatic_ref import (
     load_scenario,
     load_step,
     load_trajectory,
+    save_step,
     solve_step,
 )
 from quasistatic_ref.certify.solution_files import load_solution, solution_text
@@ -30,8 +31,7 @@ from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
 from quasistatic_ref.simulate.trajectory import save_trajectory
-from quasistatic_ref.step.files import step_text
-from tests.errors.scene import SCENE, scene_written
+from tests.errors.scene import scene_written
 from tests.model.readers.test_clouds import PCD_BODY, pcd
 from tests.model.readers.test_mesh_files import (
     COLLADA,
@@ -41,7 +41,6 @@ from tests.model.readers.test_mesh_files import (
     plain_gltf,
 )
 from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
-from tests.oracles.records import toml_text
 
 LONGEST = 2000
 """Most characters of a sentence."""
@@ -56,7 +55,10 @@ OTHERS = (
 )
 """What stands in the place of a token or of some bytes."""
 POINTS = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)])
-PLY = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+PLY = (
+    b"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+    b"property float z\nend_header\n0 0 0\n1 0 0\n"
+)
 
 
 def scene_read(path):
@@ -118,67 +120,74 @@ def step_solved(path):
     solve_step(load_step(path), "none")
 
 
-def good_files(folder):
-    """Name -> content and reader, for each format."""
+def solution_verified(path):
+    """A solution of the step next to it."""
+    step = load_step(path.with_name("step.json"))
+    refutation(step, load_solution(path, step))
 
-    def written(name):
-        return (folder / name).read_bytes()
 
+READERS = {
+    "scene.toml": scene_read,
+    "r.urdf": robot_read,
+    "m.obj": mesh_read,
+    "m.stl": mesh_read,
+    "b.stl": mesh_read,
+    "m.off": mesh_read,
+    "m.ply": mesh_read,
+    "m.gltf": mesh_read,
+    "m.glb": mesh_read,
+    "m.3mf": mesh_read,
+    "m.dae": mesh_read,
+    "c.xyz": points_read,
+    "c.csv": points_read,
+    "c.ply": point_cloud,
+    "c.pcd": points_read,
+    "c.las": points_read,
+    "c.npy": point_cloud,
+    "c.npz": point_cloud,
+    "step.json": step_solved,
+    "solution.json": solution_verified,
+    "run.npz": lambda path: load_trajectory(path).step_data(0),
+    "rows.json": lambda path: answers_read(path.parent, "rows"),
+}
+"""A file of each format, and what reads it."""
+
+
+@pytest.fixture(scope="module")
+def good(tmp_path_factory):
+    """A folder of good files."""
+    folder = tmp_path_factory.mktemp("good")
     scene_written(folder)
     run = load_scenario("sphere_spin", ["steps=1"]).run()
     step = run.step_data(0)
+    save_trajectory(folder / "run.npz", run)
+    save_step(folder / "step.json", step)
+    answers_written(folder, "rows", "mine", {"one": {"A": [[1.0]], "b": [1.0]}})
     for name, save in (("c.npy", np.save), ("c.npz", np.savez)):
         save(folder / name, POINTS)
     las = laspy.LasData(laspy.LasHeader(point_format=0, version="1.2"))
     las.x, las.y, las.z = POINTS.T
     las.write(folder / "c.las")
-    save_trajectory(folder / "run.npz", run)
-    ply = f"{PLY}property float z\nend_header\n0 0 0\n1 0 0\n"
-    answers_written(folder, "rows", "mine", {"one": {"A": [[1.0]], "b": [1.0]}})
-    return {
-        "scene.toml": (toml_text(SCENE), scene_read),
-        "r.urdf": ((models_folder() / "door" / "door.urdf").read_bytes(), robot_read),
-        "m.obj": (TETRAHEDRON.encode(), mesh_read),
-        "m.stl": (exported("stl_ascii"), mesh_read),
-        "b.stl": (b"solid".ljust(80) + exported("stl")[80:], mesh_read),
-        "m.off": (exported("off"), mesh_read),
-        "m.ply": (exported("ply"), mesh_read),
-        "m.gltf": (plain_gltf(), mesh_read),
-        "m.glb": (exported("glb"), mesh_read),
-        "m.3mf": (of_3mf(), mesh_read),
-        "m.dae": (COLLADA.encode(), mesh_read),
-        "c.xyz": (b"0 0 0\n1 0 0\n", points_read),
-        "c.csv": (b"x,y,z,blue\n0,0,0,255\n1,0,0,255\n", points_read),
-        "c.ply": (ply.encode(), point_cloud),
-        "c.pcd": (pcd("ascii", PCD_BODY), points_read),
-        "c.las": (written("c.las"), points_read),
-        "c.npy": (written("c.npy"), point_cloud),
-        "c.npz": (written("c.npz"), point_cloud),
-        "step.json": (step_text(step).encode(), step_solved),
-        "solution.json": (
-            solution_text(solve_step(step, "none")).encode(),
-            lambda path: refutation(step, load_solution(path, step)),
-        ),
-        "run.npz": (written("run.npz"), lambda path: load_trajectory(path).step_data(0)),
-        "rows.json": (
-            written("rows.json"),
-            lambda path: answers_read(path.parent, "rows"),
-        ),
+    contents = {
+        "r.urdf": (models_folder() / "door" / "door.urdf").read_bytes(),
+        "m.obj": TETRAHEDRON.encode(),
+        "m.stl": exported("stl_ascii"),
+        "b.stl": b"solid".ljust(80) + exported("stl")[80:],
+        "m.off": exported("off"),
+        "m.ply": exported("ply"),
+        "m.gltf": plain_gltf(),
+        "m.glb": exported("glb"),
+        "m.3mf": of_3mf(),
+        "m.dae": COLLADA.encode(),
+        "c.xyz": b"0 0 0\n1 0 0\n",
+        "c.csv": b"x,y,z,blue\n0,0,0,255\n1,0,0,255\n",
+        "c.ply": PLY,
+        "c.pcd": pcd("ascii", PCD_BODY),
+        "solution.json": solution_text(solve_step(step, "none")).encode(),
     }
-
-
-FORMATS = (
-    *("scene.toml", "r.urdf", "m.obj", "m.stl", "b.stl", "m.off", "m.ply", "m.gltf"),
-    *("m.glb", "m.3mf", "m.dae", "c.xyz", "c.csv", "c.ply", "c.pcd", "c.las", "c.npy"),
-    *("c.npz", "step.json", "solution.json", "run.npz", "rows.json"),
-)
-
-
-@pytest.fixture(scope="module")
-def good(tmp_path_factory):
-    """A folder, and the good files in it."""
-    folder = tmp_path_factory.mktemp("good")
-    return folder, good_files(folder)
+    for name, content in contents.items():
+        (folder / name).write_bytes(content)
+    return folder
 
 
 @pytest.fixture(scope="module")
@@ -208,15 +217,13 @@ def same_points(one, other):
 
 
 @pytest.mark.usefixtures("bounded")
-@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("name", READERS)
 @settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(places=st.lists(st.floats(0, 1), min_size=1, max_size=3), data=st.data())
 def test_a_spoilt_file_is_read_as_others_read_it_or_refused_in_a_sentence(good, name, places, data):
-    folder, files = good
-    assert tuple(files) == FORMATS
-    content, read = files[name]
-    path = folder / name
-    path.write_bytes(content)
+    read = READERS[name]
+    path = good / name
+    content = path.read_bytes()
     whole = read(path)
     others = [data.draw(st.sampled_from(OTHERS)) for _ in places]
     path.write_bytes(spoilt(content, places, others))
