@@ -6,6 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Capsule, Cone, Cylinder
 from quasistatic_ref.contact.crossings import crossings
+from tests.cases import cases
 from tests.closeness import assert_within
 from tests.contact.still import in_world
 from tests.oracles.bodies_by_hand import BOX, HALF, UP, Scene, hull, wrong_words
@@ -43,30 +44,25 @@ RESTING = {
 }
 
 
-@pytest.mark.parametrize("name", RESTING)
-def test_a_body_whose_centre_is_over_what_touches_rests(name):
+@cases("low, top, R, place, least", RESTING)
+def test_a_body_whose_centre_is_over_what_touches_rests(low, top, R, place, least):
     """It does not move, and is borne by its weight, whichever is alpha and for every k."""
-    low, top, R, place, least = RESTING[name]
     bodies = [(top, R, np.array(place)), (low, STRAIGHT, np.zeros(3))]
     for normals in ({(1, 0): UP}, {(0, 1): -UP}):
         scene = Scene(bodies, normals, np.zeros((1, 6)))
         assert [wrong_words(scene, k, 0.5) for k in (least, least + 1, 12)] == [""] * 3
 
 
-def points_of_alpha(low, top, R, place, nearest):
-    """Points of alpha's, sorted, of a body over a fixed one."""
-    alpha = np.array([*nearest, 0.01])
-    points = crossings(in_world(low), in_world(top, place, R), alpha, alpha, UP)
-    assert len(set(points.number.tolist())) == len(points.number)
-    assert_within((points.beta - points.alpha)[:, :2], 0.0, ROUNDING)
-    return sorted(points.alpha[:, :2].round(12).tolist())
-
-
 def test_crossings_are_where_they_are_by_hand():
     # Equal squares, one turned by 45 degrees: the sides of an octagon of inner radius 0.2.
     t = 0.2 * np.tan(np.pi / 8)
     corners = [[x * u, y * v] for x, y in ((0.2, t), (t, 0.2)) for u in (-1, 1) for v in (-1, 1)]
-    octagon = points_of_alpha(TABLE, TABLE, AN_EIGHTH, (0.0, 0.0, 0.02), (0.0, 0.0))
+    middle = np.array([0.0, 0.0, 0.01])
+    turned = in_world(TABLE, 2 * middle, AN_EIGHTH)
+    points = crossings(in_world(TABLE), turned, middle, middle, UP)
+    assert len(set(points.number.tolist())) == len(points.number)
+    assert_within((points.beta - points.alpha)[:, :2], 0.0, ROUNDING)
+    octagon = sorted(points.alpha[:, :2].round(12).tolist())
     assert_within(octagon, sorted(corners), ROUNDING)
 
 

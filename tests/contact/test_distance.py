@@ -14,7 +14,7 @@ from quasistatic_ref.tolerances import FILLED
 from tests.contact.still import found_for, placed_shape, standing_links
 from tests.tolerances import EXACT
 
-X, _, Z = np.eye(3)
+Z = np.array([0.0, 0.0, 1.0])
 
 
 def test_a_pose_that_is_not_finite_is_refused():
@@ -23,15 +23,10 @@ def test_a_pose_that_is_not_finite_is_refused():
         closest_points([], still)
 
 
-def candidates_at(phi, x, number):
-    """Candidates at distances phi [m], at places along the x axis [m], with their numbers."""
-    alpha = np.outer(x, X)
-    n = np.tile(Z, (len(phi), 1))
-    return ClosestPoints(phi, alpha, alpha + phi[:, None] * n, n, number, 0 * number)
-
-
 def test_zero_is_never_minus_zero():
-    points = candidates_at(-np.zeros(1), np.zeros(1), np.zeros(1, dtype=int))
+    none = np.zeros(1, dtype=int)
+    places = np.zeros((2, 1, 3))
+    points = ClosestPoints(-np.zeros(1), *places, Z[None], none, none)
     found = joined_contacts([points.swapped()])
     assert np.signbit([*found.phi, *found.n[0]]).tolist() == [False, False, False, True]
 

@@ -23,12 +23,8 @@ from tests.cases import cases
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import ROUNDING
 
-
-def sheared_matrix(by):
-    """A matrix R with R'R - I = [0 by 0; by by^2 0; 0 0 0]."""
-    return np.array([[1.0, by, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
-
-
+SHEARED = np.array([[1.0, 2 * ORTHONORMAL, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+"""R with R'R - I = [0 by 0; by by^2 0; 0 0 0]."""
 REFUSED = {
     "zero radius": (lambda: Sphere(0.0), r"radius: must be a positive length \(got 0.0\)"),
     "radius too large to double": (lambda: Sphere(1.7e308), "radius: must be a positive length"),
@@ -48,7 +44,7 @@ REFUSED = {
         "a#0.R: must be a rotation",
     ),
     "shear": (
-        lambda: PlacedShape("a#0", 0, sheared_matrix(2 * ORTHONORMAL), np.zeros(3), Sphere(1.0)),
+        lambda: PlacedShape.in_world("a#0", Sphere(1.0), R=SHEARED),
         "a#0.R: must be a rotation",
     ),
 }

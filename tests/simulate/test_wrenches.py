@@ -35,11 +35,6 @@ def pinch():
     return scenario, scenario.run()
 
 
-def row_forces(run, k):
-    """A' lam / h, shape (n_v,): what the rows of step k do to the coordinates."""
-    return run["A"][k].T @ run["lam"][k] / run.header.h
-
-
 def test_a_wrench_does_to_the_coordinates_what_the_rows_did(scenario, run):
     """J' w = A' lam / h: the ball is beta of the floor and of the plate, the plate is alpha."""
     system = scenario.system
@@ -48,7 +43,7 @@ def test_a_wrench_does_to_the_coordinates_what_the_rows_did(scenario, run):
     for k in range(run.steps):
         J = system.kinematics(run["q"][k]).J
         both = J[system.link("ball")].T @ ball[k] + J[system.link("rail/plate")].T @ plate[k]
-        assert_close(both, row_forces(run, k), ROUNDING)
+        assert_close(both, run["A"][k].T @ run["lam"][k] / run.header.h, ROUNDING)
 
 
 def test_forces_of_pairs_add_up_to_those_of_the_body(scenario, run):

@@ -24,12 +24,6 @@ def by_cvxpy(step):
     return P, -q, np.column_stack([-F, -G])  # F x <= G
 
 
-def with_extra(step, rng):
-    return step.replace(
-        extra=Extra(("one", "two"), rng.normal(size=(2, step.n_v)), rng.normal(size=2))
-    )
-
-
 CONES = ("pyramid", "product", "facets-8", "frictionless")
 
 
@@ -37,7 +31,8 @@ CONES = ("pyramid", "product", "facets-8", "frictionless")
 @pytest.mark.parametrize("rows", [(6, 4, 6), (4, 4)])
 def test_cvxpy_compiles_the_rows_of_every_cone_in_order(name, rows, rng):
     # CVXPY's list goes over the rows i first, ours over the contacts; no entry is sorted away.
-    step = with_extra(random_step(rng, 3, 4, rows).replace(cone=name), rng)
+    extra = Extra(("one", "two"), rng.normal(size=(2, 7)), rng.normal(size=2))
+    step = random_step(rng, rows=rows).replace(cone=name, extra=extra)
     form = standard_form(step)
     m = int(step.offsets[-1])
     by_row = np.argsort(np.nonzero(step.mask)[1], kind="stable")
