@@ -15,7 +15,7 @@ def plant():
 
 
 def near(actual, expected):
-    assert_within(actual, expected, ROUNDING)
+    assert_within(actual, expected)
 
 
 def test_the_user_s_own_rows_are_judged_with_the_others():

@@ -19,7 +19,6 @@ from tests.cases import cases
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import (
     CLOSED_FORM,
-    ROUNDING,
     SIGNED_DISTANCE,
 )
 
@@ -44,7 +43,7 @@ def test_every_normal_has_length_one_and_leads_to_the_surface(name, point):
     shape = SHAPES[name]
     points = np.array([point])
     phi, normal = shape.signed_distance(points)
-    assert_relative(np.linalg.norm(normal[0]), 1.0, ROUNDING)
+    assert_relative(np.linalg.norm(normal[0]), 1.0)
     foot, _ = shape.signed_distance(points - phi[:, None] * normal)
     assert_within(foot, [0.0], SIGNED_DISTANCE)
 
@@ -93,7 +92,7 @@ def test_the_normal_at_a_tip_is_one_of_the_tip_whatever_is_rounded(rng):
     for radius, half_length in rng.uniform(0.01, 1.0, size=(500, 2)):
         phi, n = Cone(radius, half_length).signed_distance(np.array([[0.0, 0.0, half_length]]))
         assert_within(phi, [0.0], CLOSED_FORM)
-        assert_relative(np.sum(n * n), 1.0, ROUNDING)
+        assert_relative(np.sum(n * n), 1.0)
         n_r = np.hypot(n[0, 0], n[0, 1])
         assert n_r * radius <= 2 * half_length * n[0, 2] + CLOSED_FORM
 

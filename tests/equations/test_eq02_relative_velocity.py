@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
 from tests.cases import cases
 from tests.closeness import assert_close, assert_relative
-from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP, ROUNDING
+from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP
 
 LINKS = {
     "a free body on the world": ("world", "box/box"),
@@ -68,8 +68,8 @@ def test_alpha_and_beta_are_two_points_where_there_is_a_gap(scene):
     beta = (t + 0.4 * R[:, 0])[None]
     alpha = (t + 0.1 * R[:, 0])[None]
     f = contact_jacobian(kinematics, np.array([0]), np.array([box]), alpha, beta, R[:, 2][None])
-    assert_close(f[0, :3] @ v, 0.4 * R[:, 1], ROUNDING)
-    assert_relative(f[0, 3] @ v, 1.0, ROUNDING)
+    assert_close(f[0, :3] @ v, 0.4 * R[:, 1])
+    assert_relative(f[0, 3] @ v, 1.0)
     f = contact_jacobian(kinematics, np.array([box]), np.array([0]), alpha, beta, R[:, 2][None])
-    assert_close(f[0, :3] @ v, -0.1 * R[:, 1], ROUNDING)
-    assert_relative(f[0, 3] @ v, -1.0, ROUNDING)
+    assert_close(f[0, :3] @ v, -0.1 * R[:, 1])
+    assert_relative(f[0, 3] @ v, -1.0)

@@ -5,7 +5,6 @@ import numpy as np
 from quasistatic_ref.step.problem import paper_problem, set_values
 from tests.closeness import assert_close
 from tests.helpers import contact_row, random_step
-from tests.tolerances import ROUNDING
 
 
 def problem_at(step, delta_q):
@@ -28,7 +27,7 @@ def test_the_cvxpy_constraints_are_the_printed_left_hand_sides(rng):
     c = step.contacts
     for i, row in enumerate(left_hand_sides(step, delta_q)):
         expected = [c.phi[j] + contact_row(c, j, i) @ delta_q for j in range(3) if i < c.rows[j]]
-        assert_close(row, expected, ROUNDING)
+        assert_close(row, expected)
 
 
 def added_to_the_gap(rng):

@@ -2,10 +2,9 @@
 
 from tests.closeness import assert_close
 from tests.equations.test_eq04_contact_rows import added_to_the_gap, along
-from tests.tolerances import ROUNDING
 
 
 def test_they_are_what_the_third_and_fourth_constraint_add_to_the_gap(rng):
     c, motion, added = added_to_the_gap(rng)
     expected = [-c.mu_v * along(d, motion) for d in (c.d1, c.d2)]
-    assert_close(added[2:4], expected, ROUNDING)
+    assert_close(added[2:4], expected)

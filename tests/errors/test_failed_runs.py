@@ -14,7 +14,6 @@ from quasistatic_ref.simulate.limits import Limits
 from tests.cases import cases
 from tests.closeness import assert_relative
 from tests.errors.scene import SCENE, SUNK, changed, scene_written
-from tests.tolerances import ROUNDING
 
 WEDGE = (
     # The ball between the floor and a ceiling 1 mm too low: no displacement opens both.
@@ -92,7 +91,7 @@ def test_the_depth_that_is_allowed_is_the_scenario_s(tmp_path, depth, fails):
     else:
         trajectory = scenario.run()
         # Pushed out in one step: the sphere's lowest point is on the floor.
-        assert_relative(scenario.system.of(trajectory.q[1], "ball.z"), 0.05, ROUNDING)
+        assert_relative(scenario.system.of(trajectory.q[1], "ball.z"), 0.05)
 
 
 def test_a_position_that_is_no_number_is_out_of_the_scene():

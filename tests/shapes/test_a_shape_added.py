@@ -74,8 +74,8 @@ def test_its_distance_to_other_solids_is_that_of_the_faces(other):
     gap = 0.02
     above = in_world(other, [0.01, 0.02, HALF[2] + RADIUS + gap + 0.05])
     found = solid_pair("pad", in_world(PAD), above)
-    assert_within(found.phi, gap, ROUNDING)
-    assert_within(found.n, [0, 0, 1], ROUNDING)
+    assert_within(found.phi, gap)
+    assert_within(found.n, [0, 0, 1])
 
 
 def test_edges_of_a_polytope_cross_outside_of_its_margin(monkeypatch):
@@ -93,7 +93,7 @@ def test_edges_of_a_polytope_cross_outside_of_its_margin(monkeypatch):
             near = solid_pair("pair", a, b)
             found = crossings_of.crossings(a, b, near.alpha, near.beta, near.n)
             gaps = (found.beta - found.alpha) @ near.n
-            assert_within(gaps, [0.001] * 4, ROUNDING)
+            assert_within(gaps, [0.001] * 4)
             assert_relative(near.phi, 0.001, 1e-12)
 
 
@@ -110,7 +110,7 @@ def test_a_ball_comes_to_rest_on_it_in_a_scenario(scene):
     scenario = load_scenario(scene)
     run = scenario.run()
     # The wrench of the scene is along y and about z: in contact the load is the weight, m g.
-    assert_within(run["phi"][0, 0], 0.0, ROUNDING)
+    assert_within(run["phi"][0, 0], 0.0)
     assert_relative(run["wrench"][0, 0, 2], 0.3 * 9.81, SCENARIO)
 
 

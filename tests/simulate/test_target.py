@@ -11,7 +11,7 @@ from quasistatic_ref.simulate.target import JointTrack, Targets
 from quasistatic_ref.simulate.user_functions import target_function
 from tests.cases import cases, refusal
 from tests.closeness import assert_close, assert_within
-from tests.tolerances import DIFFERENCE, ROUNDING
+from tests.tolerances import DIFFERENCE
 
 TIMES = np.array([1.0, 2.0, 4.0])
 
@@ -21,7 +21,7 @@ def test_a_continuous_joint_may_turn_beyond_pi(scene):
     track = JointTrack(scene.joint("arm/spin"), np.array([0.0, 1.0]), angles)
     angle = np.array([0.0, 3.5, 6.3, 7.0, 7.0])
     found = track.over(np.array([0.0, 0.5, 0.9, 1.0, 2.0]))
-    assert_close(found, np.column_stack([np.cos(angle), np.sin(angle)]), ROUNDING)
+    assert_close(found, np.column_stack([np.cos(angle), np.sin(angle)]))
 
 
 def transform(value):
@@ -76,7 +76,6 @@ def test_targets_of_many_steps_have_the_bits_of_each(scene, rng):
     t = h * np.arange(1, steps + 1)
     assert_within(
         np.array(found)[:, slide], np.interp(t, TIMES, tracks[2].values[:, 0]),
-        ROUNDING,
     )  # fmt: skip
 
 

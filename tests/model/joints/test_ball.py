@@ -45,7 +45,7 @@ def test_a_link_on_a_ball_turns_about_its_point_with_its_inertia_there(base):
     start = Rotation.from_euler("xyz", [0.4, 0.5, 0.6])
     expected = (start * Rotation.from_rotvec(w)).as_matrix()
     assert_within(R, expected, 8 * ROUNDING)
-    assert_within(t, [0.1, 0.2, 0.3], ROUNDING)
+    assert_within(t, [0.1, 0.2, 0.3])
     inertia = np.diag(MOMENTS) + 2 * (CENTRE @ CENTRE * np.eye(3) - np.outer(CENTRE, CENTRE))
     assert_within(system.M_u(q), inertia, 4 * ROUNDING)
     gravity = np.array([1.0, -2.0, -9.0])
@@ -133,6 +133,6 @@ def test_a_file_may_have_balls_and_mimics():
     )  # fmt: skip
     system = System([Body("arm", both, positions={"swing": 0.3})])
     R = dict(zip(system.links, system.kinematics(system.q_start).R, strict=True))
-    assert_within(R["arm/b"], R["arm/a"], ROUNDING)
-    assert_within(R["arm/b"][0, 0], np.cos(0.3), ROUNDING)
-    assert_within(R["arm/bob"], np.eye(3), ROUNDING)
+    assert_within(R["arm/b"], R["arm/a"])
+    assert_within(R["arm/b"][0, 0], np.cos(0.3))
+    assert_within(R["arm/bob"], np.eye(3))
