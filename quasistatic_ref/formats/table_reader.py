@@ -154,7 +154,8 @@ class TableReader:
     def array(self, field: str, shape: tuple[int, ...], default: Any = REQUIRED) -> np.ndarray:
         """A field that is finite numbers of a shape, as float64."""
         value = self.take(field, default)
-        problem = f"must be {' x '.join(map(str, shape))} numbers"
+        count = " x ".join(map(str, shape))
+        problem = f"must be {count} numbers"
         if isinstance(value, str):
             problem += ", with commas between them and brackets around them"
             raise self.error_about(field, problem, value)
@@ -166,7 +167,9 @@ class TableReader:
         except (ValueError, OverflowError, TypeError, RuntimeError):  # 33 axes and more
             numbers = None
         if numbers is None:
-            problem += ", finite ones in lists of equal length"
+            problem = f"must be {count} finite numbers"
+            if len(shape) > 1:
+                problem += ", in lists of equal length"
             raise self.error_about(field, problem, value)
         if numbers.shape == (0,) and 0 in shape:
             numbers = numbers.reshape(shape)
