@@ -19,7 +19,7 @@ READS = {
         lambda f: f.text("x", choices=("fixed", "floating")),
         "t.x: is not a choice; did you mean 'fixed'?",
     ),
-    "array a word": ({"x": ["a"]}, lambda f: f.array("x", (1,)), "t.x: must be 1 numbers, finite"),
+    "array a word": ({"x": ["a"]}, lambda f: f.array("x", (1,)), "t.x: must be 1 finite number"),
     "array ragged": ({"x": [[1], [1, 2]]}, lambda f: f.array("x", (2, 2)), "t.x: must"),
     "array too long": ({"x": [1, 2, 3]}, lambda f: f.array("x", (2,)), "t.x: must be 2 numbers"),
     "array too deep": ({"x": np.zeros((1,) * 40).tolist()}, lambda f: f.array("x", (1,)), "t.x: "),
