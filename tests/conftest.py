@@ -129,11 +129,11 @@ def q(scene, rng):
 def load(tmp_path):
     """The scenario PUSH with some of its lines replaced."""
 
-    def loaded(*changes, settings=()):
+    def loaded(*changes):
         text = PUSH
         for old, new in changes:
             assert text.count(old) == 1, old
             text = text.replace(old, new)
-        return load_scenario(written_scenario(tmp_path, text), settings, fast=True)
+        return load_scenario(written_scenario(tmp_path, text), fast=True)
 
     return loaded

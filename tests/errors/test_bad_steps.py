@@ -6,6 +6,7 @@ import pytest
 
 from quasistatic_ref.formats.files import plain
 from quasistatic_ref.step.files import step_record
+from tests.cases import cases
 from tests.errors.scene import changed, dotted, numeric_fields
 from tests.helpers import planted_step
 
@@ -13,7 +14,7 @@ STEP = plain(step_record(planted_step(7)[0]))
 """n_a = 3, n_u = 4, contacts with 6, 4 and 6 rows."""
 ONE = "contacts/1/"
 CAUSES = {
-    # name: (changes to the step, the field named, words of the sentence)
+    # name: (change to the step, the field named, words of the sentence)
     "n_a without end": (("n_a", 10**12), "K_q", "must be 1000000000000 x 1000000000000 numbers"),
     "five rows": ((ONE + "rows", 5), "contacts[1].rows", "must be 4 or 6 (got 5)"),
 }  # fmt: skip
@@ -25,10 +26,9 @@ def step_file(folder, record):
     return path
 
 
-@pytest.mark.parametrize("cause", CAUSES)
-def test_a_step_that_cannot_be_used_is_refused(tmp_path, refused, cause):
-    *changes, field, words = CAUSES[cause]
-    path = step_file(tmp_path, changed(STEP, *changes))
+@cases("change, field, words", CAUSES)
+def test_a_step_that_cannot_be_used_is_refused(tmp_path, refused, change, field, words):
+    path = step_file(tmp_path, changed(STEP, change))
     sentence = refused("solve", path, "-o", tmp_path / "solution.json")
     assert sentence.startswith(f"{path}: {field}: ")
     assert words in sentence

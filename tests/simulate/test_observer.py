@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, InputError, Recorder, RunFailed, load_scenario, rollout
+from quasistatic_ref import Extra, InputError, Recorder, RunFailed, load_scenario
 from quasistatic_ref.simulate import recorder as recorder_module
 from quasistatic_ref.simulate.observer import Observer
 from tests.cases import cases
@@ -49,17 +49,10 @@ class Witness(Observer):
         return replace(trajectory, header=replace(trajectory.header, scene=heights))
 
 
-def run_with(scenario, witness):
-    return rollout(
-        scenario.simulator(), scenario.system.q_start, scenario.targets, STEPS,
-        force=scenario.force, observers=[witness],
-    )  # fmt: skip
-
-
 def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario):
     witness = Witness()
     plain = scenario.run()
-    run = run_with(scenario, witness)
+    run = scenario.run(observers=[witness])
     steps = [each for k in range(STEPS) for each in (("before", k), ("after", k + 1))]
     assert witness.asked == [*steps, ("end", STEPS, None, False)]
     heights = run.q[1:, 2].tolist()
@@ -87,7 +80,7 @@ def test_a_run_whose_steps_are_packed_one_by_one_is_the_same(name, monkeypatch):
 def test_an_observer_ends_a_run_as_any_failure_does(scenario):
     witness = Witness(ends_at=2)
     with pytest.raises(RunFailed, match="step 2: high enough") as caught:
-        run_with(scenario, witness)
+        scenario.run(observers=[witness])
     assert witness.asked[-2:] == [("before", 2), ("end", 2, "step 2: high enough", False)]
     assert caught.value.trajectory.header.scene == caught.value.trajectory.q[1:, 2].tolist()
 

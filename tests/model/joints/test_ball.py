@@ -30,9 +30,8 @@ HANGING = robot(link("hook"), BOB, joint("ball", "hook", "bob", "ball", "1 0 0")
 
 def pendulum(base):
     """A pendulum on a ball joint: of its base, or between a hook that is fixed and its bob."""
-    if base:
-        return System([Body("arm", robot(BOB), "ball", xyz=(0.1, 0.2, 0.3), rpy=(0.4, 0.5, 0.6))])
-    return System([Body("arm", HANGING, xyz=(0.1, 0.2, 0.3), rpy=(0.4, 0.5, 0.6))])
+    urdf, kind = (robot(BOB), "ball") if base else (HANGING, "fixed")
+    return System([Body("arm", urdf, kind, xyz=(0.1, 0.2, 0.3), rpy=(0.4, 0.5, 0.6))])
 
 
 @pytest.mark.parametrize("base", [True, False])
@@ -103,9 +102,9 @@ def test_runs_are_exact_and_have_the_same_bits_at_both_speeds(base):
 
 @pytest.mark.parametrize(("base", "name"), [(True, "base"), (False, "ball")])
 def test_a_target_turns_it_the_shorter_way(base, name):
-    goal = [0.9, 0.3, 0.1] if base else [0.0, 0.3, 0.1]
-    targets = [{"t": 0.0, name: {"rpy": [0.9, 0, 0] if base else [0, 0, 0]}},
-               {"t": 0.1, name: {"rpy": goal}}]  # fmt: skip
+    roll = 0.9 if base else 0.0
+    goal = [roll, 0.3, 0.1]
+    targets = [{"t": 0.0, name: {"rpy": [roll, 0, 0]}}, {"t": 0.1, name: {"rpy": goal}}]
     held = scene(base, actuated=[name], K_q={name: [40, 50, 60]}, targets=targets)
     q_bar = held.targets(1.0)
     expected = Rotation.from_euler("xyz", goal).as_quat()
