@@ -10,7 +10,6 @@ says of a guide what that cannot: whether a body is borne without a squeeze.
 """
 
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -34,23 +33,8 @@ TORSIONS = np.linspace(-0.5, 0.5, 13) * np.pi
 """Latitudes at which they stand, from torsion alone to torsion alone [rad]."""
 
 
-class Bearing(NamedTuple):
-    """Forces by which contacts bear a load, and what is missing.
-
-    Parameters
-    ----------
-    missing : ndarray, shape (n_u,)
-        [N, N m], zero if the load is borne.
-    normal : ndarray, shape (n_c,)
-        Normal forces [N] with the least sum that bear the rest.
-    """
-
-    missing: Array
-    normal: Array
-
-
-def bearing(step: StepData, touching: Mask, at_most: Array) -> Bearing:
-    """What the contacts of a step cannot bear of its loads on the un-actuated coordinates.
+def bearing(step: StepData, touching: Mask, at_most: Array | float = np.inf) -> tuple[Array, Array]:
+    """What the contacts of a step cannot bear of its loads on the un-actuated coordinates, and how.
 
     Forces lie in the cones of the touching contacts. Lever arms count, since a row of A holds them.
 
@@ -59,13 +43,20 @@ def bearing(step: StepData, touching: Mask, at_most: Array) -> Bearing:
     step : StepData
         In any cone.
     touching : ndarray of bool, shape (n_c,)
-    at_most : ndarray, shape (n_c,)
+    at_most : ndarray, shape (n_c,), or float
         Largest normal force of each contact [N]; infinite where nothing limits it.
+
+    Returns
+    -------
+    missing : ndarray, shape (n_u,)
+        [N, N m], zero if the load is borne.
+    normal : ndarray, shape (n_c,)
+        Normal forces [N] with the least sum that bear the rest.
 
     Examples
     --------
     >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> lacks = bearing(step, np.array([True]), np.array([np.inf])).missing
+    >>> lacks, _ = bearing(step, np.array([True]))
     >>> bool(np.abs(lacks).sum() > 0)  # it spins: its torque is beyond mu_omega m g
     True
     """
@@ -79,6 +70,7 @@ def bearing(step: StepData, touching: Mask, at_most: Array) -> Bearing:
     size = float(np.abs(load).max(initial=0.0)) or 1.0
     pressing = np.zeros((step.contacts.n_c, len(rows) + 2 * n_u))
     pressing[contact, np.arange(len(rows))] = 1.0  # a row pushes by 1 along n
+    at_most = np.broadcast_to(at_most, touching.shape)
     limited = np.isfinite(at_most) & touching
     answer = linprog(
         np.concatenate([np.full(len(rows), CHEAP), np.ones(2 * n_u)]),
@@ -88,10 +80,9 @@ def bearing(step: StepData, touching: Mask, at_most: Array) -> Bearing:
         b_eq=-load / size,
     )
     if answer.x is None:  # with r it has a solution: only where HiGHS fails
-        return Bearing(np.zeros(n_u), np.zeros(step.contacts.n_c))
+        return np.zeros(n_u), np.zeros(step.contacts.n_c)
     plus, minus = answer.x[len(rows) :].reshape(2, n_u)
-    missing = np.asarray(size * (root @ (plus - minus)))
-    return Bearing(missing, np.asarray(size * (pressing @ answer.x)))
+    return np.asarray(size * (root @ (plus - minus))), np.asarray(size * (pressing @ answer.x))
 
 
 def unsqueezed(step: StepData, touching: Mask) -> Array:
@@ -107,8 +98,7 @@ def unsqueezed(step: StepData, touching: Mask) -> Array:
     """
     from scipy.optimize import linprog  # takes as long as a short run
 
-    no_limit = np.full(step.contacts.n_c, np.inf)
-    normal = bearing(step, touching, no_limit).normal
+    _, normal = bearing(step, touching)
     presses = normal > CHEAP * normal.max(initial=0.0)
     if not presses.any():
         return np.zeros_like(normal)
@@ -162,7 +152,7 @@ def at_rest(start: Start, q: Array, contacts: Contacts) -> StepData:
     return start.simulator.step_under(q, q[: start.system.n_q_a], load, contacts)
 
 
-def borne(start: Start, q: Array, contacts: Contacts, name: str, squeezed: bool = True) -> bool:
+def borne(start: Start, step: StepData, name: str, squeezed: bool = True) -> bool:
     """Whether forces in the cones of touching contacts bear a body's weight.
 
     Lever arms count. A force below 1e-3 of the body's weight counts as none.
@@ -170,21 +160,17 @@ def borne(start: Start, q: Array, contacts: Contacts, name: str, squeezed: bool 
     Parameters
     ----------
     start : Start
-    q : ndarray, shape (n_q,)
-    contacts : Contacts
-        At q.
+    step : StepData
+        Of :func:`at_rest`.
     name : str
         Of a free body.
     squeezed : bool
         Whether contacts may squeeze the body: by a squeeze of any size a guide bears any load.
         Otherwise they press by what bears the load and no more.
     """
-    step = at_rest(start, q, contacts)
-    touching = start.touching(contacts.phi)
-    at_most = np.full(contacts.n_c, np.inf)
-    if not squeezed:
-        at_most = unsqueezed(step, touching)
-    missing = bearing(step, touching, at_most).missing
+    touching = start.touching(step.contacts.phi)
+    at_most = np.inf if squeezed else unsqueezed(step, touching)
+    missing, _ = bearing(step, touching, at_most)
     base = start.free_bases[name].v
     lacks = float(np.linalg.norm(missing[base.start - step.n_a : base.stop - step.n_a]))
     return lacks <= LIGHT * start.system.mass(name) * start.g

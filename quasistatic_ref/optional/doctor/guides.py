@@ -10,7 +10,7 @@ import numpy as np
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.doctor.artifacts import pressing
-from quasistatic_ref.optional.doctor.equilibrium import borne, unsqueezed
+from quasistatic_ref.optional.doctor.equilibrium import at_rest, borne, unsqueezed
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.optional.doctor.telling import amount
@@ -155,7 +155,8 @@ def guided(start: Start) -> Iterator[Finding]:
         if fastest >= CRAWL or key in reported or (under_coulomb and guide.clearance):
             continue
         reported.add(key)
-        if _holds(start, guide, start.q_start, contacts, squeezed=False):
+        step = at_rest(start, start.q_start, contacts)
+        if _holds(start, guide, step, squeezed=False):
             continue  # by its lever arms, and not because it is locked
         unit = "rad" if guide.turns else "m"
         cause = (
@@ -172,7 +173,7 @@ def guided(start: Start) -> Iterator[Finding]:
         yield Finding(
             "guided friction",
             True,
-            _remedy(start, guide, start.q_start, contacts),
+            _remedy(start, guide, step),
             cause,
             {"clearance_mm": 1e3 * guide.clearance, f"fastest_{unit}_per_s": fastest},
         )
@@ -194,21 +195,17 @@ def _joints(start: Start, guide: Guide) -> list[str]:
     return list(dict.fromkeys(coordinates[i].joint for i in np.flatnonzero(guide.moved)))
 
 
-def _holds(start: Start, guide: Guide, q: Array, contacts: Contacts, squeezed: bool) -> bool:
+def _holds(start: Start, guide: Guide, step: StepData, squeezed: bool) -> bool:
     """Whether friction of a guide bears a free body that would fall without it."""
     joint = start.system.joint(_joints(start, guide)[0])
     name = joint.name.partition("/")[0]
-    mu_v = contacts.mu_v.copy()
+    mu_v = step.contacts.mu_v.copy()
     mu_v[list(guide.contacts)] = 0.0
-    smooth = replace(contacts, mu_v=mu_v)
-    return (
-        joint.free
-        and borne(start, q, contacts, name, squeezed)
-        and not borne(start, q, smooth, name)
-    )
+    smooth = step.replace(contacts=replace(step.contacts, mu_v=mu_v))
+    return joint.free and borne(start, step, name, squeezed) and not borne(start, smooth, name)
 
 
-def _remedy(start: Start, guide: Guide, q: Array, contacts: Contacts) -> str:
+def _remedy(start: Start, guide: Guide, step: StepData) -> str:
     names = [start.simulator.layout.names[j] for j in guide.contacts]
     of_mjcf = start.system.of_mjcf
     words = "contact[{}]".format if of_mjcf else lambda name: f"contacts.{name.partition('(')[0]}"
@@ -217,7 +214,7 @@ def _remedy(start: Start, guide: Guide, q: Array, contacts: Contacts) -> str:
     joint = start.system.joint(joints[0])
     name = joint.name.partition("/")[0]
     if joint.free:
-        if _holds(start, guide, q, contacts, squeezed=True):
+        if _holds(start, guide, step, squeezed=True):
             spring = "a position actuator" if of_mjcf else "a spring (K_q)"
             return f"let {spring} press one side of {tables}, so that friction holds {name}"
         mu = "condim = 1" if of_mjcf else f"{'mu_omega' if guide.turns else 'mu_v'} = 0"
@@ -276,7 +273,7 @@ def locked(run: Run) -> Iterator[Finding]:
         yield Finding(
             "locked guide",
             True,
-            _remedy(run, guide, run["q"][k], contacts),
+            _remedy(run, guide, at_rest(run, run["q"][k], contacts)),
             f"{coordinate.name} moves by {moved} under {abs(force[i]):.3g} {unit} in step {k}, "
             f"where its contacts could bear {could[i]:.3g} {unit}: {name} presses with "
             f"{wrench[j, 2]:.3g} N, because a contact that slides has to rise and it cannot",

@@ -1,6 +1,6 @@
 """How a link moved along a trajectory: how far it turned, how high it rose."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -30,12 +30,6 @@ class LinkMotion:
         """Angle [rad] of each orientation from that at `time` [s], shape (steps + 1,)."""
         reference = self.R[self.index(time)]
         return rotation_angle(self.R @ reference.T)
-
-    def relative_to(self, other: "LinkMotion") -> "LinkMotion":
-        """The same motion as another link of the trajectory sees it, in that link's frame."""
-        back = other.R.swapaxes(1, 2)
-        away = (back @ (self.t - other.t)[:, :, None])[:, :, 0]
-        return LinkMotion(self.times, back @ self.R, away)
 
     def index(self, time: float) -> int:
         """Index of the instant nearest to `time` [s]."""
@@ -78,7 +72,8 @@ def relative_turn(
     array([0., 0., 0.])
     """
     motion = link_motion(system, trajectory, link)
-    return motion.relative_to(link_motion(system, trajectory, to)).rotation_since(since)
+    back = link_motion(system, trajectory, to).R.swapaxes(1, 2)
+    return replace(motion, R=back @ motion.R).rotation_since(since)
 
 
 def rotation_angle(R: Array) -> Array:

@@ -9,7 +9,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor.contradictions import farthest_points, hull_of
-from quasistatic_ref.optional.doctor.equilibrium import borne
+from quasistatic_ref.optional.doctor.equilibrium import at_rest, borne
 from quasistatic_ref.optional.doctor.start import (
     Start,
     body,
@@ -38,7 +38,8 @@ def gravity(start: Start) -> Iterator[Finding]:
             continue
         if _clamped(start, name):
             continue
-        if not (start.small and borne(start, start.q_start, start.contacts_at_start, name)):
+        rest = at_rest(start, start.q_start, start.contacts_at_start) if start.small else None
+        if rest is None or not borne(start, rest, name):
             pair, _, up = world[0]
             x, y, z = start.gravity
             yield Finding(
