@@ -79,14 +79,6 @@ def test_a_grip_that_is_lost_says_which_limit_was_reached(
         assert "its friction bears" not in one.cause or aside == 0
 
 
-def test_a_bar_that_turns_and_slips_is_at_its_whole_limit():
-    """Friction and torsion share the cone: neither is at its own limit, both together are."""
-    for pair in account_of(grip(0.04, 0.5, 0.02)).pairs:
-        assert pair.loads.share.max() == pytest.approx(1.0, abs=1e-6)
-        assert (pair.loads.torque < 0.9 * 0.02 * pair.loads.normal).all()
-        assert pair.spins.any()
-
-
 @pytest.mark.parametrize("fingers", [2, 3, 5])
 def test_a_grip_is_as_open_as_its_normals_have_in_common(fingers):
     """Normals about the axis z that have 0.3 or 0.6 along it."""
