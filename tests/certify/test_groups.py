@@ -39,7 +39,7 @@ def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():
     J = np.zeros((2, 4, 5))
     J[0, 3, 4] = J[0, 0, 1] = 1.0  # the first contact moves with 1 and 4; the second with nothing
     frames = np.tile(np.eye(3), (2, 1, 1))
-    M = np.diag([1.0, 1.0, 1.0, 1.0, 1.0])
+    M = np.eye(5)
     M[0, 3] = M[3, 0] = 0.5
     step = free_step(M, np.ones(5), contacts_of(0.0, frames, J, 0.5), 0.01)
     assert [g.coordinates.tolist() for g in groups(step)] == [[0, 3], [1, 4], [2]]

@@ -225,38 +225,32 @@ def test_a_text_of_points_has_at_most_so_many_letters_lines_and_points(tmp_path,
 
 
 EIGHT = np.array(np.meshgrid([0, 0.05], [0, 0.04], [0, 0.03], indexing="ij")).reshape(3, 8).T
-ROWS = [" ".join(f"{x:g}" for x in p) for p in EIGHT]
+TEXT = "".join("{:g} {:g} {:g}\n".format(*point) for point in EIGHT)
 XYZ = "property float x\nproperty float y\nproperty float z\n"
-
-
 OTHERS = {
-    "colours.xyz": "\n".join(f"{row} 255 0 0" for row in ROWS),
-    "commas.xyz": "\n".join(row.replace(" ", ",") for row in ROWS),
-    "header.xyz": "\n".join(["X Y Z", *ROWS]),
-    "normals.csv": "\n".join(f"{row} 0 0 1".replace(" ", ",") for row in ROWS),
-    "semicolons.csv": "\n".join(row.replace(" ", ";") for row in ["x y z", *ROWS]),
-    "tabs.txt": "\n".join(row.replace(" ", "\t") for row in ROWS),
-    "intensity.pts": "\n".join(["8", *(f"{row} 0 255 0 0" for row in ROWS)]),
-    "points.off": "\n".join(["OFF", "8 0 0", *ROWS]),
-    "list.ply": "\n".join(
-        ["ply", "format ascii 1.0", "element vertex 8", f"{XYZ}property list uchar float t",
-         "end_header", *(f"{row} 1 0" for row in ROWS)]
-    ),
-    "camera.ply": "\n".join(
-        ["ply", "format ascii 1.0", "element camera 1", "property float f",
-         f"element vertex 8\n{XYZ}end_header", "1", *ROWS]
-    ),
+    "colours.xyz": TEXT.replace("\n", " 255 0 0\n"),
+    "commas.xyz": TEXT.replace(" ", ","),
+    "header.xyz": f"X Y Z\n{TEXT}",
+    "normals.csv": TEXT.replace("\n", " 0 0 1\n").replace(" ", ","),
+    "semicolons.csv": f"x y z\n{TEXT}".replace(" ", ";"),
+    "tabs.txt": TEXT.replace(" ", "\t"),
+    "intensity.pts": "8\n" + TEXT.replace("\n", " 0 255 0 0\n"),
+    "points.off": f"OFF\n8 0 0\n{TEXT}",
+    "list.ply": f"ply\nformat ascii 1.0\nelement vertex 8\n{XYZ}property list uchar float t\n"
+    "end_header\n" + TEXT.replace("\n", " 1 0\n"),
+    "camera.ply": "ply\nformat ascii 1.0\nelement camera 1\nproperty float f\n"
+    f"element vertex 8\n{XYZ}end_header\n1\n{TEXT}",
     "big.ply": f"ply\nformat binary_big_endian 1.0\nelement vertex 8\n{XYZ}end_header\n".encode()
     + EIGHT.astype(">f4").tobytes(),
-    "unseen.xyz": "\n".join([*ROWS[:3], "nan nan nan", *ROWS[3:], "0 NaN 1"]),
-}  # fmt: skip
+    "unseen.xyz": TEXT.replace("\n", "\nnan nan nan\n", 1) + "0 NaN 1\n",
+}
 
 
 @pytest.mark.parametrize("name", OTHERS)
 def test_what_others_read_is_read(tmp_path, name):
     content = OTHERS[name]
     path = tmp_path / name
-    path.write_bytes(content if isinstance(content, bytes) else f"{content}\n".encode())
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
     points, unseen = seen_points(path)
     assert points == pytest.approx(EIGHT, abs=1e-8)
     assert unseen == (2 if name == "unseen.xyz" else 0)

@@ -308,6 +308,11 @@ def plain_gltf(**changed):
     return json.dumps(tree | changed).encode()
 
 
+def gltf_at(uri):
+    """The same, whose buffer is elsewhere."""
+    return plain_gltf(buffers=[{"uri": uri, "byteLength": 72}])
+
+
 def of_3mf(change=lambda text: text):
     """A 3MF of the box whose model is changed."""
     with ZipFile(io.BytesIO(exported("3mf"))) as written:
@@ -345,10 +350,10 @@ FACE = PLY_TEXT.replace(
 )
 LIES = {
     "text for JSON": ("a.gltf", b"", "cannot be read as a mesh: it is malformed"),
-    "a pipe": ("a.gltf", plain_gltf(buffers=[{"uri": "pipe", "byteLength": 72}]), "a pipe, not"),
-    "a file elsewhere": ("a.gltf", plain_gltf(buffers=[{"uri": "../x", "byteLength": 72}]),
+    "a pipe": ("a.gltf", gltf_at("pipe"), "a pipe, not"),
+    "a file elsewhere": ("a.gltf", gltf_at("../x"),
                          "must be a file in the folder of this one"),
-    "a short buffer": ("a.gltf", plain_gltf(buffers=[{"uri": "data:,", "byteLength": 72}]),
+    "a short buffer": ("a.gltf", gltf_at("data:,"),
                        r"buffers\[0\]: must be 72, as the file states \(got 0\)"),
     "a view beyond its buffer": ("a.gltf", plain_gltf(
         bufferViews=[{"buffer": 0, "byteLength": 99}]), r"Views\[0\]: is not within its buffer"),
