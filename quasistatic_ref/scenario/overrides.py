@@ -50,10 +50,7 @@ def apply_settings(
     else:
         for setting in settings:
             key, equals, text = str(setting).partition("=")
-            if not equals:
-                problem = "must be table.field=value, such as contacts.floor.mu_v=0.5"
-                raise ScenarioError(problem, field="--set", value=setting)
-            _put(tables, key, parsed(text), "--set", setting)
+            _put(tables, key if equals else "", parsed(text), "--set", setting)
     for key in filter(_is_dotted, named):
         _put(tables, key, python_value(key, named[key]), "settings", key)
     made = _second_level(tables) - before
