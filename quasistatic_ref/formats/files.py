@@ -206,11 +206,18 @@ def text_of(content: bytes, path: str | Path, error: type[InputError] = InputErr
         raise error("is not UTF-8 text", file=path, field=f"line {line}") from None
 
 
+def text_read(
+    path: str | Path, error: type[InputError] = InputError, largest: int = LARGEST
+) -> str:
+    """The text of a file, as :func:`bytes_read` and :func:`text_of` have it."""
+    return text_of(bytes_read(path, error, largest), path, error)
+
+
 def json_read(path: str | Path) -> Any:
     """The value in a JSON file; InputError if it does not parse, or names a field twice."""
     try:
         with about_file(path):
-            text = text_of(bytes_read(path, largest=LARGEST_TEXT), path)
+            text = text_read(path, largest=LARGEST_TEXT)
             value = json.loads(text, object_pairs_hook=unique_fields)
             _check_characters(text, value)
     except json.JSONDecodeError as error:
@@ -251,7 +258,7 @@ def toml_read(
     """
     with about_file(path):
         try:
-            return tomllib.loads(text_of(bytes_read(path, error, LARGEST_TOML), path, error))
+            return tomllib.loads(text_read(path, error, LARGEST_TOML))
         except tomllib.TOMLDecodeError as failure:
             wanted = "TOML" if Path(path).suffix == ".toml" else what
             raise error(f"is not {wanted}: {failure}") from None

@@ -14,9 +14,8 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import (
-    bytes_read,
     json_text,
-    text_of,
+    text_read,
     text_written,
     writable_folder,
 )
@@ -232,7 +231,7 @@ def _check_folder(folder: Path, files: Set[str]) -> None:
     """Refuse a folder that holds runs that are not of this sweep."""
     others = {f"{RUNS}/{path.name}" for path in (folder / RUNS).glob("*.npz")}
     if (table := folder / TABLE).exists():
-        text = text_of(bytes_read(table), table)
+        text = text_read(table)
         try:
             others |= {line[0] for line in list(csv.reader(io.StringIO(text)))[1:]}
         except (csv.Error, IndexError):  # a cell without end, an empty line

@@ -31,6 +31,7 @@ REFUSED = {
     "a radius below a proton's": (lambda: Sphere(0.9 * SHORT), "radius: must be at least 1e-15 m"),
     "flat box": (lambda: Box((1, 0, 1)), "half_extents: must be three positive lengths"),
     "one edge": (lambda: Box(0.1), r"half_extents: must be three .*, half of its size \(got 0.1"),
+    "one edge of a size": (lambda: Box(size=1), r"size: must be three positive lengths \(got 1.0"),
     "short cylinder": (lambda: Cylinder(1.0, 0.0), "half_length: must be a positive length"),
     "no normal": (lambda: HalfSpace(np.zeros(3), 0.0), "normal: must not be zero"),
     "nan offset": (lambda: HalfSpace(np.eye(3)[0], np.nan), "offset: must be a finite number"),

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from quasistatic_ref.errors import InputError, ModelError, about_field, about_file
-from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.formats.files import text_read
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
 from quasistatic_ref.model.readers.text import check_equal, check_points, number_or_nan, point_lines
@@ -94,7 +94,7 @@ def _of_text(path: Path) -> Array:
     columns = [0, 1, 2]
     width = stated = None
     points: list[list[float]] = []
-    lines = point_lines(text_of(bytes_read(path, ModelError), path, ModelError))
+    lines = point_lines(text_read(path, ModelError))
     for number, line in enumerate(lines, start=1):
         text = line.split("#", 1)[0].strip()
         words = [word.strip().strip('"') for word in SEPARATOR.split(text)]

@@ -9,7 +9,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_file
-from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.formats.files import text_read
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.model.readers.mesh_files import mesh_path
@@ -173,7 +173,7 @@ def urdf_file(source: str | Path) -> UrdfFile:
         text = source
     else:
         path = Path(source)
-        text = text_of(bytes_read(path, ModelError, LARGEST_FILE), path, ModelError)
+        text = text_read(path, ModelError, LARGEST_FILE)
     with about_file(path):
         return _content(path, text)
 

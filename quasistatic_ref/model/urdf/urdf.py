@@ -12,7 +12,6 @@ from pathlib import Path
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_file
-from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.urdf.file import FileLink, UrdfFile, urdf_file
 from quasistatic_ref.model.urdf.inertia import checked_inertias, link_inertia
@@ -51,7 +50,6 @@ class Urdf:
     notes: tuple[str, ...]
 
 
-@together()
 def loaded_urdf(
     path: str | Path,
     *,

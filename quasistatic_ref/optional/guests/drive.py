@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.formats.files import text_read
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.settled import numbered
@@ -211,7 +211,7 @@ def table_read(path: Path) -> tuple[list[str], Array, Array]:
     InputError
         Naming the row that is not one.
     """
-    first, _, rest = text_of(bytes_read(path), path).partition("\n")
+    first, _, rest = text_read(path).partition("\n")
     names = [name.strip() for name in first.split(",")]
     if names[0] != "t" or len(names) < 2 or not rest.strip():
         problem = "must begin with a row of names, t and then actuators or joints"
