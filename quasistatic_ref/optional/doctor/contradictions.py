@@ -9,7 +9,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.doctor.start import Start, body
+from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
@@ -152,7 +152,7 @@ def sizes_apart(start: Start) -> Iterator[Finding]:
     """A body or shape that is a thousand times as long as another."""
     largest: dict[str, float] = {}
     for placed in start.sides:
-        name = body(start.system, placed.link) if placed.link else placed.name
+        name = start.body(placed.link) if placed.link else placed.name
         extent = placed.shape.extent
         if 0 < extent < np.inf:
             largest[name] = max(largest.get(name, 0.0), extent)

@@ -16,7 +16,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import SHORT, Start, body, least, slices
+from quasistatic_ref.optional.doctor.start import SHORT, Start, least, slices
 from quasistatic_ref.shapes.half_space import HalfSpace
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.finding import Finding
@@ -89,11 +89,11 @@ def pushed_back(run: Run) -> Iterator[Finding]:
 
 def _near(start: Start, side: Side) -> list[tuple[ContactPair, slice]]:
     """The pairs of a side's body."""
-    return start.pairs_of[body(start.system, side.link)]
+    return start.pairs_of[start.body(side.link)]
 
 
 def _finding(start: Start, ahead: Side, on: Side, how: str, numbers: dict[str, float]) -> Finding:
-    name = body(start.system, ahead.link)
+    name = start.body(ahead.link)
     one, other = on.other.name, ahead.other.name
     cause = f"{name} lies on {one}, with which {other} is flush, {how}: closest points at an edge "
     cause += "of this face have a normal along it"

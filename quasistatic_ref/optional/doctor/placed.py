@@ -12,7 +12,6 @@ from quasistatic_ref.optional.doctor.contradictions import farthest_points, hull
 from quasistatic_ref.optional.doctor.equilibrium import at_rest, borne
 from quasistatic_ref.optional.doctor.start import (
     Start,
-    body,
     joining,
     least,
     least_mean,
@@ -161,7 +160,7 @@ def _contacts(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float
     for name in start.free_bases:
         of_body = []
         for pair, at in start.pairs_of.get(name, ()):
-            sign = 1.0 if body(start.system, pair.beta.link) == name else -1.0
+            sign = 1.0 if start.body(pair.beta.link) == name else -1.0
             j = at.start + int(np.argmin(points.phi[at]))
             of_body.append((pair, float(points.phi[j]), sign * float(points.n[j] @ up)))
         if of_body:

@@ -13,8 +13,6 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.start import (
     Start,
-    body,
-    centre,
     least,
     more_points,
 )
@@ -46,7 +44,7 @@ def few_points(start: Start) -> Iterator[Finding]:
             continue
         each = [(pair, points.chosen(np.r_[at])) for pair, at in of_body]
         kept = [_bearing(start, pair, name, nearest) for pair, nearest in each]
-        middle = centre(start.system, start.kinematics, name)
+        middle = start.centre(name)
         of_kept = np.concatenate(kept)
         if _around(of_kept - middle, start):
             continue
@@ -78,7 +76,7 @@ def _bearing(start: Start, pair: ContactPair, name: str, points: ClosestPoints) 
     None of a pair that is apart, as a body in a gripper is from the floor.
     """
     up = -start.gravity / start.g
-    above = 1 if body(start.system, pair.beta.link) == name else -1
+    above = 1 if start.body(pair.beta.link) == name else -1
     level = points.phi <= min(points.phi.min() + REPEATED, SUNK * least(pair))
     if not pair.has_cloud and level.sum() > 1:
         level &= points.point != pair.corners  # the closest pair lies between corners
@@ -98,7 +96,7 @@ def _around(points: Array, start: Start) -> bool:
 def strays(start: Start) -> Iterator[Finding]:
     """Clouds with points that no gap of a few spacings joins to the others."""
     clouds = {
-        id(p.shape): (p.shape, body(start.system, p.link))
+        id(p.shape): (p.shape, start.body(p.link))
         for p in start.sides
         if isinstance(p.shape, PointCloud) and FEWEST <= len(p.shape.points) <= MANY
     }

@@ -15,7 +15,6 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError, ModelError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
@@ -177,7 +176,11 @@ class Start:
 
     def bodies(self, pair: ContactPair) -> set[str]:
         """The bodies of a pair."""
-        return {body(self.system, side.link) for side in (pair.alpha, pair.beta)}
+        return {self.body(side.link) for side in (pair.alpha, pair.beta)}
+
+    def body(self, link: int) -> str:
+        """The body of a link; ``"world"`` of link 0."""
+        return self.system.links[link].partition("/")[0]
 
     @cached_property
     def pairs_of(self) -> dict[str, list[tuple[ContactPair, slice]]]:
@@ -187,6 +190,14 @@ class Start:
             for name in self.bodies(pair):
                 of_bodies.setdefault(name, []).append((pair, at))
         return of_bodies
+
+    def centre(self, name: str) -> Array:
+        """Centre of mass of a body at the start, shape (3,) [m]."""
+        system = self.system
+        R, t = self.kinematics.R, self.kinematics.t
+        mass = np.where([link.startswith(f"{name}/") for link in system.links], system.masses, 0.0)
+        places = t + np.einsum("lij,lj->li", R, system.centres)
+        return np.asarray(mass @ places / mass.sum())
 
     def of_body(self, name: str) -> Mask:
         """Which contacts are of a body, shape (n_c,)."""
@@ -242,18 +253,6 @@ def more_points(start: Start, pair: ContactPair, count: int | None = None) -> st
 def least(pair: ContactPair) -> float:
     """Size of a pair's smaller shape [m]; `FARTHEST` where none has one."""
     return pair.size or FARTHEST
-
-
-def body(system: System, link: int) -> str:
-    """The body of a link; ``"world"`` of link 0."""
-    return system.links[link].partition("/")[0]
-
-
-def centre(system: System, kinematics: Kinematics, name: str) -> Array:
-    """Centre of mass of a body, shape (3,) [m]."""
-    mass = np.where([link.startswith(f"{name}/") for link in system.links], system.masses, 0.0)
-    places = kinematics.t + np.einsum("lij,lj->li", kinematics.R, system.centres)
-    return np.asarray(mass @ places / mass.sum())
 
 
 def least_mean(n: Array) -> float:

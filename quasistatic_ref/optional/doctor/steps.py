@@ -4,10 +4,8 @@ from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.looks import SLOW
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
@@ -82,9 +80,8 @@ def leaps(run: Run) -> Iterator[Finding]:
 def sunk(run: Run) -> Iterator[Finding]:
     """Of each table of contacts the first that is found."""
     first: dict[str, Finding] = {}
-    gap = run.gap
     for pair, slots in slices(run.pairs):
-        finding = _surprise(run, pair, run["phi"][:, slots], run["point"][:, slots], gap[:, slots])
+        finding = _surprise(run, pair, slots)
         name = table(run, pair)
         if finding and (name not in first or finding.numbers["step"] < first[name].numbers["step"]):
             first[name] = finding
@@ -108,9 +105,8 @@ def crossed(run: Run) -> Iterator[Finding]:
         yield Finding("crossed margin", True, "raise margin, or take a smaller h", cause, numbers)
 
 
-def _surprise(
-    run: Run, pair: ContactPair, phi: Array, point: NDArray[np.generic], gap: Array
-) -> Finding | None:
+def _surprise(run: Run, pair: ContactPair, slots: slice) -> Finding | None:
+    phi, point, gap = (x[:, slots] for x in (run["phi"], run["point"], run.gap))
     deepest = SUNK * least(pair)
     k, j = np.nonzero(phi[1:] < -deepest)  # contacts are in ascending distance
     before = point[k]

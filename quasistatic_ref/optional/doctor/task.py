@@ -127,7 +127,7 @@ def through(run: Run) -> Iterator[Finding]:
     apart: list[ContactPair] = []
     for a, b in combinations(shapes.values(), 2):
         links = [a.link, b.link]
-        one, other = (system.links[link].partition("/")[0] for link in links)
+        one, other = map(run.body, links)
         moved = (run.driven | run.free)[links].any()
         if one != other and moved and frozenset((_who(a), _who(b))) not in joined:
             if len(apart) == MOST:

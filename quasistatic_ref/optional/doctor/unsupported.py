@@ -12,7 +12,7 @@ from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.looks import SLOW
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import SHORT, Start, body, joining, least
+from quasistatic_ref.optional.doctor.start import SHORT, Start, joining, least
 from quasistatic_ref.optional.doctor.tolerances import NEAR
 from quasistatic_ref.simulate.finding import Finding
 
@@ -167,7 +167,7 @@ def fall(start: Start, pair: ContactPair, name: str) -> float:
         If the pair has no trustworthy normal on the way.
     """
     way = start.gravity / start.g
-    falls = body(start.system, pair.beta.link) == name
+    falls = start.body(pair.beta.link) == name
     link, sign = (pair.beta.link, -1.0) if falls else (pair.alpha.link, 1.0)
     every = replace(pair, k=pair.candidates if pair.has_cloud else 1)
     t = start.kinematics.t.copy()
