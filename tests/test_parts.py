@@ -20,11 +20,11 @@ from quasistatic_ref.shapes.placed_shape import Box, Cylinder
 from quasistatic_ref.simulate.trajectory import load_trajectory
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
+from tests.closeness import assert_relative
 from tests.contact.still import in_world
 from tests.helpers import random_step
 from tests.pages import PACKAGE, ROOT
 from tests.processes import python
-from tests.tolerances import ROUNDING
 
 MODELS = ROOT / "models"
 PARTS = sorted(path.parent.name for path in PACKAGE.glob("optional/*/__init__.py"))
@@ -172,7 +172,7 @@ def test_a_contact_of_curved_solids_needs_its_part(without):
     can = in_world(Cylinder(0.02, 0.05))
     box = in_world(Box(np.full(3, 0.1)), (0.0, 0.0, 0.2))
     gap = solid_pair("can", can, box).phi
-    assert gap == pytest.approx(0.05, rel=ROUNDING)  # 0.2 - 0.1 - 0.05
+    assert_relative(gap, 0.05)  # 0.2 - 0.1 - 0.05
     without("optional/curved")
     part = "quasistatic_ref/optional/curved"
     with pytest.raises(InputError, match=f"^can: contact of cylinder and box needs {part}$"):

@@ -18,7 +18,7 @@ from quasistatic_ref.certify.norm import (
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step
 from tests.certify.test_farkas import EAST, point_between_walls
-from tests.tolerances import ROUNDING
+from tests.closeness import assert_relative, assert_within
 
 HALF_DIGIT = 0.5
 """Rounding in the norms moves a digit count by far less."""
@@ -29,7 +29,7 @@ HALF_DIGIT = 0.5
     [(0.0, 16.0), (1e-20, 16.0), (1e-7, 7.0), (1.0, 0.0), (5.0, 0.0), (math.nan, 0.0)],
 )
 def test_digits_are_clipped(error, digits):
-    assert digits_of_error(error) == pytest.approx(digits, abs=1e-12)
+    assert_within(digits_of_error(error), digits)
 
 
 def test_where_nothing_happens_errors_are_measured_by_a_micrometre():
@@ -87,4 +87,4 @@ def test_driven_steps_are_measured_by_the_unconstrained_step(scene):
         norm = energy_norm(step.H)
         g = qr.standard_form(step).g
         length = error_length(step.H, g, delta_q, single_loads(step))
-        assert length == pytest.approx(norm.of_impulse(g), rel=ROUNDING)
+        assert_relative(length, norm.of_impulse(g))

@@ -8,12 +8,12 @@ import pytest
 from quasistatic_ref import load_scenario
 from quasistatic_ref.cli.options import WIDTH
 from quasistatic_ref.optional.doctor.time_step import time_step_record, time_step_words
+from tests.closeness import assert_relative, assert_within
 from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, urdf_of_text
 from tests.optional.doctor.words import block, slides
 from tests.pages import flat
 from tests.scenes import RAIL, SWING, written_scenario
-from tests.tolerances import ROUNDING
 
 
 @pytest.fixture
@@ -125,7 +125,7 @@ def test_inspect_shows_inertias_along_the_axes_of_their_link(tmp_path, cli, insp
     path = urdf_of_text(tmp_path, robot(link("a", inertial=TURNED)), "one.urdf")
     (found,) = inspected(path)["links"]
     assert found["centre"] == [0.5, 0.25, 0.125]
-    assert np.diag(found["inertia"]) == pytest.approx([0.2, 0.1, 0.25], abs=ROUNDING)
+    assert_within(np.diag(found["inertia"]), [0.2, 0.1, 0.25])
     out = cli("inspect", path).out
     assert "inertias: about the centre of mass, along the link's axes" in out
     assert "0.5 0.25 0.125" in out
@@ -152,8 +152,8 @@ def test_inspect_says_from_which_time_step_on_drag_is_small(scene, record_and_wo
     """(R13): m v / h < mu_v m g / 10 where h > 10 v / (mu_v g)."""
     record, text = record_and_words(scene)
     v, mu_v, g = 0.02 / 0.1, 0.3, 9.81  # the plate's way and time, and the smaller mu_v
-    assert record["target_speed"] == pytest.approx(v, rel=ROUNDING)
-    assert record["small_drag_from"] == pytest.approx(10 * v / (mu_v * g), rel=ROUNDING)
+    assert_relative(record["target_speed"], v)
+    assert_relative(record["small_drag_from"], 10 * v / (mu_v * g))
     assert record["target_turn"] == 0.0  # the wheel turns, and touches nothing
     assert record["between_waypoints"] == 0.1
     assert "move by up to 0.2 m/s; drag is below a tenth of friction" in text
@@ -212,6 +212,6 @@ def test_inspect_says_how_far_a_target_turns_in_a_step(tmp_path, record_and_word
     record, text = record_and_words(club, "--set", "h=0.002", "--set", "steps=30")
     turn = 1.5 * np.pi / 5
     r = 0.2
-    assert record["target_turn"] == pytest.approx(turn, rel=ROUNDING)
-    assert record["target_speed"] == pytest.approx(2 * r * np.sin(turn / 2) / 0.002, rel=ROUNDING)
+    assert_relative(record["target_turn"], turn)
+    assert_relative(record["target_speed"], 2 * r * np.sin(turn / 2) / 0.002)
     assert "targets turn by up to 0.9425 rad a step; waypoints are at least 0.01 s apart" in text

@@ -11,7 +11,7 @@ from quasistatic_ref.solve import step_problem
 from quasistatic_ref.solve.backends import installed_backends
 from quasistatic_ref.solve.problem_data import problem_data
 from quasistatic_ref.tolerances import UNMOVED
-from tests.closeness import assert_same, assert_within
+from tests.closeness import assert_relative, assert_same, assert_within
 from tests.helpers import pinch, random_step, sphere_on_floor
 
 WEIGHT = (0.3, 0.0, -2.943, 0.0, 0.0, 1e-3)
@@ -101,7 +101,7 @@ def test_a_curved_constraint_a_cost_and_a_variable_of_a_user_are_obeyed():
 
     page = qr.StepProblem(step, additions)
     assert_within(page.solve()[:2], [2e-3, 0.0], 1e-9)
-    assert page.problem.value == pytest.approx(page.problem.objective.value, rel=1e-12)
+    assert_relative(page.problem.value, page.problem.objective.value)
 
 
 def test_what_has_no_solution_and_data_that_are_not_known_are_said_in_a_sentence(monkeypatch):

@@ -86,10 +86,10 @@ def test_a_power_of_two_in_the_data_moves_the_units_and_nothing_else(power):
     assert natural_step(other, two) == natural_step(step, one)
 
 
-def with_own_rows(rows, b, load=0.0):
+def with_own_rows(rows, b):
     """A step with H = M / h = 1, so that rows are as long as they look."""
     own = Extra(tuple(map(str, range(len(rows)))), np.array(rows), np.array(b))
-    return free_step(np.eye(2) / 2, [load, 0.0], no_contacts(2), 0.5).replace(extra=own)
+    return free_step(np.eye(2) / 2, np.zeros(2), no_contacts(2), 0.5).replace(extra=own)
 
 
 @pytest.mark.parametrize(
