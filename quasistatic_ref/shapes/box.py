@@ -28,6 +28,8 @@ class Box(Rounded):
     array([0.02])
     """
 
+    kind = "box"
+
     half_extents: Array
 
     def __init__(

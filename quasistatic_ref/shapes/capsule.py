@@ -21,6 +21,8 @@ class Capsule(Revolved, Rounded):
     array([0.01])
     """
 
+    kind = "capsule"
+
     @cached_property
     def core(self) -> tuple[Array, float]:
         """Its segment, as half extents of shape (3,) [m], and the radius."""

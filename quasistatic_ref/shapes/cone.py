@@ -22,6 +22,8 @@ class Cone(Revolved):
     array([0.01])
     """
 
+    kind = "cone"
+
     @property
     def rim_radius(self) -> float:
         """Of its base [m]."""

@@ -17,6 +17,8 @@ class Cylinder(Revolved):
     array([0.01])
     """
 
+    kind = "cylinder"
+
     @property
     def rim_radius(self) -> float:
         """Of both rims [m]."""

@@ -30,6 +30,8 @@ class Ellipsoid(Shape):
     array([0.01])
     """
 
+    kind = "ellipsoid"
+
     half_axes: Array
 
     def __init__(

@@ -35,6 +35,8 @@ class HalfSpace(Shape):
     array([-0.01])
     """
 
+    kind = "halfspace"
+
     normal: Array
     offset: float
 

@@ -1,7 +1,7 @@
 """The questions that every shape answers, in its own frame; by default a shape refuses them."""
 
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -15,7 +15,15 @@ CHUNK = 1 << 17
 
 
 class Shape(Plain):
-    """A shape; a subclass is a frozen dataclass of its sizes."""
+    """A shape; a subclass is a frozen dataclass of its sizes.
+
+    Attributes
+    ----------
+    kind : str
+        What files call it; of a cloud or a mesh, nothing.
+    """
+
+    kind: ClassVar[str] = ""
 
     def __hash__(self) -> int:
         return self._hash
@@ -146,11 +154,6 @@ class Shape(Plain):
         """Longest edge of the bounding box along its own axes [m]; of a half-space, infinity."""
         reach = self.support_value(DIRECTIONS)
         return float((reach[:3] + reach[3:]).max())
-
-    @property
-    def kind(self) -> str:
-        """What files call it."""
-        return type(self).__name__.lower()
 
     @property
     def sizes(self) -> dict[str, Any]:

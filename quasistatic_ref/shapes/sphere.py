@@ -22,6 +22,8 @@ class Sphere(Rounded):
     array([0.01])
     """
 
+    kind = "sphere"
+
     radius: float
 
     def __post_init__(self) -> None:
