@@ -59,7 +59,7 @@ class Doctor(Observer):
             M_u = system.mass_blocks
         else:
             M_u = np.array([result.step.M_u[:n_u, :n_u] for result in results])[:, None]
-        by_block = delta_q_u.reshape(len(results), -1, M_u.shape[-1], 1)
+        by_block = delta_q_u.reshape(len(results), M_u.shape[-3], M_u.shape[-1], 1)
         return {
             "moved": arrays["motion"],
             "momentum": (M_u @ by_block).reshape(delta_q_u.shape),
