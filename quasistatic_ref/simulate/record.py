@@ -72,21 +72,38 @@ def check_arrays(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
     ------
     InputError
     """
-    steps = header.steps
-    record = header.record
-    full = record == "full"
     n_v = header.n_a + header.n_u
     counts = {"coordinates": n_v, "units": n_v, "positions": arrays["q"].shape[-1]}
     for name, count in counts.items():
         names = getattr(header, name)
         if len(names) != count:
             raise InputError(f"must have {count} entries", field=name, value=len(names))
+    _check_names(header, arrays)
+    for name, array in arrays.items():
+        if array.dtype.kind not in ("U" if name == "certificate" else "fiu"):
+            raise InputError("must contain numbers", field=name, value=str(array.dtype))
+        numbers = array[~np.isnan(array)] if name in NOT_KNOWN else array
+        if array.dtype.kind == "f" and not np.isfinite(numbers).all():
+            raise InputError("must contain finite numbers only", field=name)
+    _check_shapes(header, arrays)
+    steps = header.steps
+    multipliers = sum(cone(header.cone).counts(arrays["rows"]).tolist())
+    if steps and arrays["lam"][0].size < multipliers:
+        problem = f"must have {multipliers} multipliers a step, as the rows of contacts say"
+        raise InputError(problem, field="lam", value=arrays["lam"].shape)
+    if header.record == "full" and len(header.contacts) != steps:
+        problem = f"must have {steps} entries"
+        raise InputError(problem, field="contacts", value=len(header.contacts))
+
+
+def _check_names(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Refuse a record with an array too many or too few."""
+    full = header.record == "full"
     extra = EXTRA if header.extra else ()
     iterated = ITERATED if header.law == COULOMB else ()
-    many = "column" in arrays
-    program = OF_MANY if many else PROGRAM
-    own = {"full": program, "forces": FORCES}.get(record, ())
-    if steps:
+    program = OF_MANY if "column" in arrays else PROGRAM
+    own = {"full": program, "forces": FORCES}.get(header.record, ())
+    if header.steps:
         _check_present(arrays, (*PER_STEP, *own, *(extra if full else ()), *iterated))
     if any(name in arrays for name in COST):
         _check_present(arrays, COST)
@@ -95,12 +112,12 @@ def check_arrays(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
     for name in arrays:
         if name not in known:
             raise InputError(f"is unknown{suggestion(name, known)}", field=name)
-    for name, array in arrays.items():
-        if array.dtype.kind not in ("U" if name == "certificate" else "fiu"):
-            raise InputError("must contain numbers", field=name, value=str(array.dtype))
-        numbers = array[~np.isnan(array)] if name in NOT_KNOWN else array
-        if array.dtype.kind == "f" and not np.isfinite(numbers).all():
-            raise InputError("must contain finite numbers only", field=name)
+
+
+def _check_shapes(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Refuse an array of another length or shape than the header and the other arrays say."""
+    steps = header.steps
+    n_v = header.n_a + header.n_u
     lengths = {name: steps for name in arrays if name not in ("q", *CONSTANT)}
     for name, length in {**lengths, "q": steps + 1}.items():
         if len(arrays[name]) != length:
@@ -112,7 +129,7 @@ def check_arrays(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
     shapes: dict[str, tuple[int, ...]] = dict.fromkeys(CONSTANT, (n_c,))
     if steps:
         shapes |= of_steps | {n: (steps, arrays[n].shape[-1]) for n in ("q_bar_a", "lam")}
-    if many:
+    if "column" in arrays:
         column = arrays["column"]
         width = column.shape[-1]
         size = max(1, arrays["M_u"].shape[-1])
@@ -120,19 +137,12 @@ def check_arrays(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
         shapes["M_u"] = (steps, header.n_u // size, size, size)
         if column.dtype.kind == "f" or ((column < 0) | (column > n_v)).any():
             raise InputError(f"must contain whole numbers of 0 to {n_v}", field="column")
-    elif steps and full:  # an extension may have coordinates of its own
+    elif steps and header.record == "full":  # an extension may have coordinates of its own
         shapes["J"] = (steps, n_c, 4, max(n_v, arrays["g"].shape[-1]))
     for name, shape in shapes.items():
         if name in arrays and arrays[name].shape != shape:
             problem = f"must have shape {shape}"
             raise InputError(problem, field=name, value=arrays[name].shape)
-    multipliers = sum(cone(header.cone).counts(arrays["rows"]).tolist())
-    if steps and arrays["lam"][0].size < multipliers:
-        problem = f"must have {multipliers} multipliers a step, as the rows of contacts say"
-        raise InputError(problem, field="lam", value=arrays["lam"].shape)
-    if full and len(header.contacts) != steps:
-        problem = f"must have {steps} entries"
-        raise InputError(problem, field="contacts", value=len(header.contacts))
 
 
 def _check_present(arrays: Mapping[str, NDArray[Any]], names: Iterable[str]) -> None:
