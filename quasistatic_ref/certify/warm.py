@@ -13,8 +13,6 @@ from quasistatic_ref.numbers.arrays import Array
 ZERO_SHARE = 1e-9
 """Singular values, and entries of a dependence, below this share of the largest count as zero; a
 wrong start costs steps of the active-set method, not correctness."""
-APART = 1e-4
-"""A row that is farther from the span of others, over its length, is surely independent of them."""
 BLOCK = 256
 """Most rows whose dependences are formed at once: the time for that is cubic in their number."""
 
@@ -61,8 +59,6 @@ def _basic(A: Array, lam: Array) -> Array:
 
 def _basic_of_block(A: Array, lam: Array) -> Array:
     """What :func:`_basic` is of so few rows that all of their dependences can be formed."""
-    if independent(A):
-        return lam
     dependences = np.eye(len(A))
     if A.size:
         _, size, directions = np.linalg.svd(A.T)
@@ -80,25 +76,3 @@ def _basic_of_block(A: Array, lam: Array) -> Array:
         dependences = rest - np.outer(d / d[first], rest[first])  # none uses that row again
         dependences[first] = 0
     return lam
-
-
-def independent(A: Array) -> bool:
-    """Whether rows are surely independent, in less time than their singular values take.
-
-    The diagonal of a Cholesky factor of unit rows' products is how far each is from the span of
-    those before it.
-
-    Parameters
-    ----------
-    A : ndarray, shape (rows, n_v)
-        In natural units [-].
-    """
-    products = A @ A.T
-    lengths = np.sqrt(np.diag(products))
-    if len(A) > A.shape[1] or not lengths.all():
-        return False
-    try:
-        factor = np.linalg.cholesky(products / np.outer(lengths, lengths))
-    except np.linalg.LinAlgError:
-        return False
-    return bool(np.diag(factor).min(initial=1.0) > APART)
