@@ -11,8 +11,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import TIED_FACES, UNIQUE_NORMAL
 from quasistatic_ref.contact.shape_in_world import Pose, Witnesses
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope, stacked
-from quasistatic_ref.contact.solids.polytope_pair import padded
-from quasistatic_ref.contact.solids.solid_pair import polytopes_and_gaps
+from quasistatic_ref.contact.solids.polytope_pair import padded, polytope_pairs
 from quasistatic_ref.contact.tied_faces import TURNED, corner_surface
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import dot, norm, product, rotated
@@ -57,7 +56,7 @@ class Boxes(Batch):
         closest pair or none is as near: whether others span it is then plain.
         """
         poses = self.in_world(R, t)
-        nearest, (gaps, normals) = polytopes_and_gaps(*self._solids, *poses)
+        nearest, (gaps, normals) = polytope_pairs(*self._solids, *poses)
         phi, alpha, _, n = nearest
         extent = np.maximum(*self._extents)
         within = TIED_FACES * np.maximum(farthest_places(*poses), extent)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.contact.shape_in_world import Witnesses
+from quasistatic_ref.contact.shape_in_world import Pose, Witnesses
 from quasistatic_ref.contact.solids.polytope import Polytope
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
@@ -21,31 +21,45 @@ from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 
 def polytope_pairs(
-    a: Polytope, b: Polytope, R: Array, t: Array, gaps: tuple[Array, Array]
-) -> Witnesses:
-    """Signed distances, closest points and normals of pairs of polytopes, in the frames of `a`.
+    a: Polytope, b: Polytope, pose_a: Pose, pose_b: Pose
+) -> tuple[Witnesses, tuple[Array, Array]]:
+    """Closest points of P pairs of polytopes in the world frame, and gaps along all normals.
 
     Parameters
     ----------
     a, b : Polytope
-        P of each, as of :func:`~quasistatic_ref.contact.solids.polytope.stacked`, in their frames;
-        of two capsules one pair.
-    R, t : ndarray, shapes (P, 3, 3) and (P, 3)
-        Poses of b's frames in a's.
-    gaps : (ndarray, ndarray)
-        Of :func:`gaps_between` them [m], [-].
+        P of each, as of :func:`~quasistatic_ref.contact.solids.polytope.stacked`; of two capsules
+        one pair.
+    pose_a, pose_b : tuple of ndarray
+        Of their frames in the world.
 
     Returns
     -------
-    Witnesses
-        With fields of shape (P, ...).
+    points : Witnesses
+    gaps, normals : ndarray, shapes (P, N) and (P, N, 3)
+        Along all normals [m], [-].
     """
+    back = pose_a[0].mT
+    R = product(back, pose_b[0])
+    t = rotated(back, pose_b[1] - pose_a[1])
+    gaps, normals = gaps_between(a, b.moved(R, t))
+    phi, alpha, beta, n = _closest(a, b, R, t, gaps, normals)
+    turn = pose_a[0][:, None]
+    alpha, beta, n = rotated(turn, np.stack([alpha, beta, n], axis=1)).swapaxes(0, 1)
+    points = Witnesses(phi, alpha + pose_a[1], beta + pose_a[1], n)
+    return points, (gaps - a.margin[:, None] - b.margin[:, None], rotated(turn, normals))
+
+
+def _closest(
+    a: Polytope, b: Polytope, R: Array, t: Array, gaps: Array, normals: Array
+) -> Witnesses:
+    """The closest points in the frames of `a`, from the gaps of the cores along all normals."""
     if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
         return _capsule_pair(a, b.moved(R, t))
     every = np.arange(len(t))
-    best = gaps[0].argmax(axis=1)
-    gap = gaps[0][every, best]
-    n = gaps[1][every, best]
+    best = gaps.argmax(axis=1)
+    gap = gaps[every, best]
+    n = normals[every, best]
     sizes = [np.abs(points).max(axis=(1, 2)) for points in (a.vertices, b.vertices, t[:, None])]
     size = np.maximum.reduce(sizes)
     apart = gap > 0

@@ -6,13 +6,11 @@ all others, a cylinder, cone or ellipsoid and any of these or of those, ``option
 and checks coal's answer.
 """
 
-import numpy as np
-
-from quasistatic_ref.contact.shape_in_world import Pose, ShapeInWorld, Witness, Witnesses
-from quasistatic_ref.contact.solids.polytope import Polytope, polytope
-from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pairs
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.contact.solids.polytope import polytope
+from quasistatic_ref.contact.solids.polytope_pair import polytope_pairs
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.ordered import dot, product, rotated
+from quasistatic_ref.numbers.ordered import dot, product
 from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 
@@ -47,38 +45,9 @@ def pair_and_gaps(
     if P is None or Q is None:
         return _curved_pair(name, a, b), None
     pose_a = (a.R[None], a.t[None])
-    points, (gaps, normals) = polytopes_and_gaps(P.alone, Q.alone, pose_a, (b.R[None], b.t[None]))
+    points, (gaps, normals) = polytope_pairs(P.alone, Q.alone, pose_a, (b.R[None], b.t[None]))
     phi, alpha, beta, n = points
     return Witness(float(phi[0]), alpha[0], beta[0], n[0]), (gaps[0], normals[0])
-
-
-def polytopes_and_gaps(
-    a: Polytope, b: Polytope, pose_a: Pose, pose_b: Pose
-) -> tuple[Witnesses, tuple[Array, Array]]:
-    """Closest points of P pairs of polytopes in the world frame, and gaps along all normals.
-
-    Parameters
-    ----------
-    a, b : Polytope
-        P of each, stacked.
-    pose_a, pose_b : tuple of ndarray
-        Of their frames in the world.
-
-    Returns
-    -------
-    points : Witnesses
-    gaps, normals : ndarray, shapes (P, N) and (P, N, 3)
-        Along all normals [m], [-].
-    """
-    back = pose_a[0].mT
-    R = product(back, pose_b[0])
-    t = rotated(back, pose_b[1] - pose_a[1])
-    gaps, normals = gaps_between(a, b.moved(R, t))
-    phi, alpha, beta, n = polytope_pairs(a, b, R, t, (gaps, normals))
-    turn = pose_a[0][:, None]
-    alpha, beta, n = rotated(turn, np.stack([alpha, beta, n], axis=1)).swapaxes(0, 1)
-    points = Witnesses(phi, alpha + pose_a[1], beta + pose_a[1], n)
-    return points, (gaps - a.margin[:, None] - b.margin[:, None], rotated(turn, normals))
 
 
 def _curved_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
