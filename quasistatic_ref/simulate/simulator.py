@@ -19,11 +19,11 @@ from quasistatic_ref.contact.all_pairs import AllPairs
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, checked_pairs, contact_layout
-from quasistatic_ref.errors import BackendError, InputError
+from quasistatic_ref.errors import BackendError, InputError, StepDataError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.mechanism import StepSystem
 from quasistatic_ref.model.system import Kinematics, System
-from quasistatic_ref.numbers.arrays import Array, checked_array, without_warnings
+from quasistatic_ref.numbers.arrays import Array, Mask, checked_array, without_warnings
 from quasistatic_ref.parts import coulomb_solution, extended_solution, findings_of_scene
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB
@@ -76,6 +76,16 @@ def stopwatch(times: dict[str, float]) -> Callable[[str], None]:
         last = now
 
     return lap
+
+
+def _checked_acts(acts: ArrayLike, n_a: int) -> Mask:
+    """Whether gravity acts on each actuated coordinate, shape (n_a,); StepDataError if unclear."""
+    entries = np.array(acts, dtype=object)
+    if not all(entry in (0, 1) for entry in entries.ravel().tolist()):
+        problem = "must be true or false for each actuated coordinate"
+        raise StepDataError(problem, field="gravity_acts", value=acts)
+    checked: Mask = checked_array(entries.astype(np.float64), "gravity_acts", (n_a,)) != 0
+    return checked
 
 
 def _remade(kind: type[Simulator], settings: dict[str, Any]) -> Simulator:
@@ -166,14 +176,14 @@ class Simulator(Settings, Shown):
         limits: Limits | None = None,
     ) -> None:
         pairs = checked_pairs(pairs)
-        acts = np.zeros(system.n_a) if gravity_acts is None else np.asarray(gravity_acts) * 1.0
+        acts = np.zeros(system.n_a) if gravity_acts is None else gravity_acts
         super().__init__(
             system=system,
             pairs=pairs,
             h=seconds(h),
             K_q=stiffness_matrix(system, K_q),
             gravity=checked_array(gravity, "gravity", (3,)),
-            gravity_acts=checked_array(acts, "gravity_acts", (system.n_a,)) != 0,
+            gravity_acts=_checked_acts(acts, system.n_a),
             backend=DEFAULT if backend is None else backend,
             accuracy=accuracy,
             certify=certify,

@@ -91,6 +91,8 @@ MISTAKES = {
         (lambda: simulator(K_q={"block": 1.0}), r"K_q\[block\]: is not actuated"),
         (lambda: simulator(K_q={"finger/base.x": 1.0}), "has no stiffness for finger/base"),
         (lambda: simulator(gravity=-9.81), r"gravity: must have shape \(3,\)"),
+        (lambda: simulator(gravity_acts=[0.5] * 6), "gravity_acts: must be true or false for each"),
+        (lambda: simulator(gravity_acts=["yes"] * 6), "gravity_acts: must be true or false"),
         (lambda: simulator(gravity_acts=[True]), r"gravity_acts: must have shape \(6,\)"),
         (lambda: setattr(SIMULATOR, "h", 0.02), "simulator.h: is fixed when a simulator is made"),
         (lambda: Limits(reach=np.nan), "limits.reach: must be greater than 0"),
