@@ -91,9 +91,8 @@ def urdf_limits(system: System, bodies: Collection[str]) -> dict[str, tuple[floa
     limits: dict[str, tuple[float, float]] = {}
     for joint in urdf_joints(system, bodies):
         limit = joint.tag.perhaps("limit")
-        if (
-            limit is None or JOINTS[joint.tag.text("type")].unit_vector
-        ):  # it has no place of one number
+        kind = JOINTS[joint.tag.text("type")]
+        if limit is None or kind.unit_vector:  # it has no place of one number
             continue
         ends = limit.position_limits()
         if ends is None:
