@@ -21,7 +21,7 @@ LIGHT = 1e-3
 
 
 def quotient(over: ArrayLike, under: ArrayLike, none: float = 0.0) -> Array:
-    """Quotients, of one shape with `over` [any unit]; `none` [its unit] where float64 has none.
+    """Quotients, of the shape of both [any unit]; `none` [its unit] where float64 has none.
 
     A friction coefficient may be as small as 5e-324: a product with it underflows to 0, a quotient
     by it overflows.

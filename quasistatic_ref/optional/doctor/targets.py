@@ -50,9 +50,9 @@ def idle_columns(run: Run) -> Iterator[Finding]:
 
 def joints_beyond(run: Run) -> Iterator[Finding]:
     """Joints that are pushed beyond a limit that the URDF names, of each the farthest."""
-    said = [joint for joint, *_ in _beyond(run, "q_bar_a")]
+    targeted = [joint for joint, *_ in _beyond(run, "q_bar_a")]  # which has a finding
     for joint, unit, position, limit, k in _beyond(run, "q"):
-        if joint not in said:
+        if joint not in targeted:
             body = joint.name.partition("/")[0]
             yield Finding(
                 "joint beyond a limit",

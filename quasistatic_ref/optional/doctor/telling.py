@@ -101,10 +101,10 @@ def amount(x: float, unit: str) -> str:
     return length(x) if unit == "m" else f"{np.degrees(x):.3g} deg"
 
 
-def rounded(x: float, whole: Callable[[float], float]) -> float:
-    """A number x > 0 [any unit] with two digits: at least it by ``np.ceil``, else ``np.floor``."""
+def rounded(x: float, towards: Callable[[float], float]) -> float:
+    """A number x > 0 [any unit] to two digits: up by ``np.ceil``, down by ``np.floor``."""
     digits = 10.0 ** np.floor(np.log10(x) - 1)
-    return float(whole(x / digits) * digits)
+    return float(towards(x / digits) * digits)
 
 
 def length(x: float) -> str:
