@@ -10,6 +10,7 @@ import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.formats.plain import field_values
+from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.account import scene_notes
 from quasistatic_ref.optional.doctor.artifacts import boundary_layer, gives, quasi_dynamic_number
@@ -51,20 +52,16 @@ class Doctor(Observer):
 
         J delta_q, shape (steps, n_c, 4) [m, m, m, rad], of which a light record holds nothing; M_u
         delta_q_u, (steps, n_u) [kg m, kg m^2]; what springs give along n, (steps, n_c) [m/N].
+        Nothing where there is no room for it: that costs the findings, and not the run.
         """
-        system = recorder.system
-        n_u = system.n_u
-        delta_q_u = arrays["delta_q"][:, system.n_a :]
-        if system.constant_mass_matrix:
-            M_u = system.mass_blocks
-        else:
-            M_u = np.array([result.step.M_u[:n_u, :n_u] for result in results])[:, None]
-        by_block = delta_q_u.reshape(len(results), M_u.shape[-3], M_u.shape[-1], 1)
-        return {
-            "moved": arrays["motion"],
-            "momentum": (M_u @ by_block).reshape(delta_q_u.shape),
-            "gives": gives([result.step for result in results]),
-        }
+        try:
+            return {
+                "moved": arrays["motion"],
+                "momentum": _momentum(recorder.system, results, arrays["delta_q"]),
+                "gives": gives([result.step for result in results]),
+            }
+        except MemoryError:
+            return {}
 
     def end(self, recorder: Recording, trajectory: Trajectory, interrupted: bool) -> Trajectory:
         """The trajectory with its findings: unless they are printed, they are looked for late."""
@@ -72,16 +69,20 @@ class Doctor(Observer):
             "scene": scene_notes(recorder),
             "largest_boundary_layer": 0.0,
         }
-        header: Header
+        lost = ""
+        noted = len(recorder.noted("gives"))
         try:
             at: Start = Start(recorder.simulator, recorder.start)
-            if trajectory.steps:
+            if noted < trajectory.steps:  # there was no room, or Ctrl-C came in between
+                lost = f"findings: nothing is noted of the steps after {noted}"
+            elif trajectory.steps:
                 at = run = Run(recorder, trajectory)
                 known["quasi_dynamic_number"] = quasi_dynamic_number(run)
                 known["largest_boundary_layer"] = boundary_layer(run)
         except MemoryError as error:
-            header = Header(**known | {"not_looked_at": _lost(error)})
-        else:
+            lost = _lost(error)
+        header = Header(**known | {"not_looked_at": lost})
+        if not lost:
             del known["findings"], known["not_looked_at"]
             header = LateHeader.unchecked(**known, at=at)
         if not self.printed:
@@ -92,6 +93,18 @@ class Doctor(Observer):
         if header.not_looked_at:
             print(f"quasistatic-ref: not looked at: {header.not_looked_at}", file=sys.stderr)
         return trajectory
+
+
+def _momentum(system: System, results: Sequence[StepResult], delta_q: Array) -> Array:
+    """M_u delta_q_u of some steps, shape (steps, n_u) [kg m, kg m^2]."""
+    n_u = system.n_u
+    delta_q_u = delta_q[:, system.n_a :]
+    if system.constant_mass_matrix:
+        M_u = system.mass_blocks
+    else:
+        M_u = np.array([result.step.M_u[:n_u, :n_u] for result in results])[:, None]
+    by_block = delta_q_u.reshape(len(results), M_u.shape[-3], M_u.shape[-1], 1)
+    return np.asarray((M_u @ by_block).reshape(delta_q_u.shape))
 
 
 class LateHeader(Header):

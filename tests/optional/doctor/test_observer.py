@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref import load_scenario, load_trajectory
+from quasistatic_ref import RunFailed, load_scenario, load_trajectory
 from quasistatic_ref.formats.npz import json_array
 from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.optional.doctor import looks, observer, slowly, start
@@ -160,6 +160,23 @@ def test_an_error_in_the_findings_costs_the_findings_and_not_the_run(name, monke
     run = load_scenario("block_push", steps=2).run(progress=False)
     assert (len(run), run.findings) == (2, ())
     assert run.header.not_looked_at == "findings: MemoryError no room for (200, 600, 600)"
+
+
+@pytest.mark.parametrize("error", [MemoryError, KeyboardInterrupt])
+def test_steps_of_which_nothing_is_noted_cost_the_findings_and_not_the_run(error, monkeypatch):
+    def fails(steps):
+        raise error
+
+    scenario = load_scenario("block_push", steps=2)
+    monkeypatch.setattr(observer, "gives", fails)
+    if error is MemoryError:
+        run = scenario.run()
+    else:
+        with pytest.raises(RunFailed, match="step 1: interrupted") as failure:
+            scenario.run()
+        run = failure.value.trajectory
+    assert (len(run), run.findings) == (2, ())
+    assert run.header.not_looked_at == "findings: nothing is noted of the steps after 0"
 
 
 def test_findings_that_are_not_printed_are_looked_for_when_they_are_first_read(
