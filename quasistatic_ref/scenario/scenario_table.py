@@ -212,6 +212,7 @@ fields_of = TABLES.fields
 def pose(table: TableReader, xyz: ArrayLike = ORIGIN) -> tuple[Array, Array]:
     """Origin [m] and roll, pitch, yaw [rad] of a table of these two, each of shape (3,)."""
     read = fields_of(table, POSE)
-    origin, rpy = read("xyz", xyz), read("rpy")
+    origin = read("xyz", xyz)
+    rpy = read("rpy")
     table.close()
     return origin, rpy
