@@ -112,7 +112,6 @@ import numpy as np
 import quasistatic_ref as qr
 from quasistatic_ref.certify.norm import digits_of_error
 from quasistatic_ref.cli.decimals import decimal_string
-from quasistatic_ref.step.cones import direction
 np.set_printoptions(precision=8, suppress=False)  # a page before may have changed these
 """
 
