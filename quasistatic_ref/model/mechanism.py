@@ -240,7 +240,7 @@ class Mechanism(ABC):
         Raises
         ------
         ModelError
-            If there is no such name, or q has other entries.
+            If there is no such name, if it has two meanings, or if q has other entries.
         """
         places = self.named.q(name)
         return _taken(q, places, {self.n_q, self.n_q_a}, "q", name)

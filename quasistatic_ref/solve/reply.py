@@ -1,4 +1,4 @@
-"""What one call of a solver gives back."""
+"""What one call of a solver gives back; ``solver.py`` judges it."""
 
 from dataclasses import dataclass
 
