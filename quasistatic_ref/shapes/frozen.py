@@ -44,7 +44,7 @@ def set_half(
     if whole is None:
         size = checked(half, key, f", half of its {name}")
     else:
-        size = checked(whole, name) / 2
+        size = checked(checked(whole, name) / 2, key)
     object.__setattr__(owner, key, size)
 
 

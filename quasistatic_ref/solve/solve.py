@@ -156,7 +156,7 @@ def solved(
             raise StepNotSolved(solver.name, reply.status, both.si_step, reply.accuracy)
         solution = judged(both, solver, reply, certify)
     numbers = [solution.delta_q, solution.lam]
-    if certify != "off":
+    if certify != "off" or solution.step.extra.names:
         numbers.append(solution.wrench.ravel())
     residuals = solution.certificate.residuals.values()
     if not (all(map(all_finite, numbers)) and all(map(math.isfinite, residuals))):

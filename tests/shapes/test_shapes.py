@@ -29,6 +29,10 @@ REFUSED = {
     "zero radius": (lambda: Sphere(0.0), r"radius: must be a positive length \(got 0.0\)"),
     "radius too large to double": (lambda: Sphere(1.7e308), "radius: must be a positive length"),
     "a radius below a proton's": (lambda: Sphere(0.9 * SHORT), "radius: must be at least 1e-15 m"),
+    "a length of which half is too short": (
+        lambda: Cylinder(1.0, length=1.5 * SHORT),
+        "half_length: must be at least 1e-15 m",
+    ),
     "flat box": (lambda: Box((1, 0, 1)), "half_extents: must be three positive lengths"),
     "one edge": (lambda: Box(0.1), r"half_extents: must be three .*, half of its size \(got 0.1"),
     "one edge of a size": (lambda: Box(size=1), r"size: must be three positive lengths \(got 1.0"),
