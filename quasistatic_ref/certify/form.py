@@ -8,9 +8,8 @@ split the ties between the rows of a sticking contact.
 .. math:: \min \tfrac12 x^T H x - g^T x \quad\text{s.t.}\quad a_i^T x + c_i \ge 0, \quad c = -b.
 
 H is positive definite, as ``step/data.py`` has checked. It is block diagonal, or one block where a
-user's cost is in it. Eq. :eq:`eq-13` is taken times h,
-because M_u / h is a quotient. So its multipliers are y = h lam, and on a working set W, without a
-cost,
+user's cost is in it. Eq. :eq:`eq-13` is taken times h, because M_u / h is a quotient. So its
+multipliers are y = h lam, and on a working set W, without a cost,
 
 - of the springs, :math:`h^2 K_q x_a = h^2 (\tau_k + \tau_a) + A_a^T y`;
 - of what moves freely, :math:`M_u x_u = h^2 \tau_u + A_u^T y`.

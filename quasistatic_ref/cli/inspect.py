@@ -91,8 +91,8 @@ def body_name(path: Path) -> str:
 
 def scenario_record(scenario: Scenario) -> dict[str, Any]:
     """What a scenario holds, as plain data."""
-    rubbed, stopped = ((), ()) if scenario.of_bodies is None else scenario.of_bodies.of_urdf
-    record = system_record(scenario.system, rubbed, stopped)
+    of_urdf = ((), ()) if scenario.of_bodies is None else scenario.of_bodies.of_urdf
+    record = system_record(scenario.system, *of_urdf)
     for i, coordinate in enumerate(record["coordinates"]):
         if coordinate["actuated"]:
             coordinate["K_q"] = scenario.K_q[i, i]

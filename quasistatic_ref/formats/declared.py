@@ -79,7 +79,7 @@ class Tables(dict[str, dict[str, Field]]):
     def fields(self, table: TableReader, kind: str) -> Callable[..., Any]:
         """The values in a table of some kind, as a function of the names of its fields.
 
-        A second argument is the default in place of the field's own. InputError if a field is
-        missing and has no default, or is not of its kind.
+        A second argument replaces the default of the field. InputError if a field is missing and
+        has no default, or is not of its kind.
         """
         return lambda name, default=...: self[kind][name].read(table, name, default)

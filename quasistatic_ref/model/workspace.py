@@ -93,7 +93,8 @@ class Workspace:
         They are those of the last move. Columns are as in
         :class:`~quasistatic_ref.model.kinematics.Kinematics`; all are read-only.
         """
-        R, t = ([part] for part in WORLD_POSE)
+        R = [WORLD_POSE[0]]
+        t = [WORLD_POSE[1]]
         columns = []
         for part in self.parts:
             R += part.R

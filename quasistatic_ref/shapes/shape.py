@@ -157,7 +157,7 @@ class Shape(Plain):
 
     @property
     def sizes(self) -> dict[str, Any]:
-        """What files say of it: the arguments that make it again, by their names [m, -].
+        """The arguments that make it again, by the names that files give them [m, -].
 
         Raises
         ------

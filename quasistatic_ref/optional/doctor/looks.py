@@ -363,5 +363,6 @@ class Looking:
 
 def _differs(look: Look, at: Indices) -> bool:
     """Whether Coulomb's law has other forces than the run, of some contacts."""
-    run, coulomb = (look.laws[law].forces[at, 2] for law in (RUN, COULOMB))
+    run = look.laws[RUN].forces[at, 2]
+    coulomb = look.laws[COULOMB].forces[at, 2]
     return bool(np.abs(run - coulomb).max(initial=0.0) > 0.01 * np.abs(run).max(initial=0.0))

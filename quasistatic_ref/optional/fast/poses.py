@@ -32,7 +32,8 @@ class Poses:
         self._column_map = system.column_map
         self._order = system.column_map.order
         self.q = system.q_start.copy()
-        R, t = ([part] for part in WORLD_POSE)
+        R = [WORLD_POSE[0]]
+        t = [WORLD_POSE[1]]
         columns: list[int] = []
         gravity: list[int] = []
         for part in self._workspace.parts:

@@ -169,7 +169,8 @@ def mujoco_scenario(
             raise ScenarioError(problem, field=name, value=tables[name])
     top.take("roots", None)
     read = fields_of(top, TOP)
-    h, steps = read("h"), read("steps")
+    h = read("h")
+    steps = read("steps")
     margin = top.number("margin", MARGIN)
     stiffness = top.take("stiffness", {})
     if not isinstance(stiffness, Mapping):
