@@ -30,7 +30,6 @@ COMMANDS = {
     "body": "make a body of a scenario from a scan, a point cloud or a mesh",
     "opinion": "say whether the contacts of a MuJoCo scene hold, next to the exact answer",
     "extract": "write one step of a trajectory as a step file",
-    "serve": "answer steps that another program asks for, one at a time, over a pipe",
     "vectors": "reference vectors: check another implementation against them, layer by layer",
     "validate": "measure the claims about the model against the paper, formulas and other engines",
     "study": "compare solvers on problems with exact answers",

@@ -179,7 +179,7 @@ def load_scenario(
         Changes, made before anything is checked: ``dotted.key=value``, as after the command
         line's ``--set``; or values by dotted key, ``{"contacts.grip.mu_omega": 0}``.
     of_others : bool
-        Whether a mapping was written by somebody whom you do not trust, as a client of a server.
+        Whether a mapping was written by somebody whom you do not trust.
         It then may do what a file in the working folder may: its paths stay in that folder, and
         its backend is no function. A file always is of others; `settings` and `fields` are yours.
     fields : object

@@ -1,14 +1,10 @@
 """Files of others name no code and no path outside: no field of a scenario does."""
 
-import io
-import json
 import sys
 
 import pytest
 
 from quasistatic_ref import InputError, load_scenario
-from quasistatic_ref.lab.oracle.pipes import lines_served
-from quasistatic_ref.lab.oracle.served import Scenes
 from tests.errors.scene import SCENE, changed, scene_written
 
 HELPER = """
@@ -55,14 +51,6 @@ def spoilt(field, word):
     return changed(scene, (field, word))
 
 
-def served(tables):
-    """What a server answers to a client that sends a scene."""
-    out = io.StringIO()
-    request = json.dumps({"scene": "sent", "tables": tables})
-    lines_served(Scenes([], ()), io.BytesIO(request.encode()), out)
-    return json.loads(out.getvalue().splitlines()[-1])
-
-
 @pytest.mark.parametrize("field", [*WORDS, *LISTS])
 def test_no_field_of_a_scenario_runs_code(folder, field):
     for word in CODE:
@@ -71,7 +59,6 @@ def test_no_field_of_a_scenario_runs_code(folder, field):
             load_scenario(scene_written(folder, scene))
         with pytest.raises(InputError):
             load_scenario(scene, of_others=True)
-        assert served(scene)["status"] == 2
 
 
 def test_code_is_named_by_the_user_alone(folder, refused, cli):
@@ -102,27 +89,18 @@ def test_a_module_beside_a_function_takes_no_installed_ones_place(folder):
     "field", ["bodies/rail/urdf", "bodies/ball/cloud", "shapes/scan/mesh/file"]
 )
 @pytest.mark.parametrize("way", ["relative", "absolute"])
-def test_a_client_reads_nothing_outside_of_the_folder_that_is_served(folder, field, way):
+def test_tables_of_others_read_nothing_outside_of_the_working_folder(folder, field, way):
     outside = "../rail.urdf" if way == "relative" else str(folder.parent / "rail.urdf")
     if "mesh" in field:
         outside = outside.replace("urdf", "obj")
         (folder.parent / "rail.obj").touch()
-    answer = served(spoilt(field, outside))
-    assert answer["status"] == 2
-    assert field.split("/")[-1] in answer["error"]
+    with pytest.raises(InputError, match=field.split("/")[-1]):
+        load_scenario(spoilt(field, outside), of_others=True)
 
 
-def test_a_client_reads_from_folders_that_the_user_names(folder, tmp_path):
-    assert served(SCENE)["scene"] == "sent"
+def test_tables_of_others_read_from_folders_that_the_user_names(folder, tmp_path):
+    assert load_scenario(SCENE, of_others=True).steps == SCENE["steps"]
     scene = changed(SCENE, ("bodies/rail/urdf", str(tmp_path / "rail.urdf")))
-    assert "is outside the scenario's folder" in served(scene)["error"]
-    out = io.StringIO()
-    scenes = Scenes([f'roots=["{tmp_path}"]'], [tmp_path])
-    requests = [{"scene": "sent", "tables": scene}, {"file": str(tmp_path / "other.toml")},
-                {"file": "/etc/hostname"}]  # fmt: skip
-    (tmp_path / "other.toml").write_text("")
-    lines_served(scenes, io.BytesIO("\n".join(map(json.dumps, requests)).encode()), out)
-    _, sent, known, unknown = map(json.loads, out.getvalue().splitlines())
-    assert sent["scene"] == "sent"
-    assert "format: is missing" in known["error"]
-    assert "is outside of the folder that is served; serve with --root FOLDER" in unknown["error"]
+    with pytest.raises(InputError, match="is outside the scenario's folder"):
+        load_scenario(scene, of_others=True)
+    assert load_scenario(scene, {"roots": [str(tmp_path)]}, of_others=True).steps == SCENE["steps"]
