@@ -284,14 +284,15 @@ class StepForm(ExactForm):
     def sizes(self, most: Array) -> Array:
         """That of a contact's rows is `|phi|` + F R, shape (m,) [m]; `most` is (n,) [m, rad].
 
-        R is the largest entry of `|J|` `most`, F more than the sum of the sizes of the frame with
-        friction. An entry of a row combines four products of it and J, with coefficients of at most
-        one: it is off by 3 u of three products summed, 2 u of the friction, 4 u of combining them.
+        R is the largest entry of `|J|` `most`, and more than what underflows in it; F is more than
+        the sum of the sizes of the frame with friction. An entry of a row combines four products of
+        frame and J, with coefficients of at most one: it is off by 3 u of three products summed,
+        2 u of the friction, 4 u of combining them.
         """
         contacts = self._step.contacts
         axes = np.concatenate([contacts.n, contacts.d1, contacts.d2], axis=1)
         F = (1 + np.abs(axes).sum(axis=1)) * (1 + self._mu.sum(axis=1))
-        R = (np.abs(contacts.J) @ most).max(axis=1, initial=0.0) + TINY
+        R = ((np.abs(contacts.J) + TINY) @ most).max(axis=1, initial=0.0) + TINY
         of_rows: Array = (np.abs(contacts.phi) + F * R)[self._contact]
         extra = self._step.extra
         if not extra.names:

@@ -1,14 +1,18 @@
 """Exact numbers and matrices: what is none, and what is zero without a radius."""
 
+from dataclasses import replace
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from flint import arb
 
-from quasistatic_ref import StepDataError
-from quasistatic_ref.certify.form import exact_matrix, inverse, whole_numbers
+from quasistatic_ref import StepDataError, solve_step, verify
+from quasistatic_ref.certify.form import StepForm, exact_matrix, inverse, whole_numbers
 from quasistatic_ref.certify.form import fraction as exact
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from tests.cases import cases
+from tests.helpers import changed, random_step
 
 
 def test_a_ball_with_a_radius_is_no_exact_number():
@@ -44,3 +48,75 @@ def test_the_inverse_is_zero_between_what_nothing_couples():
     assert (np.array(zero) == ((alone[:, None] | alone) & ~np.eye(5, dtype=bool))).all()
     assert all(v.contains(i == j) for i, row in enumerate((exact_matrix(H) * H_inverse).tolist())
                for j, v in enumerate(row))  # fmt: skip
+
+
+SCALES = [-1074, -1070, -1022, -500, 0, 130, 500, 900]
+
+
+def numbers_of_one_scale(rng, shape):
+    """Small integers times a power of two from that of the least subnormal number to a huge one."""
+    return rng.integers(-5, 6, shape) * 2.0 ** rng.choice(SCALES)
+
+
+@pytest.mark.filterwarnings("ignore:(overflow|invalid)")
+def test_the_bound_of_a_float_slack_holds_for_numbers_of_any_size():
+    """An entry of a row may lose all its digits where J is subnormal: x may be huge there."""
+    rng = np.random.default_rng(20261129)
+    decided = 0
+    for _ in range(1000):
+        step = random_step(rng, n_a=1, n_u=1)
+        n_c = step.contacts.n_c
+        contacts = changed(
+            step.contacts,
+            J=numbers_of_one_scale(rng, step.contacts.J.shape),
+            phi=numbers_of_one_scale(rng, n_c),
+            mu_v=np.abs(numbers_of_one_scale(rng, n_c)),
+            mu_omega=np.abs(numbers_of_one_scale(rng, n_c)),
+        )
+        form = StepForm(replace(step, contacts=contacts))
+        x = numbers_of_one_scale(rng, form.n)
+        slack, error = form.float_slacks(x, np.abs(x))
+        finite = np.isfinite(slack) & np.isfinite(error)
+        z = exact_matrix(np.append(x, 1.0)[:, None])
+        rows = np.flatnonzero(finite).tolist()
+        for i, value in zip(rows, exact_slacks(form, rows, z), strict=True):
+            assert abs(exact(float(slack[i])) - value) <= exact(float(error[i]))
+        decided += int((finite & (np.abs(slack) > error)).sum())
+    assert decided > 5000
+
+
+def exact_slacks(form, rows, z):
+    """The a x + c of some rows in fractions."""
+    point = [exact(v) for (v,) in z.tolist()]
+    of_rows = [[exact(v) for v in row] for row in form.exact_rows(rows)]
+    return [sum((a * v for a, v in zip(row, point, strict=True)), exact(0.0)) for row in of_rows]
+
+
+LEAST = 2.0**-1074
+SUBNORMAL = {
+    "an entry that float64 rounds to zero": ([-LEAST, LEAST], 0.125, -1),
+    "a row of one binary digit": ([0, -LEAST], 0.25, 1),
+    "a row of one digit that bears nothing": ([0, -LEAST], 0.875, 1),
+}
+"""J along x and y, phi in units of LEAST X, the sign of the force."""
+X = 2.0**130
+"""The displacement that the force causes without the contact [m]."""
+
+
+@cases("J, phi, sign", SUBNORMAL)
+def test_a_subnormal_jacobian_and_a_huge_step_have_their_exact_optimum(J, phi, sign):
+    step = random_step(0, n_a=1, n_u=0, rows=(4,))
+    contacts = changed(
+        step.contacts, phi=[phi * (LEAST * X)], J=[[[v] for v in (*J, 0, 0)]], mu_v=[0.0],
+        mu_omega=[0.0], n=[[0.6, 0.8, 0.0]], d1=[[-0.8, 0.6, 0.0]], d2=[[0.0, 0.0, 1.0]],
+    )  # fmt: skip
+    step = replace(
+        step, h=1.0, K_q=[[X**-2]], tau_a=[sign / X], delta_q_bar_a=[0.0], contacts=contacts
+    )
+    a = Fraction(0.6) * Fraction(J[0]) + Fraction(0.8) * Fraction(J[1])
+    at_contact = -Fraction(phi * (LEAST * X)) / a
+    optimum = min(at_contact, X) if sign > 0 else max(at_contact, -X)
+    solution = solve_step(step)
+    assert solution.delta_q.tolist() == [float(optimum)]
+    assert bool(solution.certificate.active) == (optimum == at_contact)
+    assert verify(solution).ok
