@@ -1,1 +1,1 @@
-"""From a scan to a body: stray points, the solid that points enclose, and a scenario's table."""
+"""From a scan to a body: stray points, the solid, and a table of a scenario."""

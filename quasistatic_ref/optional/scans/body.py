@@ -13,12 +13,10 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.readers.clouds import seen_points
 from quasistatic_ref.model.readers.mesh_files import MESHES, loaded_mesh
-from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.optional.scans.closed import closed_mesh
 from quasistatic_ref.optional.scans.cloud import spacing, stray, thinned
-from quasistatic_ref.optional.scans.lying import points_to_lie_on
-from quasistatic_ref.optional.scans.solid import MOST, Solid, solid_of_points
+from quasistatic_ref.optional.scans.solid import Solid, hull_of_points
 
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254}
 """[m]"""
@@ -28,8 +26,6 @@ POINTS = 1000
 """Points that a body has unless it is said; the paper's bunny has 992."""
 FEWEST = 50
 """Fewest points of which a solid is made."""
-WIDE = 0.25
-"""Gap over extent [-] from which it is doubted that the points enclose the solid."""
 COARSE = 0.01
 """Step of a grid of coordinates over the extent [-] from which it is said."""
 ON_MESH = 10_000
@@ -51,10 +47,6 @@ class ScannedBody(Plain):
         Of mass [m].
     inertia : ndarray, shape (3, 3)
         About the centre of mass [kg m^2].
-    k : int
-        Suggested number of contacts of a pair.
-    below : ndarray, shape (3,)
-        Outward normal of the face of its hull on which it lies, in the frame of the scan [-].
     notes : tuple of str
         What was done and what is doubtful, in sentences with their numbers.
     """
@@ -64,12 +56,10 @@ class ScannedBody(Plain):
     mass: float
     centre: Array
     inertia: Array
-    k: int
-    below: Array
     notes: tuple[str, ...]
 
     def __post_init__(self) -> None:
-        freeze_copies(self, "points", "centre", "inertia", "below")
+        freeze_copies(self, "points", "centre", "inertia")
 
     @property
     def urdf(self) -> str:
@@ -84,18 +74,12 @@ class ScannedBody(Plain):
         )
 
     @property
-    def rpy(self) -> Array:
-        """Roll, pitch and yaw by which it lies on a floor, shape (3,) [rad]."""
-        x, y, z = self.below.tolist()  # R's last row is -below: R below points down
-        return np.array([np.arctan2(-y, -z), np.arcsin(np.clip(x, -1.0, 1.0)), 0.0]) + 0.0
-
-    @property
     def height(self) -> float:
         """Of the scan's origin where its lowest point is on a floor at z = 0 [m]."""
-        return -float((self.points @ rotation(self.rpy)[2]).min())
+        return -float(self.points[:, 2].min())
 
     def scenario(self) -> str:
-        """A scenario (TOML) in which it lies on a floor, where it is hardest to tip."""
+        """A scenario (TOML) in which it is on a floor, the way up that it was scanned."""
         return (
             'format = "quasistatic-ref/scenario"\n'
             "version = 1\n"
@@ -105,7 +89,7 @@ class ScannedBody(Plain):
             f"[bodies.{self.name}]\n"
             f'urdf = "{self.name}.urdf"\n'
             f'base = "floating"\n'
-            f"pose = {{ xyz = [0, 0, {self.height + 0.0:.6g}], rpy = {self.rpy.tolist()} }}\n"
+            f"pose = {{ xyz = [0, 0, {self.height + 0.0:.6g}], rpy = [0, 0, 0] }} # as scanned\n"
             f'cloud = "{self.name}.csv"\n'
             "\n"
             "[shapes.floor]\n"
@@ -116,7 +100,7 @@ class ScannedBody(Plain):
             f'beta = "{self.name}"\n'
             "mu_v = 0.5 # a guess\n"
             "rows = 4\n"
-            f"k = {self.k}\n"
+            "k = 8 # a guess\n"
         )
 
     def save(self, folder: str | Path) -> tuple[Path, Path]:
@@ -137,9 +121,8 @@ def scanned_body(
 ) -> ScannedBody:
     """A body from a scan: a point cloud, or a mesh.
 
-    Points that no gap of a few spacings joins to the others are left out. The solid is the inside
-    of a closed mesh, or what the points enclose
-    (:func:`~quasistatic_ref.optional.scans.solid.solid_of_points`), of one density.
+    The solid is the inside of a closed mesh, or the convex hull of a cloud, of one density. Points
+    of a cloud that no gap of a few spacings joins to the others are left out.
 
     Parameters
     ----------
@@ -164,15 +147,15 @@ def scanned_body(
     Raises
     ------
     InputError
-        If the file cannot be read, the unit is doubtful, the points enclose nothing, or a mesh has
+        If the file cannot be read, the unit is doubtful, all points lie in a plane, or a mesh has
         a hole, a doubled face or shells that overlap.
 
     Examples
     --------
     >>> from quasistatic_ref.scenario.scenario import scenario_path
     >>> bunny = qr.scanned_body(scenario_path("bunny_grasp").with_name("bunny_992.csv"), mass=0.2)
-    >>> bunny.points.shape, bunny.k
-    ((992, 3), 4)
+    >>> bunny.points.shape
+    (992, 3)
     """
     path = Path(scan)
     name = path.stem.replace(" ", "_") if name is None else name
@@ -188,7 +171,7 @@ def scanned_body(
         notes: list[str] = []
         cloud, solid = _surface_and_solid(path, unit, notes)
         if solid is None:
-            problem = "its points enclose no solid; give a closed mesh, or more points"
+            problem = "its points lie in a plane; give a closed mesh, or points all around"
             raise InputError(problem, field="points", value=len(cloud))
     kept = thinned(cloud, points)
     if len(kept) < len(cloud):
@@ -200,14 +183,7 @@ def scanned_body(
         f"a volume of {1e6 * solid.volume:.4g} cm^3: {mass:.4g} kg are "
         f"{mass / solid.volume:.4g} kg/m^3"
     )
-    k, ways, below = points_to_lie_on(cloud[kept], solid.centre)
-    notes.append(
-        f"k = {k}: it can lie in {ways} ways, and in each of them its centre of mass is over the "
-        f"{k} lowest points"
-    )
-    return ScannedBody(
-        name, cloud[kept], mass, solid.centre, mass * solid.gyration, k, below, tuple(notes)
-    )
+    return ScannedBody(name, cloud[kept], mass, solid.centre, mass * solid.gyration, tuple(notes))
 
 
 def _surface_and_solid(
@@ -241,7 +217,11 @@ def _surface_and_solid(
         more = "" if strays.sum() <= 3 else ", ..."
         notes.append(f"{strays.sum()} stray points are left out, at ({where}{more}) mm")
     points = points[~strays]
-    return points, _enclosed(points, notes)
+    notes.append(
+        "the solid of a cloud is its convex hull; if the body is hollow, or has a hole or a dent, "
+        "give a closed mesh"
+    )
+    return points, hull_of_points(points)
 
 
 def _of_mesh(vertices: Array, triangles: Indices, notes: list[str]) -> tuple[Array, Solid]:
@@ -251,18 +231,6 @@ def _of_mesh(vertices: Array, triangles: Indices, notes: list[str]) -> tuple[Arr
     points, _ = trimesh.sample.sample_surface(mesh, ON_MESH, seed=0)
     corners = mesh.triangles.reshape(-1, 3)
     return np.unique(np.concatenate([corners, points]), axis=0), Solid.of_triangles(mesh.triangles)
-
-
-def _enclosed(points: Array, notes: list[str]) -> Solid | None:
-    some = points[:: -(-len(points) // MOST)]
-    solid = solid_of_points(some)
-    if solid is not None:
-        wide = solid.gap > WIDE * float(np.ptp(points, axis=0).max())
-        doubt = "; is it hollow, or has it holes? A closed mesh would say" if wide else ""
-        notes.append(
-            f"the solid is what a ball of radius {1e3 * solid.gap:.3g} mm cannot enter{doubt}"
-        )
-    return solid
 
 
 def _grid(points: Array) -> float | None:

@@ -1,4 +1,4 @@
-"""Points of a scan: strays left out, noise smoothed, thinned."""
+"""Points of a scan: strays left out, and thinned."""
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -18,11 +18,6 @@ AWAY = 0.05
 a scan are nearer."""
 COVERING = 20_000
 """Points among which those are looked for that cover a surface evenly."""
-PLANE = 16
-"""Points through which a plane is laid, to smooth noise."""
-
-EDGE = 4.0
-"""Variance off that plane, over the median of all points, above which a point is at an edge."""
 
 
 def spacing(points: Array) -> float:
@@ -50,20 +45,6 @@ def stray(points: Array) -> Mask:
     apart = few.copy()
     apart[few] = away > AWAY * np.ptp(surface, axis=0).max()
     return np.asarray(apart)
-
-
-def smoothed(points: Array) -> Array:
-    """Each point, shape (N, 3) [m], moved onto the plane of its nearest ones; not at edges."""
-    _, near = cKDTree(points).query(points, k=min(PLANE, len(points)))
-    around = points[near]
-    middle = around.mean(axis=1)
-    off = around - middle[:, None]
-    spread, axes = np.linalg.eigh(np.einsum("nki,nkj->nij", off, off))
-    normal = axes[:, :, 0]
-    thick = spread[:, 0]
-    edge = thick > EDGE * np.median(thick)
-    height = np.where(edge, 0.0, np.vecdot(points - middle, normal))
-    return np.asarray(points - height[:, None] * normal)
 
 
 def thinned(points: Array, count: int) -> Indices:
