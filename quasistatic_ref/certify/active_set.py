@@ -10,6 +10,9 @@ full step). Otherwise the first to vanish leaves W, and the walk goes on from wh
 is a combination of the rows of W, x cannot move: the walk is along the combination, and if no
 multiplier ever vanishes the combination is a proof that the problem is infeasible.
 
+Equations are in W from the start and never leave it: their multipliers have no sign. One that
+depends on others follows from them, and is left out, or it contradicts them, which is the proof.
+
 Termination. A walk drops at most |W| rows. It ends with the dual objective strictly larger: at
 its start a_p x < b_p, and the dual objective grows at the rate b_p - a_p x > 0 in the multiplier
 of p until the full step closes the violation, which needs a positive multiplier since x must move.
@@ -23,8 +26,8 @@ from dataclasses import dataclass
 
 from flint import arb, fmpq
 
-from quasistatic_ref.certify.dependence import independent_rows
-from quasistatic_ref.certify.form import PRECISION, ExactForm
+from quasistatic_ref.certify.dependence import combination, independent_rows
+from quasistatic_ref.certify.form import PRECISION, ExactForm, fraction
 from quasistatic_ref.certify.minimiser import Line, Minimiser
 from quasistatic_ref.numbers.precision import working_precision
 
@@ -36,7 +39,7 @@ class Combination:
     Parameters
     ----------
     y : dict of int to fmpq
-        The positive entries by row.
+        The entries by row that are not zero; of equations they may be negative.
     """
 
     y: dict[int, fmpq]
@@ -91,10 +94,13 @@ def dual_active_set(
     Returns
     -------
     Minimiser or Combination
-        At the optimum all of its multipliers are positive; its `walks` are the rows that were
-        added, none if the warm start was right.
+        At the optimum all of its multipliers are positive, but those of equations; its `walks` are
+        the rows that were added, none if the warm start was right.
     """
-    minimiser = _start(form, list(dict.fromkeys(warm)))
+    minimiser = _start(form, list(dict.fromkeys([*range(form.equations), *warm])))
+    contradiction = _contradicted_equation(form, minimiser.working)
+    if contradiction is not None:
+        return contradiction
     walks = 0
     while True:
         p = entering_row(minimiser)
@@ -112,7 +118,7 @@ def dual_active_set(
 
 
 def _start(form: ExactForm, warm: Sequence[int]) -> Minimiser:
-    """A minimiser with positive multipliers: any subset of the warm rows that has them."""
+    """A minimiser with positive multipliers: equations, and any of the warm rows that have them."""
     working = tuple(warm)
     while True:
         minimiser = Minimiser(form, working)
@@ -121,10 +127,26 @@ def _start(form: ExactForm, warm: Sequence[int]) -> Minimiser:
         except ZeroDivisionError:
             working = independent_rows(form, working)
             continue
-        positive = tuple(i for i, ball in zip(working, y, strict=True) if ball > 0)
+        rows = zip(working, y, strict=True)
+        positive = tuple(i for i, ball in rows if i < form.equations or ball > 0)
         if positive == working:
             return minimiser
         working = positive
+
+
+def _contradicted_equation(form: ExactForm, working: Sequence[int]) -> Combination | None:
+    """The proof that an equation outside of W, which depends on those in W, contradicts them."""
+    held = [i for i in working if i < form.equations]
+    for p in sorted({*range(form.equations)} - {*held}):
+        c = combination(form, held, p)
+        assert c is not None  # W has as many independent equations as there are
+        y = dict(zip([*held, p], [*(-c_j for c_j in c), fmpq(1)], strict=True))
+        constants = (y_i * fraction(form.exact_rows([i])[0][-1]) for i, y_i in y.items())
+        total = sum(constants, fmpq(0))
+        if total:
+            sign = -1 if total > 0 else 1
+            return Combination({i: sign * y_i for i, y_i in y.items() if y_i})
+    return None
 
 
 def _walk(minimiser: Minimiser, p: int) -> Minimiser | Combination:
@@ -146,9 +168,9 @@ def _walk(minimiser: Minimiser, p: int) -> Minimiser | Combination:
 def _first_to_vanish(minimiser: Minimiser, line: Line) -> int | None:
     """Ratio test: index in W of the multiplier that vanishes first on a line, or None.
 
-    l are the multipliers on W. The line goes towards u, those on W and p, or along u = -c. The
-    index is that of the least l_j / -u_j over u_j < 0; of a tie the first of W. (On the line
-    towards u the fraction l_j / (l_j - u_j) has the same order.)
+    Equations, the first of W, are passed over. l are the multipliers on W. The line goes towards
+    u, those on W and p, or along u = -c. The index is that of the least l_j / -u_j over u_j < 0; of
+    a tie the first of W. (On the line towards u the fraction l_j / (l_j - u_j) has the same order.)
 
     After a row has left, the method is at a point inside the line towards u, not at its start,
     where the multiplier of p is zero. The ratios of the whole line are valid all the same: a
@@ -158,10 +180,12 @@ def _first_to_vanish(minimiser: Minimiser, line: Line) -> int | None:
     No sign of u_j is decided where balls show that, even if it falls, another vanishes before.
     """
     u = line.ends
-    shown = [j for j, ball in enumerate(u) if ball < 0]
+    free = sum(i < minimiser.form.equations for i in minimiser.working)
+    signed = [*enumerate(u)][free:]
+    shown = [j for j, ball in signed if ball < 0]
     one = min(shown, key=lambda j: float(minimiser.balls.y[j] / -u[j]), default=None)
     first = None
-    for j, ball in enumerate(u):
+    for j, ball in signed:
         if ball > 0 or (one is not None and _difference(minimiser, line, j, one) > 0):
             continue
         falls = ball < 0 or line.end(j) < 0

@@ -1,7 +1,8 @@
 r"""Whether the multipliers are unique and the displacement differentiable, decided exactly.
 
 Let Z be the rows without slack at the optimum x, W in Z a working set with positive multipliers,
-and E = Z \ W. A row is *strictly active* if its multiplier is positive in some optimal lam.
+and E = Z \ W. Equations are in W, with multipliers of any sign, or follow from those that are.
+A row is *strictly active* if its multiplier is positive in some optimal lam.
 
 - The multipliers are unique iff A_Z' c = 0 and c_E >= 0 imply c_E = 0; by Gordan's theorem, iff
   some v has A_W v = 0 and A_E v > 0.
@@ -22,9 +23,8 @@ from flint import arb, arb_mat, fmpz
 
 from quasistatic_ref.certify.active_set import dual_active_set
 from quasistatic_ref.certify.dependence import implied
-from quasistatic_ref.certify.form import EXACT, ExactForm, MatrixForm, exact_matrix
+from quasistatic_ref.certify.form import ExactForm, MatrixForm, exact_matrix
 from quasistatic_ref.certify.minimiser import Minimiser
-from quasistatic_ref.numbers.precision import working_precision
 
 
 def degeneracy(
@@ -36,7 +36,7 @@ def degeneracy(
     ----------
     form : ExactForm
     working : sequence of int
-        W: independent rows without slack, all multipliers positive.
+        W: independent rows without slack, all multipliers positive but those of equations.
     implied_rows, tight_rows : sequence of int
         E: the other rows without slack, divided into those that W implies and the others.
 
@@ -78,12 +78,11 @@ def feasible(
     """
     n = form.n
     held = form.exact_rows(working)
-    with working_precision(EXACT):
-        opposite = [[-a for a in row] for row in held]
-    sides = zip([*held, *opposite, *bounded], [*[0] * (2 * len(held)), *least], strict=True)
+    sides = zip([*held, *bounded], [*[0] * len(held), *least], strict=True)
     feasibility = MatrixForm(
         H=exact_matrix(np.eye(n)),
         g=arb_mat(n, 1),
         rows=arb_mat([[*row[:n], arb(-b)] for row, b in sides]),
+        equations=len(held),
     )
-    return isinstance(dual_active_set(feasibility, range(len(held))), Minimiser)
+    return isinstance(dual_active_set(feasibility), Minimiser)

@@ -53,11 +53,12 @@ class ExactOptimum:
     delta_q : ndarray, shape (n_v,)
         [m, rad].
     lam : ndarray, shape (m,)
-        Basic multipliers [N s]: positive on the working set, zero elsewhere.
+        Basic multipliers [N s]: zero outside of the working set, positive on it, but those of
+        equations.
     net : ndarray, shape (n_v,)
         A'lam [N s, N m s].
     working_set : tuple of int
-        Rows in increasing order, independent, with positive multipliers.
+        Rows in increasing order, independent, with positive multipliers where no equations.
     multipliers_unique : bool
     differentiable : bool
         With respect to g; see :mod:`~quasistatic_ref.certify.degeneracy`.
@@ -65,7 +66,7 @@ class ExactOptimum:
         Smallest slack [m] of the rows that are not strictly active: 0.0 where delta_q is not
         differentiable, otherwise the smallest that is not zero; None if there are no such rows.
     smallest_active_multiplier : float or None
-        Smallest of lam [N s] on the working set; None if that is empty.
+        Smallest of lam [N s] on the working set, equations left out; None if there is no other.
     walks : int
         Violated rows that were added to the warm start: zero if it was right.
     """
@@ -109,8 +110,8 @@ def _rounded(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
     working = minimiser.working
     unique, smooth = degeneracy(form, working, minimiser.implied_rows, minimiser.tight_rows)
     lam = np.zeros(form.m)
-    lam_w = minimiser.rounded(lambda m: m.y, form.h)
-    lam[list(working)] = lam_w
+    lam[list(working)] = minimiser.rounded(lambda m: m.y, form.h)
+    pressed = [i for i in working if i >= form.equations]
     return ExactOptimum(
         delta_q=minimiser.rounded(lambda m: m.x),
         lam=lam,
@@ -119,7 +120,7 @@ def _rounded(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
         multipliers_unique=unique,
         differentiable=smooth,
         smallest_inactive_slack=minimiser.smallest_slack() if smooth else 0.0,
-        smallest_active_multiplier=float(lam_w.min()) if working else None,
+        smallest_active_multiplier=float(lam[pressed].min()) if pressed else None,
         walks=minimiser.walks,
     )
 

@@ -7,6 +7,8 @@ split the ties between the rows of a sticking contact.
 
 .. math:: \min \tfrac12 x^T H x - g^T x \quad\text{s.t.}\quad a_i^T x + c_i \ge 0, \quad c = -b.
 
+The first rows of a form may be equations, :math:`a_i^T x + c_i = 0`; a step has none.
+
 H is positive definite, as ``step/data.py`` has checked. It is block diagonal, or one block where a
 user's cost is in it. Eq. :eq:`eq-13` is taken times h, because M_u / h is a quotient. So its
 multipliers are y = h lam, and on a working set W, without a cost,
@@ -96,6 +98,8 @@ class ExactForm(ABC):
     ----------
     n, m : int
         Numbers of coordinates and of rows.
+    equations : int
+        Number of equations, which are the first rows.
     H : arb_mat
         Positive definite, shape (n, n).
     H_inverse : arb_mat
@@ -108,6 +112,7 @@ class ExactForm(ABC):
 
     n: int
     m: int
+    equations: int = 0
     H: arb_mat
     H_inverse: arb_mat
     g: arb_mat
@@ -208,11 +213,14 @@ class MatrixForm(ExactForm):
         Shape (n, 1).
     rows : arb_mat
         [a, c] of each row, shape (m, n + 1).
+    equations : int
+        How many of the first rows are equations.
     """
 
-    def __init__(self, H: arb_mat, g: arb_mat, rows: arb_mat) -> None:
+    def __init__(self, H: arb_mat, g: arb_mat, rows: arb_mat, *, equations: int = 0) -> None:
         self.n = H.nrows()
         self.m = rows.nrows()
+        self.equations = equations
         self.H = H
         self.H_inverse = inverse(H)
         self.g = g

@@ -197,9 +197,13 @@ class Minimiser:
         return fraction(self.fractions.y[j])
 
     def positive(self) -> tuple[int, ...]:
-        """The rows of the working set whose multipliers are positive."""
-        y = enumerate(self.balls.y)
-        signs = [_sign(v if v > 0 or v < 0 else self.fractions.y[j]) for j, v in y]
+        """The rows of the working set that are equations, or whose multipliers are positive."""
+        equations = self.form.equations
+        rows = zip(self.working, self.balls.y, strict=True)
+        signs = (
+            1 if i < equations else _sign(v if v > 0 or v < 0 else self.fractions.y[j])
+            for j, (i, v) in enumerate(rows)
+        )
         return tuple(i for i, sign in zip(self.working, signs, strict=True) if sign > 0)
 
     @cached_property

@@ -22,7 +22,7 @@ from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.curved_cone import curved_cone
 from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
-from quasistatic_ref.certify.groups import Group, group_steps
+from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
 from quasistatic_ref.certify.rows import flat_rows, row_owners
 from quasistatic_ref.certify.solution import StepSolution
@@ -137,7 +137,9 @@ def verify_answer(
             times_h = exact.denominator * form.h
         delta_q_exact[group.coordinates] = rounded_quotients(exact.x, exact.denominator)
         lam_exact[group.rows[working_rows]] = rounded_quotients(exact.y, times_h)
-        reason = reason or _wrong_sign(step, group, working_rows, exact.y, slack)
+        wrong = wrong_sign(form, working_rows, exact.y, slack)
+        if wrong is not None and not reason:
+            reason = _in_words(step, group.rows[wrong[0]], wrong[1])
         solved.append((form, working_rows, exact, slack))
     reason = reason or wrong_bits("delta_q", delta_q, delta_q_exact)
     if lam is not None and not reason:
@@ -147,17 +149,47 @@ def verify_answer(
     return Verdict(not reason, reason)
 
 
-def _wrong_sign(
-    step: StepData, group: Group, working: Sequence[int], y: Sequence[arb], slack: Sequence[arb]
-) -> str:
+def wrong_sign(
+    form: ExactForm, working: Sequence[int], y: Sequence[arb], slack: Sequence[arb]
+) -> tuple[int, str] | None:
+    """The first row that the minimiser on a working set does not do right, and what is wrong.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+    y, slack : sequence of arb
+        Multipliers of the working set and all slacks, exact, times a positive number.
+
+    Returns
+    -------
+    (int, str) or None
+        The row, and ``"violated"``, ``"negative"`` or ``"zero"``: the last two of its multiplier.
+    """
     for i, y_i in zip(working, y, strict=True):
-        if y_i <= 0:
-            sign = "negative" if y_i < 0 else "zero"
-            return f"the multiplier of {_row_name(step, group.rows[i])} is {sign}"
-    for i, slack_i in zip(group.rows, slack, strict=True):
-        if slack_i < 0:
-            return f"{_row_name(step, i)} is violated by the minimiser on the working set"
-    return ""
+        if i >= form.equations and y_i <= 0:
+            return i, "negative" if y_i < 0 else "zero"
+    for i, slack_i in enumerate(slack):
+        if slack_i < 0 or (i < form.equations and slack_i > 0):
+            return i, "violated"
+    return None
+
+
+def unique_and_smooth(
+    form: ExactForm, working: Sequence[int], slack: Sequence[arb]
+) -> tuple[bool, bool]:
+    """Whether multipliers are unique, and x differentiable, where all signs are right.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+    slack : sequence of arb
+        All slacks, exact, times a positive number.
+    """
+    idle = [i for i, s in enumerate(slack) if s.is_zero() and i not in working]
+    of_W = Minimiser(form, tuple(working)).implied(idle)
+    return degeneracy(form, working, of_W, [i for i in idle if i not in of_W])
 
 
 def _wrong_claim(
@@ -169,10 +201,7 @@ def _wrong_claim(
     unique = smooth = True
     slacks: list[float] = []
     for form, working, exact, slack in solved:
-        idle = [i for i, s in enumerate(slack) if s.is_zero() and i not in working]
-        of_W = Minimiser(form, tuple(working)).implied(idle)
-        others = [i for i in idle if i not in of_W]
-        is_unique, is_smooth = degeneracy(form, working, of_W, others)
+        is_unique, is_smooth = unique_and_smooth(form, working, slack)
         unique = unique and is_unique
         smooth = smooth and is_smooth
         inactive = [s for s in slack if not s.is_zero()]
@@ -189,6 +218,9 @@ def _wrong_claim(
     return next(filter(None, wrong), "")
 
 
-def _row_name(step: StepData, i: int) -> str:
+def _in_words(step: StepData, i: int, wrong: str) -> str:
     ((owner, (name,)),) = row_owners(step, [i]).items()
-    return f"row {name} of {owner}"
+    row = f"row {name} of {owner}"
+    if wrong == "violated":
+        return f"{row} is violated by the minimiser on the working set"
+    return f"the multiplier of {row} is {wrong}"
