@@ -3,10 +3,8 @@
 import json
 import re
 import resource
-import struct
 from pathlib import Path
 
-import laspy
 import numpy as np
 import pytest
 import trimesh
@@ -37,7 +35,6 @@ from tests.model.readers.test_mesh_files import (
     COLLADA,
     TETRAHEDRON,
     exported,
-    of_3mf,
     plain_gltf,
 )
 from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
@@ -102,11 +99,6 @@ def read_by_others(path):
         view = tree["bufferViews"][at]
         return np.frombuffer(content, "<f4", view["byteLength"] // 4,
                              start + view.get("byteOffset", 0)).reshape(-1, 3)  # fmt: skip
-    if path.suffix == ".las":
-        first, size, count = struct.unpack("<I 4x x H I", content[96:111])
-        scale, offset = np.array(struct.unpack("<6d", content[131:179])).reshape(2, 3)
-        rows = [struct.unpack_from("<3i", content, first + k * size) for k in range(count)]
-        return scale * rows + offset
     lines = re.split(rb"DATA ascii\n|x,y,z,.*\n", content)[-1].splitlines()
     lines = [line.partition(b"#")[0].strip() for line in lines]
     rows = [line.split(b"," if b"," in line else None) for line in lines if line]
@@ -136,13 +128,11 @@ READERS = {
     "m.ply": mesh_read,
     "m.gltf": mesh_read,
     "m.glb": mesh_read,
-    "m.3mf": mesh_read,
     "m.dae": mesh_read,
     "c.xyz": points_read,
     "c.csv": points_read,
     "c.ply": point_cloud,
     "c.pcd": points_read,
-    "c.las": points_read,
     "c.npy": point_cloud,
     "c.npz": point_cloud,
     "step.json": step_solved,
@@ -165,9 +155,6 @@ def good(tmp_path_factory):
     answers_written(folder, "rows", "mine", {"one": {"A": [[1.0]], "b": [1.0]}})
     for name, save in (("c.npy", np.save), ("c.npz", np.savez)):
         save(folder / name, POINTS)
-    las = laspy.LasData(laspy.LasHeader(point_format=0, version="1.2"))
-    las.x, las.y, las.z = POINTS.T
-    las.write(folder / "c.las")
     contents = {
         "r.urdf": (models_folder() / "door" / "door.urdf").read_bytes(),
         "m.obj": TETRAHEDRON.encode(),
@@ -177,7 +164,6 @@ def good(tmp_path_factory):
         "m.ply": exported("ply"),
         "m.gltf": plain_gltf(),
         "m.glb": exported("glb"),
-        "m.3mf": of_3mf(),
         "m.dae": COLLADA.encode(),
         "c.xyz": b"0 0 0\n1 0 0\n",
         "c.csv": b"x,y,z,blue\n0,0,0,255\n1,0,0,255\n",

@@ -3,8 +3,8 @@
     python -m validation.make.public_files
 
 Packages are downloaded, at the versions below, into a temporary folder; nothing is installed. Each
-URDF is read by pinocchio too, each MJCF scene by MuJoCo, each mesh by trimesh, each PCD by pypcd4
-and each LAS by laspy. Writes validation/results/public_files.md. ``--count N`` takes at most N
+URDF is read by pinocchio too, each MJCF scene by MuJoCo, each mesh by trimesh and each PCD by
+pypcd4. Writes validation/results/public_files.md. ``--count N`` takes at most N
 files of each kind of a package, spread evenly over them.
 """
 
@@ -45,9 +45,9 @@ WHEELS = (
     "mujoco-mjx==3.17.0",
     "gymnasium==1.4.0",
 )
-SOURCES = ("pypcd4==1.5.1", "laspy==2.7.0")
+SOURCES = ("pypcd4==1.5.1",)
 """Packages whose files are those of their tests."""
-MESHES = (".stl", ".obj", ".dae", ".glb", ".3mf", ".off", ".ply")
+MESHES = (".stl", ".obj", ".dae", ".glb", ".off", ".ply")
 CLOSE = 1e-6
 """Relative difference of numbers that are the same."""
 SECONDS = 60
@@ -150,13 +150,6 @@ def of_pcd(path: Path) -> dict[str, float]:
     return of_points(pypcd4.PointCloud.from_path(path).numpy(("x", "y", "z")))
 
 
-def of_las(path: Path) -> dict[str, float]:
-    """The same by laspy."""
-    import laspy
-
-    return of_points(np.asarray(laspy.read(path).xyz))
-
-
 def of_mjcf(path: Path) -> dict[str, float]:
     """Coordinates and geoms of a scene that runs; only a step that fails is taken with a proof."""
     model = compiled_model(path, [path.parents[2]])
@@ -181,7 +174,6 @@ READERS: dict[str, tuple[Reader, Reader]] = {
     "MJCF": (of_mjcf, of_mujoco),
     "mesh": (of_mesh, of_trimesh),
     "PCD": (of_cloud, of_pcd),
-    "LAS": (of_cloud, of_las),
 }
 
 
@@ -195,7 +187,7 @@ def kind_of(path: Path) -> str:
             return ""
         whole = root.tag == "mujoco" and root.find("worldbody") is not None
         return "MJCF" if whole else ""
-    kinds = {".urdf": "URDF", ".pcd": "PCD", ".las": "LAS"}
+    kinds = {".urdf": "URDF", ".pcd": "PCD"}
     return "mesh" if suffix in MESHES else kinds.get(suffix, "")
 
 

@@ -9,9 +9,7 @@ from quasistatic_ref.parts import needing
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    formats = (
-        "a cloud (CSV, XYZ, PTS, PCD, LAS, NPY, NPZ) or a mesh (STL, OBJ, PLY, OFF, GLB, 3MF, DAE)"
-    )
+    formats = "a cloud (CSV, XYZ, PTS, PCD, NPY, NPZ) or a mesh (STL, OBJ, PLY, OFF, GLB, DAE)"
     parser.add_argument("scan", type=Path, help=formats)
     weight = parser.add_mutually_exclusive_group(required=True)
     weight.add_argument("--mass", type=float, metavar="KG", help="of the body [kg]")

@@ -33,8 +33,7 @@ def point_cloud(path: str | Path) -> PointCloud:
         by spaces, commas, semicolons or tabs; ``#`` starts a comment. A header may name columns x,
         y and z among others; a first line of one whole number is the number of points.
         ``.ply``, ``.off``, ``.obj``: the vertices. ``.pcd``: the fields x, y and z, with pypcd4.
-        ``.las``: scaled, with laspy. ``.npy``: an
-        array of shape (N, 3); ``.npz``: its one array, or the one named ``points``.
+        ``.npy``: an array of shape (N, 3); ``.npz``: its one array, or the one named ``points``.
 
     Returns
     -------
@@ -152,7 +151,7 @@ TEXTS = (".xyz", ".csv", ".txt", ".pts")
 """Extensions of texts of columns."""
 VERTICES = (".off", ".obj")
 """Extensions of files whose vertices are taken."""
-OF_PART = (".ply", ".pcd", ".las", ".npy", ".npz")
+OF_PART = (".ply", ".pcd", ".npy", ".npz")
 """Extensions of files that ``optional/readers`` reads."""
 KINDS = (*TEXTS, *VERTICES, *OF_PART)
 

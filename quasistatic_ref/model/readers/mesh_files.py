@@ -12,7 +12,7 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import file_mesh
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull, hull_of_mesh
 
-MESHES = (".stl", ".obj", ".off", ".ply", ".gltf", ".glb", ".dae", ".3mf")
+MESHES = (".stl", ".obj", ".off", ".ply", ".gltf", ".glb", ".dae")
 """Extensions of files that ``optional/readers`` reads."""
 PACKAGE = "package://"
 LARGEST_MESH = 16 * 2**20

@@ -1,4 +1,4 @@
-"""The XML of URDF, COLLADA and 3MF files: parsed without declarations, and not without end."""
+"""The XML of URDF and COLLADA files: parsed without declarations, and not without end."""
 
 import re
 from xml.etree.ElementTree import Element, TreeBuilder

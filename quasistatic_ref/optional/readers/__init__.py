@@ -1,1 +1,1 @@
-"""Meshes, and further formats of clouds: PLY, PCD, LAS and NumPy's arrays."""
+"""Meshes, and further formats of clouds: PLY, PCD and NumPy's arrays."""

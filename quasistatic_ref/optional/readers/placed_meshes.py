@@ -1,4 +1,4 @@
-"""Meshes in glTF, COLLADA and 3MF, which place parts many times: read by trimesh.
+"""Meshes in glTF and COLLADA, which place parts many times: read by trimesh.
 
 Before it reads a file, the sizes that the file states are compared with the file, and what it
 places is counted; afterwards it must have read as many triangles.
@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 from urllib.parse import unquote
 from xml.etree.ElementTree import Element, tostring
-from zipfile import ZipFile
 
 import numpy as np
 
@@ -43,8 +42,6 @@ LOOKS = (
     *("library_cameras", "instance_camera", "library_lights", "instance_light"),
 )
 """Elements of COLLADA that place nothing; one that is broken costs pycollada the geometry."""
-UNITS = ("micron", "millimeter", "centimeter", "inch", "foot", "meter")
-"""Units of 3MF."""
 
 
 class _Part(NamedTuple):
@@ -297,61 +294,10 @@ def _collada_triangles(primitive: Element) -> int:
     return sum(max(0, count - 2) for count in corners)
 
 
-def _threemf(path: Path, content: bytes) -> _Stated:
-    """A 3MF, of which the models are kept."""
-    needed_package("lxml", "3mf", "a .3mf mesh")
-    models: dict[str, bytes] = {}
-    with ZipFile(BytesIO(content)) as archive:
-        members = [one for one in archive.infolist() if one.filename.lower().endswith(".model")]
-        check_unpacked(sum(member.file_size for member in members))
-        for member in members:
-            models[member.filename] = archive.read(member)
-    check_equal("models of different names", len(models), len(members))
-    parts: dict[Hashable, _Part] = {}
-    top: list[Hashable] = []
-    for name, model in models.items():
-        root = xml_root(text_of(model, path, ModelError))
-        for one in root.iter("object"):
-            vertices, triangles = _checked_3mf(one)
-            below = [_named_3mf(part, name) for part in one.iter("component")]
-            parts[f"{name}#{one.get('id')}"] = _Part(vertices + triangles, triangles, below)
-        if name.lower().endswith("3d/3dmodel.model"):
-            if root.get("unit", "millimeter") not in UNITS:
-                raise ModelError(f"must be one of {', '.join(UNITS)}", field="unit")
-            top = [_named_3mf(item, name) for item in root.findall("build/item")]
-    with about_field("build"):
-        count = _placed_triangles(parts, top)
-    kept = BytesIO()
-    with ZipFile(kept, "w") as archive:
-        for name, model in models.items():
-            archive.writestr(name, model)
-    return _Stated("3mf", kept.getvalue(), count)
-
-
-def _named_3mf(part: Element, model: str) -> str:
-    """The model and the number of the object that an item or a component names."""
-    path = next((v for name, v in part.items() if name.endswith("path")), model)
-    return f"{path.lstrip('/')}#{part.get('objectid')}"
-
-
-def _checked_3mf(one: Element) -> tuple[int, int]:
-    """How many vertices and triangles an object has, all of which are numbers."""
-    points, faces = list(one.iter("vertex")), list(one.iter("triangle"))
-    for point in points:
-        for axis in "xyz":
-            decimal(point.get(axis, ""))
-    for face in faces:
-        for corner in ("v1", "v2", "v3"):
-            if not 0 <= int(face.get(corner, -1)) < len(points):
-                raise ModelError("must be the number of a vertex", field=corner)
-    return len(points), len(faces)
-
-
 PLACED: Final[dict[str, Callable[[Path, bytes], _Stated]]] = {
     ".gltf": _gltf,
     ".glb": _gltf,
     ".dae": _collada,
-    ".3mf": _threemf,
 }
 """Extension -> such a file, of which the sizes were compared."""
 

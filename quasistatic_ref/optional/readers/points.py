@@ -1,4 +1,4 @@
-"""Points of clouds in further formats, each by a library: trimesh, pypcd4, laspy."""
+"""Points of clouds in further formats, each by a library: trimesh, pypcd4."""
 
 import io
 import re
@@ -20,10 +20,6 @@ from quasistatic_ref.parts import needed_package
 
 LARGEST_HEADER = 2**20
 """Bytes in which the header of a PCD ends."""
-VLRS, EVLRS = 100, 243
-"""Where a LAS states how many records of variable length it has, and how many extended ones."""
-LEAST_RECORD = 54
-"""Bytes of the shortest."""
 PCD_LINES = ("FIELDS", "SIZE", "COUNT", "WIDTH", "HEIGHT", "POINTS", "TYPE", "DATA")
 """What it must have."""
 
@@ -92,24 +88,6 @@ def _check_pcd(content: bytes) -> None:
         raise ModelError(f"must be {stated}", field="points", value=len(body) // row)
 
 
-def _las(path: Path) -> Array:
-    laspy = needed_package("laspy", "las", "a .las cloud")
-    content = bytes_read(path, ModelError)
-    (records,) = np.frombuffer(content[VLRS : VLRS + 4].ljust(4, b"\0"), "<u4").tolist()
-    (extended,) = np.frombuffer(content[EVLRS : EVLRS + 4].ljust(4, b"\0"), "<u4").tolist()
-    has_extended = content[24:26] >= b"\x01\x04"  # version 1.4
-    if LEAST_RECORD * max(records, has_extended and extended) > len(content):
-        raise ModelError("is cut off: it has no room for its records", value=records)
-    with laspy.open(io.BytesIO(content)) as reader:
-        header = reader.header
-        check_points(header.point_count)
-        room = len(content) - header.offset_to_point_data
-        if room < header.point_count * header.point_format.size:
-            value = max(0, room // header.point_format.size)
-            raise ModelError(f"must be {header.point_count}", field="points", value=value)
-        return np.asarray(reader.read().xyz)
-
-
 def _npz(path: Path) -> NDArray[Any]:
     arrays = npz_arrays(path, "a file of NumPy's arrays")
     name = "points" if "points" in arrays else next(iter(arrays), "")
@@ -128,7 +106,6 @@ def _npy(path: Path) -> NDArray[Any]:
 KINDS: Final[dict[str, Callable[[Path], NDArray[Any]]]] = {
     ".ply": _ply,
     ".pcd": _pcd,
-    ".las": _las,
     ".npy": _npy,
     ".npz": _npz,
 }

@@ -127,7 +127,7 @@ def scanned_body(
     Parameters
     ----------
     scan : str or Path
-        A cloud (CSV, XYZ, PCD, NPY, NPZ) or a mesh (STL, OBJ, PLY, OFF, GLB, 3MF, DAE); one without
+        A cloud (CSV, XYZ, PCD, NPY, NPZ) or a mesh (STL, OBJ, PLY, OFF, GLB, DAE); one without
         faces is a cloud.
     mass : float, optional
         [kg].
