@@ -3,7 +3,7 @@
 import csv
 import io
 import math
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
 from itertools import product
@@ -15,22 +15,19 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import (
     json_text,
-    text_read,
     text_written,
     writable_folder,
 )
 from quasistatic_ref.formats.quoting import no_formula
 from quasistatic_ref.formats.resources import scenario_path
-from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.parallel import workers as workers_here
-from quasistatic_ref.lab.run_settings import fingerprint, run_settings
 from quasistatic_ref.optional.doctor.telling import measures
 from quasistatic_ref.scenario.overrides import parsed
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar
-from quasistatic_ref.simulate.trajectory import Trajectory, load_trajectory, save_trajectory
+from quasistatic_ref.simulate.trajectory import Trajectory, save_trajectory
 from quasistatic_ref.tolerances import LARGE
 
 TABLE = "runs.csv"
@@ -55,8 +52,7 @@ def simulate_many(
 ) -> list[Row]:
     """Run a scenario with every combination of some values, several runs at a time.
 
-    A run that ends early is a result, too. What was run is in the folder: the same call, after an
-    interruption, makes the runs that are missing, and those whose files are spoilt.
+    A run that ends early is a result, too.
 
     Parameters
     ----------
@@ -67,8 +63,7 @@ def simulate_many(
         same values, their names with commas between.
     folder : str or Path
         For ``runs.csv``, one line a run, also after an interruption, and ``runs/*.npz``, one light
-        trajectory a run, named by all that decides its numbers: the scenario, the values, the
-        settings, robots, shapes and versions.
+        trajectory a run, numbered in the order of the values. It has no runs yet.
     settings : sequence of str
         Changes of the scenario that all runs have, as :func:`.load_scenario` takes them.
     workers : int, optional
@@ -88,8 +83,8 @@ def simulate_many(
     Raises
     ------
     InputError
-        If a field, a value or any of the scenarios is unusable, or the folder holds other runs, or
-        another sweep or study writes into it: before anything is written.
+        If a field, a value or any of the scenarios is unusable, or the folder holds runs: before
+        anything is written.
     """
     grid = {name: _value_list(name, values) for name, values in variations.items()}
     count = math.prod(map(len, grid.values()))
@@ -107,38 +102,25 @@ def simulate_many(
     )
     with here as pool:
         # An error of any of the scenarios is raised here.
-        digests = list((pool.map if pool else map)(run_digest, [source] * count, changes))
-        files = [_file(path.stem, digest, list(grid)) for digest in digests]
-        folder = Path(folder)
-        with locked(folder):
-            _check_folder(folder, {*files})
-            writable_folder(folder / RUNS)
-            reader = None if executor else pool
-            kept = [(file, folder) for file in files if (folder / file).exists()]
-            done: dict[str, Row] = {}
-            with progress_bar(total=count, unit="run", shown=progress) as bar:
-                for file, row in results(reader, row_of_kept, kept):
-                    if row is not None:
-                        done[file] = row
-                        bar.update()
-                todo = [
-                    (file, source, changed)
-                    for file, changed in zip(files, changes, strict=True)
-                    if file not in done
+        list((pool.map if pool else map)(check_scenario, [source] * count, changes))
+        folder = _new_folder(Path(folder))
+        files = [f"{RUNS}/{path.stem}_{k:0{len(str(count - 1))}}.npz" for k in range(count)]
+        done: dict[str, Row] = {}
+        with progress_bar(total=count, unit="run", shown=progress) as bar:
+            try:
+                tasks = [(file, source, one) for file, one in zip(files, changes, strict=True)]
+                for file, trajectory, row in results(pool, run_of, tasks):
+                    save_trajectory(folder / file, trajectory)
+                    done[file] = row
+                    bar.update()
+            finally:  # what is done so far, if it is interrupted
+                rows = [
+                    {"run": file, "values": point, **done[file]}
+                    for file, point in zip(files, points, strict=True)
+                    if file in done
                 ]
-                try:
-                    for file, trajectory, row in results(pool, run_of, todo):
-                        save_trajectory(folder / file, trajectory)
-                        done[file] = row
-                        bar.update()
-                finally:  # what is done so far, if it is interrupted
-                    rows = [
-                        {"run": file, "values": point, **done[file]}
-                        for file, point in zip(files, points, strict=True)
-                        if file in done
-                    ]
-                    if rows:
-                        text_written(folder / TABLE, _table(rows))
+                if rows:
+                    text_written(folder / TABLE, _table(rows))
     return rows
 
 
@@ -190,11 +172,9 @@ def _changes(point: Mapping[str, Any], settings: Sequence[str]) -> list[str]:
     return [*settings, *fields, 'record="light"', "fast=true"]
 
 
-def run_digest(scenario: str, changes: Sequence[str]) -> str:
-    """SHA-256 of what decides the bits of a run; InputError as :func:`.load_scenario` has it."""
-    loaded = load_scenario(scenario, changes)
-    decisive = run_settings(loaded.simulator(), loaded.system.q_start, loaded.record)
-    return fingerprint((loaded.path.read_bytes(), tuple(changes), tuple(decisive.items())))
+def check_scenario(scenario: str, changes: Sequence[str]) -> None:
+    """InputError as :func:`.load_scenario` and the simulator of its scenario have it."""
+    load_scenario(scenario, changes).simulator()
 
 
 def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Trajectory, Row]:
@@ -214,36 +194,17 @@ def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Traje
     return file, trajectory, _row(trajectory)
 
 
-def row_of_kept(file: str, folder: Path) -> tuple[str, Row | None]:
-    """The name of a file, and the row of the run in it; None if it is spoilt."""
+def _new_folder(folder: Path) -> Path:
+    """The folder, with one for trajectories in it; InputError if it has runs already."""
+    writable_folder(folder)
+    refusal = InputError("holds runs already; choose another folder", file=folder)
+    if (folder / TABLE).exists():
+        raise refusal
     try:
-        return file, _row(load_trajectory(folder / file))
-    except InputError:
-        return file, None
-
-
-def _file(name: str, digest: str, fields: Sequence[str]) -> str:
-    """Where the trajectory of a run is kept, in the folder of the table with these fields."""
-    return f"{RUNS}/{name}_{fingerprint((digest, *fields))[:12]}.npz"
-
-
-def _check_folder(folder: Path, files: Set[str]) -> None:
-    """Refuse a folder that holds runs that are not of this sweep."""
-    others = {f"{RUNS}/{path.name}" for path in (folder / RUNS).glob("*.npz")}
-    if (table := folder / TABLE).exists():
-        text = text_read(table)
-        try:
-            others |= {line[0] for line in list(csv.reader(io.StringIO(text)))[1:]}
-        except (csv.Error, IndexError):  # a cell without end, an empty line
-            raise InputError("is no table of a sweep; remove it", file=table) from None
-    others -= files
-    if others:
-        problem = (
-            "holds runs that this sweep does not have: of another scenario, of other fields, "
-            "values or settings, or from before a file of the scene, or a version, changed; choose "
-            "another folder, or remove this one"
-        )
-        raise InputError(problem, file=folder, value=min(others))
+        (folder / RUNS).mkdir()  # by one sweep alone
+    except FileExistsError:
+        raise refusal from None
+    return folder
 
 
 def _row(trajectory: Trajectory) -> Row:

@@ -16,7 +16,7 @@ OF_ONE_RUN = ("view", "strict", "table")
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run all of them; those that are there are not run again. Status 1 if any was not done.
+    """Run all of them. Status 1 if any was not done.
 
     Raises
     ------

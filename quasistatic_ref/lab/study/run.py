@@ -14,11 +14,11 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_read, json_text, text_written
+from quasistatic_ref.lab.fingerprint import fingerprint
 from quasistatic_ref.lab.folders import CONTACT_QP
 from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.machine import machine
 from quasistatic_ref.lab.parallel import results
-from quasistatic_ref.lab.run_settings import fingerprint
 from quasistatic_ref.lab.study.accepted import check_options
 from quasistatic_ref.lab.study.doors import neighbour
 from quasistatic_ref.lab.study.grade import grades, problem_forms, ungraded_fields

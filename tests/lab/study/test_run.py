@@ -96,7 +96,10 @@ def test_two_studies_at_once_in_one_folder_lose_no_rows(three, tmp_path):
     def of(solver):
         return study(three, [solver], folder=tmp_path)
 
-    with locked(tmp_path), pytest.raises(InputError, match="is being written by another sweep or"):
+    with (
+        locked(tmp_path),
+        pytest.raises(InputError, match="is being written by another study"),
+    ):
         of(broken.denies)
     of(broken.denies)
     assert len(of(broken.gives_up)) == len(rows_read(tmp_path)) == 2 * len(three)
