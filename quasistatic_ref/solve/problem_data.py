@@ -11,16 +11,15 @@ import cvxpy as cp
 from quasistatic_ref.solve.backends import Options
 
 if TYPE_CHECKING:
-    from cvxpy.reductions.solution import Solution
     from cvxpy.reductions.solvers.solving_chain import SolvingChain
 
-CANON = cp.CPP_CANON_BACKEND
-"""CVXPY's way of compiling, for problems of any size. From 1,000 parameters on it would choose
-another by itself, which fails at a product of mu_v with J_1 delta_q (docs/studies.md)."""
+CANON = cp.COO_CANON_BACKEND
+"""CVXPY's way of compiling, for problems of any size: the step of ten boxes in a twentieth of the
+time of the others, with the same data."""
 
-MOST_ENTRIES = 10_000
-"""Most entries of parameters whose map is compiled: of 24,000 that takes five times as long as a
-first step without it, which later steps win back in their hundreds."""
+MOST_ENTRIES = 60_000
+"""Most entries of parameters whose map is compiled. With more, CVXPY forms the data of each step
+anew, which takes less time than to compile them and to apply the map."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,12 +61,3 @@ def problem_data(problem: cp.Problem, name: str, options: Options) -> ProblemDat
 def is_large(problem: cp.Problem) -> bool:
     """Whether a problem has more entries of parameters than are compiled."""
     return bool(sum(parameter.size for parameter in problem.parameters()) > MOST_ENTRIES)
-
-
-def saved(problem: cp.Problem, solution: Solution) -> None:
-    """Save what was found in the problem, as `unpack_results`, which evaluates the cost, too."""
-    for variable in problem.variables():
-        variable.save_value(solution.primal_vars[variable.id])
-    for row in problem.constraints:
-        if row.id in solution.dual_vars:
-            row.save_dual_value(solution.dual_vars[row.id])

@@ -16,8 +16,7 @@ from quasistatic_ref.solve.greeting import greeting_silenced
 from quasistatic_ref.solve.problem_data import problem_data
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import KIND, StepData, differences
-from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.step.problem import paper_problem
+from quasistatic_ref.step.problem import paper_problem, set_values
 from quasistatic_ref.tolerances import ACCURACY
 
 Additions = Callable[["StepProblem"], Sequence[cp.Constraint | cp.Expression]]
@@ -43,6 +42,8 @@ class StepProblem:
     Attributes
     ----------
     problem : cvxpy.Problem
+    page : Page
+        The paper's, with the parameters of the step's own rows and cost.
     parameters : dict of str to cvxpy.Parameter
         What changes from step to step, by name; :meth:`fill` sets it.
     delta_q, delta_q_a, delta_q_u : cvxpy.Expression
@@ -73,6 +74,7 @@ class StepProblem:
     def __init__(self, template: StepData, additions: Additions | None = None) -> None:
         self.template = template
         page = paper_problem(template)
+        self.page = page
         self.parameters = page.parameters
         self.delta_q_a = page.delta_q_a
         self.delta_q_u = page.delta_q_u
@@ -86,10 +88,12 @@ class StepProblem:
             sides = cone(template.cone).function(*self.contact_motion)
             masked = zip(sides, template.mask.T, strict=True)
             self.contact_rows = [side[has] >= 0 for side, has in masked if has.any()]
-        A_extra = cp.Parameter(template.extra.A.shape, "A_extra")
-        b_extra = cp.Parameter(template.extra.b.shape, "b_extra")
-        self.parameters |= {"A_extra": A_extra, "b_extra": b_extra}
-        self.extra = [A_extra @ self.delta_q >= b_extra] if template.extra.names else []
+        self.extra: list[cp.Constraint] = []
+        if template.extra.names:
+            A_extra = cp.Parameter(template.extra.A.shape, "A_extra")
+            b_extra = cp.Parameter(template.extra.b.shape, "b_extra")
+            self.parameters |= {"A_extra": A_extra, "b_extra": b_extra}
+            self.extra = [A_extra @ self.delta_q >= b_extra]
         objective = page.problem.objective
         if template.extra.cost is not None:
             H_extra = cp.Parameter((template.n_v, template.n_v), "H_extra", PSD=True)
@@ -104,7 +108,7 @@ class StepProblem:
             else:
                 objective += cp.Minimize(term)
         self.problem = cp.Problem(objective, constraints)
-        self.set_parameters(template)
+        self.fill(template)
 
     def __repr__(self) -> str:
         step = self.template
@@ -112,7 +116,7 @@ class StepProblem:
         return f"<{type(self).__name__} of {size}: h = {step.h:g} s, cone {step.cone}>"
 
     def fill(self, step: StepData) -> None:
-        """Set every parameter from one step, which has checked its numbers: CVXPY need not again.
+        """Set every parameter from one step, in SI units.
 
         Raises
         ------
@@ -124,32 +128,9 @@ class StepProblem:
             value = np.asarray(KIND[name](step)).tolist()
             message = f"must be {needed!r}; make a problem of this step"
             raise StepDataError(message, field=name, value=value)
-        self.set_parameters(step)
-
-    def set_parameters(self, step: StepData) -> None:
-        """Set every parameter from a step that is known to be of the problem's kind."""
         self.step = step
         with np.errstate(over="ignore", invalid="ignore"):  # what overflows has no answer
-            J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
-            tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
-        values = {
-            "K_q": step.K_q,
-            "M_u": step.M_u,
-            "tau_k": tau_k,
-            "tau_a": step.tau_a,
-            "tau_u": step.tau_u,
-            "phi": step.contacts.phi,
-            "J_n": J_n,
-            "J_1": J_1,
-            "J_2": J_2,
-            "J_w": J_w,
-            "A_extra": step.extra.A,
-            "b_extra": step.extra.b,
-        }
-        if step.extra.cost is not None:
-            values["H_extra"], values["g_extra"] = step.extra.cost
-        for name, value in values.items():
-            self.parameters[name].save_value(value)
+            set_values(self.page, step)
 
     def solve(self, solver: str = "clarabel", accuracy: float = ACCURACY) -> Array:
         """A solver's answer to ``problem`` as it stands, found in natural units.

@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+import warnings
 from time import perf_counter
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import cvxpy as cp
 import cvxpy.settings as words
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import DEFAULT, Options
-from quasistatic_ref.solve.problem_data import ProblemData, is_large, problem_data, saved
+from quasistatic_ref.solve.problem_data import CANON, is_large
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
 from quasistatic_ref.solve.step_problem import StepProblem
-from quasistatic_ref.solve.units import StepInBothUnits, within_reach
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.data import KIND, StepData
-
-if TYPE_CHECKING:
-    from quasistatic_ref.solve.compiled import ClarabelCall, CompiledMap
+from quasistatic_ref.step.problem import set_values
 
 MOST_CONTACTS = 2000
 """Most contacts that are compiled: 6 s, in a time that grows with their square."""
@@ -57,7 +53,6 @@ class CvxpySolver(BackendSolver):
     def __init__(self, template: StepData, name: str = DEFAULT) -> None:
         super().__init__(template, name)
         self.problem = StepProblem(template)
-        self._compared = False
 
     def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:
         """The backend's answer, unless CVXPY would compile the step for minutes: StepNotSolved."""
@@ -71,9 +66,8 @@ class CvxpySolver(BackendSolver):
 
     def write(self, both: StepInBothUnits) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
-        near, out_of_reach = within_reach(both.natural_step)
-        self.problem.set_parameters(near)
-        return out_of_reach
+        set_values(self.problem.page, both.si_step, both.units)
+        return both.out_of_reach
 
     def reply(self, options: Options, both: StepInBothUnits) -> Reply:
         """What the backend says, from a cold start.
@@ -81,53 +75,11 @@ class CvxpySolver(BackendSolver):
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY
         raises TypeError on a second warm start anyway.)
         """
-        compiled, call = self._compiled
-        direct = None
-        if call is not None:
-            try:
-                direct = call.reply(options)
-            except Exception:  # CVXPY's own call says what is wrong, if anything is
-                self._compiled = compiled, None
-        if direct is not None and self._compared:
-            return direct
-        data = None if compiled is None else compiled.data(options)
-        reply = cvxpy_reply(self.problem, self.name, options, False, data)
-        if direct is not None:  # the first one: each bit has to be CVXPY's
-            self._compared = bits((direct.x, direct.lam)) == bits((reply.x, reply.lam))
-            if not self._compared:
-                self._compiled = compiled, None
-        return reply
-
-    @cached_property
-    def _compiled(self) -> tuple[CompiledMap | None, ClarabelCall | None]:
-        """The compiled map from parameters to data, and the call; the problem is filled.
-
-        None where they do not serve, or where CVXPY has moved what is private to it.
-        """
-        page = self.problem
-        if is_large(page.problem):
-            return None, None
-        template = problem_data(page.problem, self.name, {})
-        try:
-            from quasistatic_ref.solve.compiled import ClarabelCall, CompiledMap
-
-            if not CompiledMap.serves(template):
-                return None, None
-            compiled = CompiledMap(page.problem, template)
-            called = self.name == DEFAULT and cone(page.template.cone).polyhedral
-            return compiled, ClarabelCall(page, compiled) if called else None
-        except Exception:
-            return None, None
+        return cvxpy_reply(self.problem, self.name, options, warm=False)
 
 
-def cvxpy_reply(
-    compiled: CompiledProgram,
-    name: str,
-    options: Options,
-    warm: bool,
-    data: ProblemData | None = None,
-) -> Reply:
-    """The reply of a backend to a problem as its parameters stand.
+def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options, warm: bool) -> Reply:
+    """The reply of a backend to a problem as its parameters stand, by ``problem.solve``.
 
     Parameters
     ----------
@@ -138,34 +90,29 @@ def cvxpy_reply(
         In its own names.
     warm : bool
         Whether to start from the answer before.
-    data : ProblemData, optional
-        The problem's, where they are formed already.
     """
     problem = compiled.problem
     begin = perf_counter()
-    data = problem_data(problem, name, options) if data is None else data
-    solver_options = {key: value for key, value in options.items() if key != "verbose"}
-    verbose = options.get("verbose", False)
-    raw = data.chain.solve_via_data(problem, data.numbers, warm, verbose, solver_options)
-    solution = data.chain.invert(raw, data.inverse)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the status says so, too
+        problem.solve(
+            solver=name.upper(),
+            warm_start=warm,
+            canon_backend=CANON,
+            ignore_dpp=is_large(problem),
+            **options,
+        )
     seconds = perf_counter() - begin
-    status = str(solution.status)
-    if status in words.ERROR:
-        raise cp.error.SolverError(f"Solver '{name.upper()}' failed")
+    status = str(problem.status)
     known = status in words.SOLUTION_PRESENT
-    if known:  # as `unpack_results` does, which evaluates the cost of it, too
-        saved(problem, solution)
-    solve_time = solution.attr.get(words.SOLVE_TIME)
-    setup = solution.attr.get(words.SETUP_TIME)
-    iterations = solution.attr.get(words.NUM_ITERS)
-    solve_time = None if solve_time is None else float(solve_time)
+    said = problem.solver_stats
     return Reply(
         x=compiled.primal() if known else None,
         lam=compiled.dual() if known else None,
         solved=status == cp.OPTIMAL,
         status=status,
-        iterations=None if iterations is None else int(iterations),
-        seconds=solve_time,
+        iterations=None if said.num_iters is None else int(said.num_iters),
+        seconds=None if said.solve_time is None else float(said.solve_time),
         call_seconds=seconds,
-        setup=None if setup is None else float(setup),
+        setup=None if said.setup_time is None else float(said.setup_time),
     )

@@ -14,7 +14,6 @@ conversion loses nothing, unless a number leaves the range of float64.
 
 import math
 from functools import cached_property
-from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -23,39 +22,16 @@ from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.norm import energy_norm, joined, single_lengths
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.numbers.arrays import Array, Mask, all_finite, read_only
+from quasistatic_ref.numbers.arrays import Array, Mask, all_finite
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.friction import row_constants
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
+from quasistatic_ref.step.units import Units, ends_within
 from quasistatic_ref.tolerances import UNMOVED
-
-FAR: Final = 100.0
-"""Distance, in natural units [-], beyond which a contact is as good as infinitely far.
-
-The unconstrained step has a length of about one. Solvers lose digits where 1e6 and 1 stand
-together; a row that is put at 100 stays inactive, and the judge, who has the true distance, would
-notice if it did not."""
 
 SMALLEST = 2.0**-960
 """Least size of a step, over the largest of 1 and of the units of its coordinates: what is divided
 by the size, times such a unit, is a float64."""
-
-
-class Units(NamedTuple):
-    """Units of one step.
-
-    Parameters
-    ----------
-    coordinate : ndarray, shape (n_v,)
-        Diagonal of S [m or rad, per (N m s)^0.5].
-    length : float
-        ell [m per (N m s)^0.5].
-    size : float
-        rho [(N m s)^0.5].
-    """
-
-    coordinate: Array
-    length: float
-    size: float
 
 
 def coordinate_units(diagonal: Array) -> Array:
@@ -145,50 +121,6 @@ def natural_step(step: StepData, units: Units) -> StepData:
     return step.with_fields(**of_step, contacts=c.with_fields(**of_contacts), extra=extra)
 
 
-def within_reach(natural: StepData) -> tuple[StepData, Mask]:
-    """A step in natural units whose rows are all within reach, as solvers need it.
-
-    Contacts, and rows of a user's own, that are farther are nearer in it: they bear nothing.
-
-    Parameters
-    ----------
-    natural : StepData
-
-    Returns
-    -------
-    StepData
-    ndarray of bool, shape (m,)
-        Which rows were out of reach.
-    """
-    contacts = natural.contacts
-    extra = natural.extra
-    phi = np.minimum(contacts.phi, reach(contacts.J))
-    b = np.maximum(extra.b, -reach(extra.A[:, None]))
-    out_of_reach = np.concatenate([np.repeat(phi < contacts.phi, natural.counts), b > extra.b])
-    if not out_of_reach.any():
-        return natural, out_of_reach
-    near = natural.with_fields(
-        contacts=contacts.with_fields(phi=read_only(phi)),
-        extra=extra.with_fields(b=read_only(b)),
-    )
-    return near, out_of_reach
-
-
-def reach(J: Array) -> Array:
-    """How far contacts or rows may be before they are out of reach, in natural units [-].
-
-    Parameters
-    ----------
-    J : ndarray, shape (n_c, rows, n_v)
-        The rows of each.
-
-    Returns
-    -------
-    ndarray, shape (n_c,)
-    """
-    return np.asarray(FAR * np.maximum(1.0, np.sqrt(np.einsum("cij,cij->c", J, J))))
-
-
 def in_si(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
     """delta_q (n_v,) [m, rad] and lam (m,) [N s] in SI units from their values in natural units."""
     return delta_q * (units.size * units.coordinate), lam * (units.size / units.length)
@@ -276,6 +208,28 @@ class StepInBothUnits:
         """The standard form of each group in the natural units of the step."""
         form = self.natural_form
         return [of_group(form, group) for group, _ in self.parts]
+
+    @cached_property
+    def ends(self) -> tuple[Array, Array]:
+        """Phi (n_c,) and b of a user's rows within reach: natural units [-]."""
+        return ends_within(self.si_step, self.units)
+
+    @cached_property
+    def out_of_reach(self) -> Mask:
+        """Which rows are out of reach, and nearer in what solvers get: shape (m,)."""
+        step = self.si_step
+        phi, b = self.ends
+        unit = self.units.size * self.units.length
+        beyond = np.repeat(phi < step.contacts.phi / unit, step.counts)
+        return np.concatenate([beyond, b > step.extra.b / unit])
+
+    @property
+    def near_form(self) -> StandardForm:
+        """The standard form in natural units with every row within reach."""
+        phi, b_extra = self.ends
+        contacts = self.si_step.contacts.with_fields(phi=phi)
+        b = -row_constants(contacts, self.si_step.cone)[self.si_step.mask]
+        return self.natural_form._replace(b=np.concatenate([b, b_extra]))
 
     @property
     def row_ratio(self) -> float:

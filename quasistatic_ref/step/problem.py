@@ -4,12 +4,16 @@ Symbols are CVXPY objects here, except the numbers h, mu_v and mu_omega. Units a
 step, SI as a rule.
 """
 
+import math
 from dataclasses import dataclass
 
 import cvxpy as cp
+import numpy as np
+import scipy.sparse as sp
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.units import FAR, Units, ends_within, si_units
 
 
 @dataclass(eq=False)
@@ -59,16 +63,29 @@ def paper_problem(step: StepData) -> Page:
     >>> set_values(page, step)
     >>> page.problem.is_qp(), float(page.parameters["tau_u"].value[2])  # -m g [N]
     (True, -2.943)
+
+    The parameters enter as disciplined parametrized programming (DPP) asks, so that CVXPY compiles
+    the page once for all their values. ``is_dpp()`` says so inside of the scope in which CVXPY
+    counts ``quad_form(x, P)`` as affine in P. Outside it does not: there a P that is a parameter
+    counts as one that might make the form concave. CVXPY opens the scope itself when it compiles
+    the page for a solver that takes quadratic costs.
+
+    >>> from cvxpy.utilities.scopes import quad_form_dpp_scope
+    >>> with quad_form_dpp_scope():
+    ...     inside = page.problem.is_dpp()
+    >>> inside, page.problem.is_dpp()
+    (True, False)
     """
     n_a = step.n_a
     n_u = step.n_u
     n_v = step.n_v
     n_c = step.contacts.n_c
 
-    # What all these steps have in common.
+    # What all these steps have in common. A diagonal matrix is compiled in a tenth of the time that
+    # `multiply` takes.
     h = step.h
-    mu_v = step.contacts.mu_v
-    mu_omega = step.contacts.mu[:, 2]
+    mu_v = sp.diags_array(step.contacts.mu_v)
+    mu_omega = sp.diags_array(step.contacts.mu[:, 2])
     torsional = step.contacts.torsion
 
     # What changes from step to step.
@@ -91,9 +108,9 @@ def paper_problem(step: StepData) -> Page:
     # Eq. (4) is phi + [J'(n~ + d~_i)]' delta_q >= 0. In it phi + [J' n~]' delta_q is the gap, and
     # [J' d~_i]' delta_q is slip_1, slip_2, -slip_1, -slip_2, spin and -spin for i = 1 to 6.
     gap = phi + J_n @ delta_q
-    slip_1 = cp.multiply(mu_v, J_1 @ delta_q)
-    slip_2 = cp.multiply(mu_v, J_2 @ delta_q)
-    spin = cp.multiply(mu_omega, J_w @ delta_q)
+    slip_1 = mu_v @ (J_1 @ delta_q)
+    slip_2 = mu_v @ (J_2 @ delta_q)
+    spin = mu_omega @ (J_w @ delta_q)
 
     # Eq. (10): the rows of Eq. (4), of which each contact has four or six.
     rows = [
@@ -118,23 +135,54 @@ def paper_problem(step: StepData) -> Page:
     return Page(problem, parameters, delta_q_a, delta_q_u, delta_q, motion, contact_rows)
 
 
-def set_values(page: Page, step: StepData) -> None:
-    """Set the parameters of a page to those of a `step` of its kind."""
+def set_values(page: Page, step: StepData, units: Units | None = None, far: float = FAR) -> None:
+    """Set the parameters of a page to those of a `step` of its kind.
+
+    They have been checked where the step was made: ``save_value`` does not look for the eigenvalues
+    of K_q and M_u again, as an assignment to ``value`` would.
+
+    Parameters
+    ----------
+    page : Page
+        Of the step's kind; with the parameters of the step's own rows and cost, if it has any.
+    step : StepData
+        SI units.
+    units : Units, optional
+        In which the parameters are to be; SI units by default.
+    far : float
+        How far the contacts, and ends of own rows, may be in other units than SI units [-]: see
+        :func:`~quasistatic_ref.step.units.ends_within`.
+    """
+    S, ell, rho = si_units(step.n_v) if units is None else units
+    S_a = S[: step.n_a]
+    S_u = S[step.n_a :]
     contacts = step.contacts
-    J_x, J_y, J_z, J_w = contacts.J.transpose(1, 0, 2)  # Eq. (3): along the world's axes, about n
+    J = contacts.J * (S / ell)
+    J_x, J_y, J_z, J_w = J.transpose(1, 0, 2)  # Eq. (3): along the world's axes, about n
 
     def along(axes: Array) -> Array:
         x, y, z = axes.T[..., None]
         part: Array = x * J_x + y * J_y + z * J_z
         return part
 
-    page.parameters["K_q"].value = step.K_q
-    page.parameters["M_u"].value = step.M_u
-    page.parameters["tau_k"].value = step.K_q @ step.delta_q_bar_a  # Eq. (1)
-    page.parameters["tau_a"].value = step.tau_a
-    page.parameters["tau_u"].value = step.tau_u
-    page.parameters["phi"].value = contacts.phi
-    page.parameters["J_n"].value = along(contacts.n)
-    page.parameters["J_1"].value = along(contacts.d1)
-    page.parameters["J_2"].value = along(contacts.d2)
-    page.parameters["J_w"].value = J_w
+    tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
+    phi, b_extra = ends_within(step, Units(S, ell, rho), math.inf if units is None else far)
+    values = {
+        "K_q": step.K_q * np.outer(S_a, S_a),
+        "M_u": step.M_u * np.outer(S_u, S_u),
+        "tau_k": tau_k * S_a / rho,
+        "tau_a": step.tau_a * S_a / rho,
+        "tau_u": step.tau_u * S_u / rho,
+        "phi": phi,
+        "J_n": along(contacts.n),
+        "J_1": along(contacts.d1),
+        "J_2": along(contacts.d2),
+        "J_w": J_w,
+    }
+    if step.extra.names:
+        values |= {"A_extra": step.extra.A * (S / ell), "b_extra": b_extra}
+    if step.extra.cost is not None:
+        H, g = step.extra.cost
+        values |= {"H_extra": H * np.outer(S, S), "g_extra": g * S / rho}
+    for name, value in values.items():
+        page.parameters[name].save_value(value)

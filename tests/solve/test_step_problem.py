@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
+from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.solve import step_problem
 from quasistatic_ref.solve.backends import installed_backends
 from quasistatic_ref.solve.problem_data import problem_data
@@ -122,6 +123,16 @@ def test_what_has_no_solution_and_data_that_are_not_known_are_said_in_a_sentence
     monkeypatch.setattr(step_problem, "problem_data", another_form)
     with pytest.raises(qr.BackendError, match="takes data of a form that is not known here"):
         page.solve()
+
+
+def test_a_page_of_more_than_a_thousand_numbers_is_solved_in_cvxpy_s_own_way():
+    """From there on CVXPY chooses another way to compile by itself, which fails at ``multiply``."""
+    scene = boxes(3)
+    step = scene.simulator("off", True).step(scene.q, np.zeros(0), scene.force).step
+    page = qr.StepProblem(step)
+    assert sum(parameter.size for parameter in page.parameters.values()) >= 1000
+    page.problem.solve(solver="CLARABEL")
+    assert page.problem.status == cp.OPTIMAL
 
 
 def test_a_solver_that_cvxpy_does_not_call_and_whole_numbers_are_refused():

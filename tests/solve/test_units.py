@@ -8,12 +8,8 @@ import pytest
 from quasistatic_ref import Extra, standard_form
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.solve.units import (
-    FAR,
-    StepInBothUnits,
-    natural_step,
-    within_reach,
-)
+from quasistatic_ref.solve.units import StepInBothUnits, natural_step
+from quasistatic_ref.step.units import FAR, ends_within
 from tests.cases import cases
 from tests.closeness import assert_relative, assert_same
 from tests.helpers import (
@@ -120,16 +116,17 @@ def test_a_deep_penetration_sets_the_size_where_the_load_is_small(depth):
 
 
 def test_contacts_and_rows_out_of_reach_are_moved_nearer_and_the_others_are_not():
-    walls = Extra(("near", "far"), np.eye(6)[[0, 2]], np.array([-1e-3, -1e-3]))
-    step = sphere_on_floor(phi=0.0, wrench=(0, 0, -1.0, 0, 0, 0)).replace(extra=walls)
-    natural = natural_step(step, StepInBothUnits(step).units)
-    extra = natural.extra
-    far = natural.replace(
-        contacts=dataclasses.replace(natural.contacts, phi=np.array([1e9])),
-        extra=Extra(extra.names, extra.A, np.array([extra.b[0], -1e9])),
-    )
-    near, _ = within_reach(far)
-    J = natural.contacts.J[0]
-    assert_relative(near.contacts.phi, [FAR * max(1.0, np.linalg.norm(J))])
-    own = FAR * max(1.0, np.linalg.norm(extra.A[1]))
-    assert_relative(near.extra.b, [extra.b[0], -own])
+    walls = Extra(("near", "far"), np.eye(6)[[0, 2]], np.array([-1e-3, -1e9]))
+    step = sphere_on_floor(phi=1e9, wrench=(0, 0, -1.0, 0, 0, 0)).replace(extra=walls)
+    both = StepInBothUnits(step)
+    units = both.units
+    natural = natural_step(step, units)
+    phi, b = ends_within(step, units)
+    assert_relative(phi, [FAR * max(1.0, np.linalg.norm(natural.contacts.J[0]))])
+    own = FAR * max(1.0, np.linalg.norm(natural.extra.A[1]))
+    assert_relative(b, [natural.extra.b[0], -own])
+    assert both.out_of_reach.tolist() == [True] * (step.m - 2) + [False, True]
+    form = both.near_form
+    assert_same(form.A, both.natural_form.A)
+    assert_same(form.b, [*-np.repeat(phi, step.m - 2), *b])
+    assert_same(ends_within(step, units, np.inf)[0], natural.contacts.phi)

@@ -3,13 +3,16 @@
 import cvxpy as cp
 import numpy as np
 import pytest
+from cvxpy.utilities.scopes import quad_form_dpp_scope
 from numpy.testing import assert_array_equal
 
-from quasistatic_ref import StepDataError, StepProblem, solve_step
+from quasistatic_ref import Extra, StepDataError, StepProblem, load_scenario, solve_step
+from quasistatic_ref.solve import problem_data
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.friction import friction_rows
 from quasistatic_ref.step.problem import paper_problem, set_values
-from tests.closeness import assert_within
+from tests.closeness import assert_close, assert_relative, assert_within
 from tests.helpers import (
     PAPER,
     changed,
@@ -17,7 +20,7 @@ from tests.helpers import (
     planted_step,
     random_step,
 )
-from tests.tolerances import OPTIMUM
+from tests.tolerances import OPTIMUM, ROUNDING
 
 
 def with_mu_of(other, step):
@@ -51,14 +54,63 @@ def test_the_page_splits_J_to_the_bits_of_the_rows(n_a, n_u, rng):
     step = random_step(rng, n_a, n_u)
     page = paper_problem(step)
     set_values(page, step)
-    filled = StepProblem(step).parameters
-    for name, parameter in page.parameters.items():
-        assert_array_equal(parameter.value, filled[name].value, strict=True)
     J_n, J_1, J_2, J_w = (page.parameters[name].value for name in ("J_n", "J_1", "J_2", "J_w"))
     mu_v, _, mu_omega = step.contacts.mu.T[..., None]
     parts = (mu_v * J_1, mu_v * J_2, -mu_v * J_1, -mu_v * J_2, mu_omega * J_w, -mu_omega * J_w)
     rows = np.stack([J_n + part for part in parts], axis=1)
     assert_array_equal(friction_rows(step.contacts), rows)
+
+
+CONES = ("pyramid", "product", "facets-8", "frictionless")
+
+
+@pytest.mark.parametrize("name", CONES)
+@pytest.mark.parametrize("large", [False, True])
+def test_the_data_of_the_filled_page_are_the_standard_form(name, large, rng, monkeypatch):
+    """In SI and in natural units, whether the page is compiled once or canonicalised each time.
+
+    With rows of the user's own; CVXPY's list goes over the rows of a contact first.
+    """
+    monkeypatch.setattr(problem_data, "MOST_ENTRIES", 0 if large else problem_data.MOST_ENTRIES)
+    own = Extra(("a", "b"), rng.normal(size=(2, 13)), rng.normal(size=2))
+    steps = [random_step(rng, 7, 6, (6, 4, 6)).replace(cone=name, extra=own) for _ in range(2)]
+    steps[1] = with_mu_of(steps[0], steps[1])
+    page = StepProblem(steps[0])
+    m = int(steps[0].offsets[-1])
+    order = [*np.argsort(np.nonzero(steps[0].mask)[1], kind="stable"), m, m + 1]
+    for step in steps:
+        both = StepInBothUnits(step)
+        for units, form in ((None, both.si_form), (both.units, both.near_form)):
+            set_values(page.page, step, units)
+            data = problem_data.problem_data(page.problem, "clarabel", {}).numbers
+            assert_relative(data["P"].toarray(), form.H)
+            assert_close(data["c"], -form.g, ROUNDING)
+            assert_close(-data["A"].toarray(), form.A[order], ROUNDING)
+            assert_array_equal(-data["b"], form.b[order])
+            if name == "pyramid":  # others add three terms, which rounds
+                assert_array_equal(-data["A"].toarray(), form.A[order])
+
+
+@pytest.mark.parametrize("name", ["bunny_grasp", "door"])
+def test_a_plain_step_is_the_page_filled_and_solved_in_public(name):
+    """The backend's answer of a run is that of ``problem.solve``, in every bit."""
+    step = load_scenario(name, steps=3).run(progress=False, findings=False).step_data(2)
+    both = StepInBothUnits(step)
+    solver = CvxpySolver(step)
+    accuracy, options = solver.option_sets(1e-12)[0]
+    page = StepProblem(step)
+    set_values(page.page, step, both.units)
+    page.problem.solve(solver="CLARABEL", canon_backend=problem_data.CANON, **options)
+    reply = solver.answer(both, accuracy)
+    assert_array_equal(reply.x, page.primal())
+    assert_array_equal(reply.lam, np.where(both.out_of_reach, 0.0, page.dual()))
+
+
+def test_the_page_is_dpp_where_quadratic_forms_are_affine_in_their_matrix(rng):
+    page = paper_problem(random_step(rng)).problem
+    assert not page.is_dpp()
+    with quad_form_dpp_scope():
+        assert page.is_dpp()
 
 
 def test_a_step_of_another_kind_is_refused(rng):

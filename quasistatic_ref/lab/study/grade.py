@@ -30,8 +30,8 @@ from quasistatic_ref.lab.study.row import FAILED, NAN, SOLVED, WRONG_SHAPE
 from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.step.units import Units
 
 SLACK = 1e-13
 """Slacks below that, relative to the numbers that they are the difference of, may be rounding."""

@@ -34,10 +34,11 @@ from quasistatic_ref.parts import is_there
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.solve.units import StepInBothUnits, Units, in_si
+from quasistatic_ref.solve.units import StepInBothUnits, in_si
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian
+from quasistatic_ref.step.units import Units
 from quasistatic_ref.tolerances import ACCURACY
 
 SLOWLY = 10.0

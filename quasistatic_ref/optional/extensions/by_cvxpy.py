@@ -1,5 +1,6 @@
 """An extension that is said with CVXPY: read as rows and a cost, or solved as a conic program."""
 
+import math
 import warnings
 from dataclasses import asdict
 from functools import partial
@@ -21,9 +22,11 @@ from quasistatic_ref.optional.extensions.terms import checked_terms
 from quasistatic_ref.solve.backends import backend, check_takes_cones
 from quasistatic_ref.solve.problem_data import problem_data
 from quasistatic_ref.solve.step_problem import StepProblem
-from quasistatic_ref.solve.units import StepInBothUnits, Units, in_si, natural_step
+from quasistatic_ref.solve.units import StepInBothUnits, in_si
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Extra, StepData
+from quasistatic_ref.step.problem import set_values
+from quasistatic_ref.step.units import Units, si_units
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 
 
@@ -48,7 +51,7 @@ def extension_data(step: StepData, extension: Extension) -> Extra | None:
     if extension.without_stiffness:
         return None
     problem = StepProblem(step)
-    terms = _terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0), problem)
+    terms = _terms(extension, step, si_units(step.n_v), problem)
     costs = [term for term in terms if isinstance(term, cp.Expression)]
     constraints = [term for term in terms if isinstance(term, cp.Constraint)]
     unknowns = (problem.delta_q_a, problem.delta_q_u)
@@ -114,8 +117,9 @@ def extended_solution(
     units = both.units
     if not (both.si_form.g.any() or (both.si_form.b > 0).any()):  # the extension alone drives it
         units = units._replace(size=1.0)
-    natural = natural_step(step, units)
-    problem = StepProblem(natural, partial(_terms, extension, step, units))
+    problem = StepProblem(step, partial(_terms, extension, step, units))
+    # An extension may move what no load moves: nothing is out of reach.
+    set_values(problem.page, step, units, far=math.inf)
     if extension.without_stiffness:  # nothing is left of Eq. (1)
         for parameter in (problem.parameters["K_q"], problem.parameters["tau_k"]):
             parameter.value = np.zeros(parameter.shape)

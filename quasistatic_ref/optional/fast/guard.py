@@ -12,9 +12,10 @@ from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.units import Units, coordinate_units, natural_step
+from quasistatic_ref.solve.units import coordinate_units, natural_step
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
+from quasistatic_ref.step.units import Units
 
 
 class SomeColumns(ColumnMap):

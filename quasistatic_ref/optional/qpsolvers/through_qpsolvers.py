@@ -11,8 +11,8 @@ from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
-from quasistatic_ref.solve.units import StepInBothUnits, within_reach
-from quasistatic_ref.step.standard_form import StandardForm, standard_form
+from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.step.standard_form import StandardForm
 
 
 def available_solvers() -> list[str]:
@@ -36,9 +36,8 @@ class QpsolversSolver(BackendSolver):
 
     def write(self, both: StepInBothUnits) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
-        near, out_of_reach = within_reach(both.natural_step)
-        self.form = standard_form(near)
-        return out_of_reach
+        self.form = both.near_form
+        return both.out_of_reach
 
     def reply(self, options: Options, both: StepInBothUnits) -> Reply:
         """What the backend says, from a cold start."""

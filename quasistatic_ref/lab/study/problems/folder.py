@@ -24,7 +24,7 @@ from quasistatic_ref.formats.files import (
 from quasistatic_ref.formats.npz import npz_arrays
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.study.problems.problem import ENCLOSED, EXACT, Answer, Problem
-from quasistatic_ref.solve.units import Units
+from quasistatic_ref.step.units import Units
 
 FORMAT = "quasistatic-ref/problem-set"
 VERSION = 1

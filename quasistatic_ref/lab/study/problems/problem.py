@@ -9,8 +9,8 @@ from scipy.sparse import csr_matrix
 
 from quasistatic_ref.certify.norm import error_length
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.step.units import Units
 
 QP, SOCP = "qp", "socp"
 """Rows A x >= b; or blocks of four, (A x - b)_0 >= |(A x - b)_1:3|."""
