@@ -36,7 +36,7 @@ from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step, solved
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, hessian, seconds
@@ -371,17 +371,17 @@ class Simulator(Settings, Shown):
         if self.law == COULOMB:
             return coulomb_solution(step, solver, self.accuracy)
         try:
-            return self.solved(StepInBothUnits(step), solver)
+            return self.solved(ScaledStep(step), solver)
         except StepNotSolved as failure:
             return self.otherwise_solved(step, failure)
 
-    def solved(self, both: StepInBothUnits, solver: Solver) -> StepSolution:
+    def solved(self, scaled: ScaledStep, solver: Solver) -> StepSolution:
         """A step by one solver; errors as of :func:`~quasistatic_ref.solve.solve.solve_step`."""
         solution = without_warnings(
-            solved, both, solver, self.accuracy, self.certify, self.working_set
+            solved, scaled, solver, self.accuracy, self.certify, self.working_set
         )
         if self.backend == NONE:
-            self.working_set = flat_rows(both.si_step, solution.certificate.active)
+            self.working_set = flat_rows(scaled.step, solution.certificate.active)
         return solution
 
     def otherwise_solved(self, step: StepData, failure: StepNotSolved) -> StepSolution:

@@ -22,7 +22,7 @@ from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import FREE, Solver
-from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
+from quasistatic_ref.solve.units import ScaledStep, in_natural, in_si, out_of_range
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
 
@@ -115,7 +115,7 @@ def solve_step(
         solver.check(step)
     else:
         solver = solver_for(step, solver, fast)
-    return without_warnings(solved, StepInBothUnits(step), solver, accuracy, certify)
+    return without_warnings(solved, ScaledStep(step), solver, accuracy, certify)
 
 
 def check_accuracy(accuracy: float) -> None:
@@ -125,7 +125,7 @@ def check_accuracy(accuracy: float) -> None:
 
 
 def solved(
-    both: StepInBothUnits,
+    scaled: ScaledStep,
     solver: Solver,
     accuracy: float,
     certify: str,
@@ -137,7 +137,7 @@ def solved(
 
     Parameters
     ----------
-    both : StepInBothUnits
+    scaled : ScaledStep
     solver, accuracy, certify
         As of :func:`solve_step`.
     start : sequence of int
@@ -149,12 +149,12 @@ def solved(
         As of :func:`solve_step`.
     """
     if certify == "full":
-        solution = proved(both, solver, accuracy, start)
+        solution = proved(scaled, solver, accuracy, start)
     else:
-        reply = solver.answer(both, accuracy)
+        reply = solver.answer(scaled, accuracy)
         if not reply.solved:
-            raise StepNotSolved(solver.name, reply.status, both.si_step, reply.accuracy)
-        solution = judged(both, solver, reply, certify)
+            raise StepNotSolved(solver.name, reply.status, scaled.step, reply.accuracy)
+        solution = judged(scaled, solver, reply, certify)
     numbers = [solution.delta_q, solution.lam]
     if certify != "off" or solution.step.extra.names:
         numbers.append(solution.wrench.ravel())
@@ -165,18 +165,18 @@ def solved(
 
 
 def answered(
-    both: StepInBothUnits, solver: Solver, accuracy: float
+    scaled: ScaledStep, solver: Solver, accuracy: float
 ) -> tuple[Reply | None, SolverStatistics]:
     """A backend's answer, its status and time; it may not call its answer a solution."""
     statistics = SolverStatistics(
         solver.name, "not called", None, None, accuracy, interface=solver.interface
     )
-    if not both.si_step.m:
+    if not scaled.step.m:
         return None, statistics._replace(status=FREE)
     if solver.name == NONE:
         return None, statistics
     try:
-        reply = solver.answer(both, accuracy)
+        reply = solver.answer(scaled, accuracy)
     except StepNotSolved as failure:
         return None, statistics._replace(status=f"failed: {failure.status}", unanswered=True)
     if not reply.solved:
@@ -197,7 +197,7 @@ def statistics_of(solver: Solver, reply: Reply) -> SolverStatistics:
 
 
 def proved(
-    both: StepInBothUnits, solver: Solver, accuracy: float, start: Sequence[int]
+    scaled: ScaledStep, solver: Solver, accuracy: float, start: Sequence[int]
 ) -> StepSolution:
     """The proved optimum. The backend's answer, right or wrong, is only where its search starts.
 
@@ -206,7 +206,7 @@ def proved(
 
     Parameters
     ----------
-    both : StepInBothUnits
+    scaled : ScaledStep
     solver, accuracy
         As of :func:`solve_step`.
     start : sequence of int
@@ -218,30 +218,30 @@ def proved(
     StepNotSolved
         If no enclosure is found, and the backend has no answer that passes the judge.
     """
-    step = both.si_step
-    reply, statistics = answered(both, solver, accuracy)
+    step = scaled.step
+    reply, statistics = answered(scaled, solver, accuracy)
     claimed = reply if reply is not None and reply.solved else None
     begin = time.perf_counter()
-    answer = None if reply is None else in_si(*reply.answer, both.units)
+    answer = None if reply is None else in_si(*reply.answer, scaled.units)
     curved = curved_cone(step)
     optimum: Enclosed | ExactOptimum | None
     if curved is None:
-        optimum = optimum_by_groups(step, both.parts, starts(both, solver, claimed, start))
+        optimum = optimum_by_groups(step, scaled.groups, starts(scaled, solver, claimed, start))
     else:
         check_arithmetic()  # a backend may have changed it
         optimum = curved.optimum(step, None if claimed is None else answer)
         if optimum is None and claimed is not None:
-            return judged(both, solver, claimed, "residual")
+            return judged(scaled, solver, claimed, "residual")
         if optimum is None:
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, statistics.accuracy)
     delta_q = optimum.delta_q
     lam = optimum.lam
-    check_length(step, delta_q, both.parts, both.lengths)
+    check_length(step, delta_q, scaled.groups, scaled.lengths)
     digits = None
     if answer is not None:
-        digits = digits_by_groups(both.parts, both.lengths, answer[0], delta_q)
-    residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, both.units)))
+        digits = digits_by_groups(scaled.groups, scaled.lengths, answer[0], delta_q)
+    residuals = vars(scaled.residuals(*in_natural(delta_q, lam, scaled.units)))
     statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
     if isinstance(optimum, ExactOptimum):
         certificate = exact_certificate(step, optimum, residuals)
@@ -251,44 +251,44 @@ def proved(
 
 
 def starts(
-    both: StepInBothUnits, solver: Solver, claimed: Reply | None, start: Sequence[int]
+    scaled: ScaledStep, solver: Solver, claimed: Reply | None, start: Sequence[int]
 ) -> list[list[int]]:
     """The rows from which the exact method starts, of each group, counted in it.
 
     Parameters
     ----------
-    both : StepInBothUnits
+    scaled : ScaledStep
     solver : Solver
     claimed : Reply or None
         What it claims to be a solution: the rows are those that it shows to be active.
     start : sequence of int
         Rows of the step from which to start without that.
     """
-    groups = [group for group, _ in both.parts]
+    groups = [group for group, _ in scaled.groups]
     if claimed is None:
         return [group.within(start) for group in groups]
     x, y = claimed.answer
     if solver.basic:
         return [basic_rows(y[group.rows]) for group in groups]
-    if len(groups) > 1 and both.si_step.m <= FEW:
-        form = both.natural_form
+    if len(groups) > 1 and scaled.step.m <= FEW:
+        form = scaled.natural
         rows = warm_rows(form.A, y, form.A @ x - form.b)
         return [group.within(rows) for group in groups]
     return [
         warm_rows(form.A, y[group.rows], form.A @ x[group.coordinates] - form.b)
-        for group, form in zip(groups, both.natural_forms, strict=True)
+        for group, form in zip(groups, scaled.natural_by_group, strict=True)
     ]
 
 
-def judged(both: StepInBothUnits, solver: Solver, reply: Reply, certify: str) -> StepSolution:
+def judged(scaled: ScaledStep, solver: Solver, reply: Reply, certify: str) -> StepSolution:
     """A backend's own answer as a solution in SI units.
 
     Parameters
     ----------
-    both : StepInBothUnits
+    scaled : ScaledStep
     solver : Solver
     reply : Reply
-        Its answer, in the natural units of `both` [-].
+        Its answer, in the natural units of `scaled` [-].
     certify : str
         ``"residual"``: refused if its residuals are not small; ``"off"``: not looked at, with a
         certificate that claims nothing.
@@ -298,15 +298,15 @@ def judged(both: StepInBothUnits, solver: Solver, reply: Reply, certify: str) ->
     StepNotSolved
         If a residual is above ``RESIDUAL_LIMIT`` or not a number.
     """
-    step = both.si_step
-    delta_q, lam = in_si(*reply.answer, both.units)
+    step = scaled.step
+    delta_q, lam = in_si(*reply.answer, scaled.units)
     statistics = statistics_of(solver, reply)
     if certify == "off":
         return StepSolution(delta_q, lam, step, NOTHING_CLAIMED, statistics)
     begin = time.perf_counter()
     check_arithmetic()
     # SI units may have rounded the answer: subnormals.
-    residuals = both.natural_residuals(*in_natural(delta_q, lam, both.units))
+    residuals = scaled.residuals(*in_natural(delta_q, lam, scaled.units))
     if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
         worst = "NaN" if math.isnan(residuals.worst) else f"{residuals.worst:.1e}"
         status = f"it said {reply.status}, but its worst residual is {worst}"

@@ -23,7 +23,7 @@ from quasistatic_ref.solve.backends import (
 )
 from quasistatic_ref.solve.greeting import greeting_silenced
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, differences
 
@@ -100,12 +100,12 @@ class Solver(ABC):
         return differences(self.template, step, self.fixed)
 
     @abstractmethod
-    def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:
+    def answer(self, scaled: ScaledStep, accuracy: float) -> Reply:
         """The backend's answer to a step, of finite numbers; rows out of reach bear no load.
 
         Parameters
         ----------
-        both : StepInBothUnits
+        scaled : ScaledStep
         accuracy : float
             In natural units [-].
 
@@ -121,7 +121,7 @@ class BackendSolver(Solver):
     """A solver that writes steps into a problem of a backend, and reads its replies."""
 
     @abstractmethod
-    def write(self, both: StepInBothUnits) -> Mask | None:
+    def write(self, scaled: ScaledStep) -> Mask | None:
         """Write a step into the problem, in natural units.
 
         Gaps of contacts, and ends of a user's own rows, that are out of reach are written nearer
@@ -135,7 +135,7 @@ class BackendSolver(Solver):
         """
 
     @abstractmethod
-    def reply(self, options: Options, both: StepInBothUnits) -> Reply:
+    def reply(self, options: Options, scaled: ScaledStep) -> Reply:
         """What the backend says to the problem as it is written, with options in its own names."""
 
     def option_sets(self, accuracy: float) -> list[tuple[float, Options]]:
@@ -146,7 +146,7 @@ class BackendSolver(Solver):
             self._option_sets[accuracy] = entry.attempts(accuracy, curved)
         return self._option_sets[accuracy]
 
-    def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:
+    def answer(self, scaled: ScaledStep, accuracy: float) -> Reply:
         """The answer, by each set of options in turn until one solves the step; else the last one.
 
         Raises
@@ -154,26 +154,26 @@ class BackendSolver(Solver):
         StepNotSolved
             If there is none; or, before any call, if the backend may not return from such rows.
         """
-        if not both.si_step.m:
-            form = both.natural_form
+        if not scaled.step.m:
+            form = scaled.natural
             x = np.linalg.solve(form.H, form.g).astype(np.float64)
             return Reply(x, np.zeros(0), True, FREE, accuracy=accuracy)
-        if self.unsafe and not both.row_ratio <= ALIKE:
-            status = f"not called: its rows differ by {both.row_ratio:.0e} in natural units"
-            raise StepNotSolved(self.name, status, both.si_step, accuracy)
+        if self.unsafe and not scaled.row_ratio <= ALIKE:
+            status = f"not called: its rows differ by {scaled.row_ratio:.0e} in natural units"
+            raise StepNotSolved(self.name, status, scaled.step, accuracy)
         try:
-            out_of_reach = self.write(both)
+            out_of_reach = self.write(scaled)
         except InputError:
             raise
         except ValueError as error:  # of CVXPY's own checks, which may overflow
             status = f"not called: {error}"
-            raise StepNotSolved(self.name, status, both.si_step, accuracy) from error
+            raise StepNotSolved(self.name, status, scaled.step, accuracy) from error
         cause: Exception | None = None
         answer: Reply | None = None
         for tried, options in self.option_sets(accuracy):
             status = "an answer that is not finite"
             try:
-                reply = self.reply(options, both)
+                reply = self.reply(options, scaled)
             except Exception as error:  # whatever another package raises
                 status = one_line(f"the solver failed: {error}")
                 cause = error
@@ -192,7 +192,7 @@ class BackendSolver(Solver):
                     return reply
         if answer is not None:
             return answer
-        raise StepNotSolved(self.name, status, both.si_step, tried) from cause
+        raise StepNotSolved(self.name, status, scaled.step, tried) from cause
 
 
 class NoSolver(Solver):
@@ -209,6 +209,6 @@ class NoSolver(Solver):
     interface = "none"
     fixed = ()
 
-    def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:
+    def answer(self, scaled: ScaledStep, accuracy: float) -> Reply:
         """No answer: StepNotSolved."""
-        raise StepNotSolved(self.name, "not called", both.si_step, accuracy)
+        raise StepNotSolved(self.name, "not called", scaled.step, accuracy)

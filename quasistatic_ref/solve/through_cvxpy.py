@@ -16,7 +16,7 @@ from quasistatic_ref.solve.problem_data import CANON, is_large
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
 from quasistatic_ref.solve.step_problem import StepProblem
-from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.data import KIND, StepData
 from quasistatic_ref.step.problem import set_values
 
@@ -54,22 +54,22 @@ class CvxpySolver(BackendSolver):
         super().__init__(template, name)
         self.problem = StepProblem(template)
 
-    def answer(self, both: StepInBothUnits, accuracy: float) -> Reply:
+    def answer(self, scaled: ScaledStep, accuracy: float) -> Reply:
         """The backend's answer, unless CVXPY would compile the step for minutes: StepNotSolved."""
-        if (n_c := both.si_step.contacts.n_c) > MOST_CONTACTS:
+        if (n_c := scaled.step.contacts.n_c) > MOST_CONTACTS:
             status = (
                 f"not called: CVXPY takes too long to compile {n_c} contacts, more than "
                 f"{MOST_CONTACTS}; with fast = true it is not used"
             )
-            raise StepNotSolved(self.name, status, both.si_step, accuracy)
-        return super().answer(both, accuracy)
+            raise StepNotSolved(self.name, status, scaled.step, accuracy)
+        return super().answer(scaled, accuracy)
 
-    def write(self, both: StepInBothUnits) -> Mask:
+    def write(self, scaled: ScaledStep) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
-        set_values(self.problem.page, both.si_step, both.units)
-        return both.out_of_reach
+        set_values(self.problem.page, scaled.step, scaled.units)
+        return scaled.out_of_reach
 
-    def reply(self, options: Options, both: StepInBothUnits) -> Reply:
+    def reply(self, options: Options, scaled: ScaledStep) -> Reply:
         """What the backend says, from a cold start.
 
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY

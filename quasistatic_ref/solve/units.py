@@ -84,41 +84,20 @@ def units_of(form: StandardForm) -> Units:
     return Units(coordinate, length, size)
 
 
-def natural_step(step: StepData, units: Units) -> StepData:
-    """A step in natural units; h, n, d1, d2, mu_v and mu_omega stay as they are.
+def natural_form(form: StandardForm, units: Units) -> StandardForm:
+    """A standard form in natural units: H S S', g S / rho, A S / ell and b / (rho ell).
 
     Raises
     ------
     StepDataError
         If a number leaves the range of float64.
     """
-    S = units.coordinate
-    ell = units.length
-    rho = units.size
-    S_a = S[: step.n_a]
-    S_u = S[step.n_a :]
-    c = step.contacts
-    extra = step.extra
-    of_step = {
-        "K_q": step.K_q * np.outer(S_a, S_a),
-        "M_u": step.M_u * np.outer(S_u, S_u),
-        "tau_a": step.tau_a * S_a / rho,
-        "tau_u": step.tau_u * S_u / rho,
-        "delta_q_bar_a": step.delta_q_bar_a / (rho * S_a),
-    }
-    of_contacts = {"phi": c.phi / (rho * ell), "J": c.J * (S / ell)}
-    of_extra = {"A": extra.A * (S / ell), "b": extra.b / (rho * ell)}
-    if extra.cost is not None:
-        of_extra |= {"H": extra.cost[0] * np.outer(S, S), "g": extra.cost[1] * S / rho}
-    arrays = [*of_step.values(), *of_contacts.values(), *of_extra.values()]
-    for array in arrays:
-        array.setflags(write=False)
-    if not all_finite(np.concatenate([array.ravel() for array in arrays])):
+    S, ell, rho = units
+    H, g, A, b = form
+    natural = StandardForm(H * np.outer(S, S), g * S / rho, A * (S / ell), b / (rho * ell))
+    if not all(all_finite(array.ravel()) for array in natural):
         raise out_of_range()
-    # Shapes, signs, frames and definiteness are those of the step, which are checked.
-    if not extra.empty:
-        extra = extra.with_fields(**of_extra)
-    return step.with_fields(**of_step, contacts=c.with_fields(**of_contacts), extra=extra)
+    return natural
 
 
 def in_si(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
@@ -153,21 +132,25 @@ def of_group(form: StandardForm, group: Group) -> StandardForm:
     return StandardForm(block, form.g[c], form.A[np.ix_(group.rows, c)], form.b[group.rows])
 
 
-class StepInBothUnits:
-    """A step with its standard form, in SI units and in natural units, in which it is judged.
+class ScaledStep:
+    """A step with its program, in SI units and in natural units, in which it is judged.
 
     Parameters
     ----------
-    si_step : StepData
+    step : StepData
+    units : Units, optional
+        Its natural units, where they are known, or other units that do their work.
     """
 
-    def __init__(self, si_step: StepData) -> None:
-        self.si_step = si_step
+    def __init__(self, step: StepData, units: Units | None = None) -> None:
+        self.step = step
+        if units is not None:
+            self.units = units
 
     @cached_property
-    def si_form(self) -> StandardForm:
-        """Its standard form in SI units."""
-        return standard_form(self.si_step)
+    def form(self) -> StandardForm:
+        """Its standard form, SI units."""
+        return standard_form(self.step)
 
     @cached_property
     def units(self) -> Units:
@@ -178,83 +161,71 @@ class StepInBothUnits:
         StepDataError
             If products of its numbers leave the range of float64.
         """
-        units = units_of(self.si_form)
+        units = units_of(self.form)
         if not (0 < units.length < math.inf and 0 < units.size < math.inf):
             raise out_of_range()
         return units
 
     @cached_property
-    def natural_step(self) -> StepData:
-        """The step in its natural units."""
-        return natural_step(self.si_step, self.units)
-
-    @cached_property
-    def natural_form(self) -> StandardForm:
+    def natural(self) -> StandardForm:
         """Its standard form in natural units."""
-        return standard_form(self.natural_step)
+        return natural_form(self.form, self.units)
 
     @cached_property
-    def parts(self) -> list[tuple[Group, StepData]]:
+    def groups(self) -> list[tuple[Group, StepData]]:
         """Its groups, each as a step in SI units."""
-        return group_steps(self.si_step)
+        return group_steps(self.step)
+
+    @cached_property
+    def natural_by_group(self) -> list[StandardForm]:
+        """The standard form of each group in the natural units of the step."""
+        return [of_group(self.natural, group) for group, _ in self.groups]
 
     @cached_property
     def lengths(self) -> list[list[float]]:
         """Of each group, those of :func:`~quasistatic_ref.certify.norm.single_lengths`."""
-        return single_lengths(self.parts)
-
-    @cached_property
-    def natural_forms(self) -> list[StandardForm]:
-        """The standard form of each group in the natural units of the step."""
-        form = self.natural_form
-        return [of_group(form, group) for group, _ in self.parts]
+        return single_lengths(self.groups)
 
     @cached_property
     def ends(self) -> tuple[Array, Array]:
-        """Phi (n_c,) and b of a user's rows within reach: natural units [-]."""
-        return ends_within(self.si_step, self.units)
+        """Gaps phi (n_c,) and ends b of the user's rows, within reach: natural units [-]."""
+        return ends_within(self.step, self.units)
 
     @cached_property
     def out_of_reach(self) -> Mask:
         """Which rows are out of reach, and nearer in what solvers get: shape (m,)."""
-        step = self.si_step
         phi, b = self.ends
         unit = self.units.size * self.units.length
-        beyond = np.repeat(phi < step.contacts.phi / unit, step.counts)
-        return np.concatenate([beyond, b > step.extra.b / unit])
+        beyond = np.repeat(phi < self.step.contacts.phi / unit, self.step.counts)
+        return np.concatenate([beyond, b > self.step.extra.b / unit])
 
     @property
-    def near_form(self) -> StandardForm:
+    def near(self) -> StandardForm:
         """The standard form in natural units with every row within reach."""
         phi, b_extra = self.ends
-        contacts = self.si_step.contacts.with_fields(phi=phi)
-        b = -row_constants(contacts, self.si_step.cone)[self.si_step.mask]
-        return self.natural_form._replace(b=np.concatenate([b, b_extra]))
+        contacts = self.step.contacts.with_fields(phi=phi)
+        b = -row_constants(contacts, self.step.cone)[self.step.mask]
+        return self.natural._replace(b=np.concatenate([b, b_extra]))
 
     @property
     def row_ratio(self) -> float:
         """Length of the longest row over that of the shortest, rows of zeros left out [-]."""
-        squares = squared_lengths(self.si_form.A, self.units.coordinate)
+        squares = squared_lengths(self.form.A, self.units.coordinate)
         return math.sqrt(squares[-1] / squares[0]) if squares.size else 1.0
 
-    def natural_residuals(self, delta_q: Array, lam: Array) -> Residuals:
-        """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-].
+    def residuals(self, x: Array, lam: Array) -> Residuals:
+        """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at x (n_v,), lam (m,) in natural units [-].
 
         The unit of size is at least the step that targets, tau_a or tau_u would cause alone: at
         rest they cancel but for rounding, and the size of the step is that of noise.
         """
         each = [
-            optimality_residuals(
-                form,
-                delta_q[group.coordinates],
-                lam[group.rows],
-                judge_of(part),
-            )
-            for (group, part), form in zip(self.parts, self.natural_forms, strict=True)
+            optimality_residuals(form, x[group.coordinates], lam[group.rows], judge_of(part))
+            for (group, part), form in zip(self.groups, self.natural_by_group, strict=True)
         ]
         worst = np.array([[*vars(residuals).values()] for residuals in each])
         residuals = Residuals(*worst.max(axis=0).tolist())
-        if not self.si_step.n_v:
+        if not self.step.n_v:
             return residuals
         length = max(joined(self.lengths)[:-1])
         size = self.units.size

@@ -15,7 +15,7 @@ from quasistatic_ref.certify.solution_files import infeasible_text, solution_tex
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.files import step_text
 from tests.helpers import verify_refusal
 from tests.oracles.attacked_steps import steps
@@ -77,6 +77,6 @@ def test_residuals_of_a_subnormal_answer_are_of_the_answer_as_given():
     step = free_step(np.array([[3.0]]), np.array([tau]), no_contacts(1), 1.0)
     solution = solve_step(step, solver_for(step, "daqp", fast=True), certify="residual")
     off = abs(3 * Fraction(solution.delta_q[0]) - Fraction(tau))
-    units = StepInBothUnits(step).units
+    units = ScaledStep(step).units
     natural = off * Fraction(units.coordinate[0]) / Fraction(units.size)
     assert solution.certificate.residuals["stationarity"] == natural > 0

@@ -43,9 +43,9 @@ def test_what_is_far_away_costs_no_answer(backend, far, what):
     step = sphere_on_floor(wrench=WEIGHT)
     exact = qr.solve_step(step)
     if what == "limit":
-        both = np.vstack([np.eye(6), -np.eye(6)])
+        scaled = np.vstack([np.eye(6), -np.eye(6)])
         names = tuple(f"limit {i}" for i in range(12))
-        step = step.replace(extra=qr.Extra(names, both, np.full(12, -far)))
+        step = step.replace(extra=qr.Extra(names, scaled, np.full(12, -far)))
     else:
         own = step.contacts
         twice = {name: np.repeat(array, 2, axis=0)
@@ -63,17 +63,17 @@ def test_what_is_far_away_costs_no_answer(backend, far, what):
 def replying(monkeypatch, status, x):
     """Let CVXPY's backends answer so, without a solution's status."""
 
-    def reply(self, options, both):
-        m = both.si_form.b.size
-        return Reply(None if x is None else x(both), np.zeros(m), False, status)
+    def reply(self, options, scaled):
+        m = scaled.form.b.size
+        return Reply(None if x is None else x(scaled), np.zeros(m), False, status)
 
     monkeypatch.setattr(CvxpySolver, "reply", reply)
 
 
-def exact_answer(both):
+def exact_answer(scaled):
     """The optimum in natural units."""
-    exact = solve.solve_step(both.si_step, "none")
-    return exact.delta_q / (both.units.size * both.units.coordinate)
+    exact = solve.solve_step(scaled.step, "none")
+    return exact.delta_q / (scaled.units.size * scaled.units.coordinate)
 
 
 def test_an_answer_of_another_status_has_the_digits_that_were_measured(monkeypatch):

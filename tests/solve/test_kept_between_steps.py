@@ -10,7 +10,7 @@ from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.solve.units import ScaledStep
 from tests.helpers import pinch, point_on_floor
 
 
@@ -26,9 +26,9 @@ def test_only_backends_that_may_not_return_are_kept_from_unlike_rows():
     unlike = step.replace(extra=Extra(("far",), [[1e4, 0.0, 0.0]], [-1.0]))
     for name, refused in (("highs", True), ("daqp", False)):
         assert solver_for(unlike, name, not refused).unsafe == refused
-        solver_for(step, name, not refused).answer(StepInBothUnits(step), 1e-9)
+        solver_for(step, name, not refused).answer(ScaledStep(step), 1e-9)
     with pytest.raises(StepNotSolved, match="not called: its rows differ by"):
-        solver_for(unlike, "highs").answer(StepInBothUnits(unlike), 1e-9)
+        solver_for(unlike, "highs").answer(ScaledStep(unlike), 1e-9)
 
 
 def test_without_a_backend_the_exact_method_starts_from_the_working_set_of_the_step_before(

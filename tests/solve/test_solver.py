@@ -23,7 +23,7 @@ from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backen
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solver import NoSolver
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
-from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.solve.units import ScaledStep
 from tests.closeness import assert_same
 from tests.helpers import (
     REQUIRED,
@@ -126,7 +126,7 @@ def test_no_solver_gives_no_answer_of_its_own(step):
     with pytest.raises(BackendError, match="has no answer of its own"):
         solve_step(step, NoSolver(step, "none"), certify="residual")
     with pytest.raises(StepNotSolved, match="not called"):
-        NoSolver(step, "none").answer(StepInBothUnits(step), 1e-9)
+        NoSolver(step, "none").answer(ScaledStep(step), 1e-9)
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from numpy.testing import assert_array_equal
 from quasistatic_ref import Extra, StepDataError, StepProblem, load_scenario, solve_step
 from quasistatic_ref.solve import problem_data
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
-from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.friction import friction_rows
 from quasistatic_ref.step.problem import paper_problem, set_values
 from tests.closeness import assert_close, assert_relative, assert_within
@@ -79,8 +79,8 @@ def test_the_data_of_the_filled_page_are_the_standard_form(name, large, rng, mon
     m = int(steps[0].offsets[-1])
     order = [*np.argsort(np.nonzero(steps[0].mask)[1], kind="stable"), m, m + 1]
     for step in steps:
-        both = StepInBothUnits(step)
-        for units, form in ((None, both.si_form), (both.units, both.near_form)):
+        scaled = ScaledStep(step)
+        for units, form in ((None, scaled.form), (scaled.units, scaled.near)):
             set_values(page.page, step, units)
             data = problem_data.problem_data(page.problem, "clarabel", {}).numbers
             assert_relative(data["P"].toarray(), form.H)
@@ -95,15 +95,15 @@ def test_the_data_of_the_filled_page_are_the_standard_form(name, large, rng, mon
 def test_a_plain_step_is_the_page_filled_and_solved_in_public(name):
     """The backend's answer of a run is that of ``problem.solve``, in every bit."""
     step = load_scenario(name, steps=3).run(progress=False, findings=False).step_data(2)
-    both = StepInBothUnits(step)
+    scaled = ScaledStep(step)
     solver = CvxpySolver(step)
     accuracy, options = solver.option_sets(1e-12)[0]
     page = StepProblem(step)
-    set_values(page.page, step, both.units)
+    set_values(page.page, step, scaled.units)
     page.problem.solve(solver="CLARABEL", canon_backend=problem_data.CANON, **options)
-    reply = solver.answer(both, accuracy)
+    reply = solver.answer(scaled, accuracy)
     assert_array_equal(reply.x, page.primal())
-    assert_array_equal(reply.lam, np.where(both.out_of_reach, 0.0, page.dual()))
+    assert_array_equal(reply.lam, np.where(scaled.out_of_reach, 0.0, page.dual()))
 
 
 def test_the_page_is_dpp_where_quadratic_forms_are_affine_in_their_matrix(rng):

@@ -16,7 +16,7 @@ from quasistatic_ref.optional.derivatives.row_rates import RowRates
 from quasistatic_ref.optional.derivatives.step.load_rates import load_rates
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian
 
@@ -113,7 +113,7 @@ def parameter_units(simulator: Simulator, step: StepData) -> dict[str, Array]:
     Coordinates and forces have those of the step, coefficients of friction 1 and its length, and
     stiffness, time step and masses are measured by their own size.
     """
-    units = StepInBothUnits(step).units
+    units = ScaledStep(step).units
     pairs = len(simulator.pairs)
     coordinate = units.size * units.coordinate
     return {

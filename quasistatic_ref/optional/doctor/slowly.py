@@ -34,7 +34,7 @@ from quasistatic_ref.parts import is_there
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.solve.units import StepInBothUnits, in_si
+from quasistatic_ref.solve.units import ScaledStep, in_si
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian
@@ -111,10 +111,9 @@ class Solvers:
 
         StepNotSolved, or another QuasistaticError, if there are none.
         """
-        both = StepInBothUnits(step)
-        both.units = units
+        scaled = ScaledStep(step, units)
         solver = self._solver(step)
-        reply = solver.answer(both, ACCURACY)
+        reply = solver.answer(scaled, ACCURACY)
         if not reply.solved:
             raise StepNotSolved(solver.name, reply.status, step, reply.accuracy)
         return in_si(*reply.answer, units)
@@ -173,7 +172,7 @@ class Slow:
         self._J_n, *J_t = frame_jacobian(contacts, contacts.J)
         self._slips = contacts.mu[:, :, None] * np.stack(J_t, axis=1)
         self._polyhedral = cone(step.cone).polyhedral
-        self._of_T = StepInBothUnits(step)
+        self._of_T = ScaledStep(step)
         of, axis = np.nonzero(contacts.mu > 0)
         u = np.eye(3)[axis]
         self._axes = 2 * len(of)
@@ -189,9 +188,9 @@ class Slow:
         return without_warnings(self._answer, T, s, proved)
 
     def _answer(self, T: float, s: Array | None, proved: bool) -> Answer:
-        if self._of_T.si_step.h != T:
-            self._of_T = StepInBothUnits(self.step.with_fields(h=T))
-        step = self._of_T.si_step
+        if self._of_T.step.h != T:
+            self._of_T = ScaledStep(self.step.with_fields(h=T))
+        step = self._of_T.step
         units = self._of_T.units
         if s is not None:
             phi = read_only(step.contacts.phi + s)

@@ -22,7 +22,7 @@ from quasistatic_ref.optional.extensions.terms import checked_terms
 from quasistatic_ref.solve.backends import backend, check_takes_cones
 from quasistatic_ref.solve.problem_data import problem_data
 from quasistatic_ref.solve.step_problem import StepProblem
-from quasistatic_ref.solve.units import StepInBothUnits, in_si
+from quasistatic_ref.solve.units import ScaledStep, in_si
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.problem import set_values
@@ -113,9 +113,9 @@ def extended_solution(
         If it does not solve the problem, or its residuals are not small.
     """
     check_takes_cones(name, "an extension with nonlinear constraints or costs")
-    both = StepInBothUnits(step)
-    units = both.units
-    if not (both.si_form.g.any() or (both.si_form.b > 0).any()):  # the extension alone drives it
+    scaled = ScaledStep(step)
+    units = scaled.units
+    if not (scaled.form.g.any() or (scaled.form.b > 0).any()):  # the extension alone drives it
         units = units._replace(size=1.0)
     problem = StepProblem(step, partial(_terms, extension, step, units))
     # An extension may move what no load moves: nothing is out of reach.

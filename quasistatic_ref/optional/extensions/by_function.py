@@ -18,7 +18,7 @@ from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
-from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.data import StepData
 
 Function = Callable[..., Any]
@@ -58,12 +58,12 @@ class FunctionSolver(BackendSolver):
         """The accuracy of the call [-], without options."""
         return [(accuracy, {})]
 
-    def write(self, both: StepInBothUnits) -> Mask:
+    def write(self, scaled: ScaledStep) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
-        self.form = both.near_form
-        return both.out_of_reach
+        self.form = scaled.near
+        return scaled.out_of_reach
 
-    def reply(self, options: Options, both: StepInBothUnits) -> Reply:
+    def reply(self, options: Options, scaled: ScaledStep) -> Reply:
         """What the function returns."""
         H, g, A, b = self.form
         with apart():

@@ -12,7 +12,7 @@ from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.units import coordinate_units, natural_step
+from quasistatic_ref.solve.units import coordinate_units, natural_form
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.step.units import Units
@@ -108,5 +108,5 @@ def program_is_plain(
     """
     f, A, b = program
     units = units._replace(coordinate=coordinate_units(np.diag(step.H)))
-    plain = standard_form(natural_step(step, units))
+    plain = natural_form(standard_form(step), units)
     return bool(bits(plain) == bits(StandardForm(H, -f, A, b)))

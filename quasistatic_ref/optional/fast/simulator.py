@@ -33,7 +33,7 @@ from quasistatic_ref.simulate.simulator import Simulator, by_one_thread, stopwat
 from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
@@ -202,11 +202,11 @@ class FastSimulator(Simulator):
         lap("distances")
         formed, points = self._steps.form(change, load)
         written = self._natively and self.extension is None
-        both = self._in_both_units(formed) if written else None
-        if not (self._compared or self._is_plain(q, q_bar_a, load, formed, points, both)):
+        scaled = self._scaled(formed) if written else None
+        if not (self._compared or self._is_plain(q, q_bar_a, load, formed, points, scaled)):
             return None
         lap("rows")
-        solution = self._solution(formed, both, q)
+        solution = self._solution(formed, scaled, q)
         self.limits.check_penetration(formed)  # after the solve, as on the plain path
         step = solution.step
         lap("solve")
@@ -225,8 +225,8 @@ class FastSimulator(Simulator):
         lap("integrate")
         return StepResult(q_next, step, solution, points, times, q, self)
 
-    def _in_both_units(self, step: StepData) -> FormedStep:
-        """The step in both units, and its program written into DAQP's."""
+    def _scaled(self, step: StepData) -> FormedStep:
+        """The step with its units, and its program written into DAQP's."""
         solver = self.solver
         natural = self._natural
         if (
@@ -238,12 +238,13 @@ class FastSimulator(Simulator):
             self.solver = solver = FastSolver(steps.template, parts=steps.groups)
             self._natural = natural = NaturalProgram(steps, solver.program)
         without_warnings(natural.take, self._steps.masses)
-        both = FormedStep(step, natural.blocks, natural.program)
         units = natural.units()
-        both.units = without_warnings(lambda: both.units) if units is None else units
-        natural.write(both.units)
-        solver.written = both
-        return both
+        if units is None:
+            units = without_warnings(lambda: ScaledStep(step).units)
+        scaled = FormedStep(step, units, natural.blocks, natural.program)
+        natural.write(units)
+        solver.written = scaled
+        return scaled
 
     def _is_plain(
         self,
@@ -252,7 +253,7 @@ class FastSimulator(Simulator):
         force: Array,
         step: StepData,
         points: ClosestPoints,
-        both: FormedStep | None,
+        scaled: FormedStep | None,
     ) -> bool:
         """Whether a step, group by group, and its program are those of the plain path."""
         change = self.system.actuated_difference(q, q_bar_a)
@@ -263,24 +264,24 @@ class FastSimulator(Simulator):
             part = plain.step(group)
             if part != group_step(step, group):
                 return False
-            if both is None:
+            if scaled is None:
                 continue
             assert self._natural is not None
             program = self._natural.program.parts[i]
-            if not program_is_plain(part, both.units, both.blocks[i], program):
+            if not program_is_plain(part, scaled.units, scaled.blocks[i], program):
                 return False
         # H^-1 of more is not formed: what decides on its units is in natural.c.
-        if both is None or step.n_v > MOST:
+        if scaled is None or step.n_v > MOST:
             return True
-        return StepInBothUnits(step).units[1:] == both.units[1:]
+        return ScaledStep(step).units[1:] == scaled.units[1:]
 
-    def _solution(self, step: StepData, both: FormedStep | None, q: Array) -> StepSolution:
+    def _solution(self, step: StepData, scaled: FormedStep | None, q: Array) -> StepSolution:
         """The solution of a step from q, (n_q,); errors as of the plain path."""
-        if both is None:
+        if scaled is None:
             return self.extended(step, q)
-        assert self.solver is not None  # which fits the step in both units
+        assert self.solver is not None  # which fits the step
         try:
-            return self.solved(both, self.solver)
+            return self.solved(scaled, self.solver)
         except StepNotSolved as failure:
             return self.otherwise_solved(step, failure)
 

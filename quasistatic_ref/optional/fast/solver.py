@@ -14,10 +14,11 @@ from quasistatic_ref.solve.backends import Options, check_backend
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, Solver
-from quasistatic_ref.solve.units import StepInBothUnits, of_group
+from quasistatic_ref.solve.units import ScaledStep, of_group
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.step.units import Units
 
 DAQP = "daqp"
 
@@ -39,20 +40,24 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
     return FastSolver(step)
 
 
-class FormedStep(StepInBothUnits):
+class FormedStep(ScaledStep):
     """A step whose units and program are written already.
 
     Parameters
     ----------
     step : StepData
+    units : Units
+        Its natural units.
     blocks : list of ndarray, shape (n, n)
         H of each group in natural units [-].
     program : Program
         Overwritten by the next step.
     """
 
-    def __init__(self, step: StepData, blocks: Sequence[Array], program: Program) -> None:
-        super().__init__(step)
+    def __init__(
+        self, step: StepData, units: Units, blocks: Sequence[Array], program: Program
+    ) -> None:
+        super().__init__(step, units)
         self.blocks = blocks
         self.program = program
 
@@ -64,19 +69,19 @@ class FormedStep(StepInBothUnits):
         """
         parts = []
         for i, group in enumerate(self.program.groups):
-            whole = group_step(self.si_step, group)
+            whole = group_step(self.step, group)
             for part, step in group_steps(whole):
                 of_step = Group(*(of_all[some] for of_all, some in zip(group, part, strict=True)))
                 parts.append((i, part, of_step, step))
         return parts
 
     @cached_property
-    def parts(self) -> list[tuple[Group, StepData]]:
+    def groups(self) -> list[tuple[Group, StepData]]:
         """Its groups, each as a step in SI units."""
         return [(group, step) for _, _, group, step in self._finer]
 
     @cached_property
-    def natural_forms(self) -> list[StandardForm]:
+    def natural_by_group(self) -> list[StandardForm]:
         """The standard form of each group in the natural units of the step."""
         forms = []
         for i, part, _, _ in self._finer:
@@ -120,15 +125,15 @@ class FastSolver(BackendSolver):
         self._H: Array | None = None
         self._blocks: Sequence[Array] = ()
 
-    def write(self, both: StepInBothUnits) -> None:
+    def write(self, scaled: ScaledStep) -> None:
         """Write the program, unless a simulator has."""
-        if self.written is both:
+        if self.written is scaled:
             self._blocks = self.written.blocks
             self._H = None
         else:
-            form = both.natural_form
+            form = scaled.natural
             if not self.program.has_all_of(form):
-                self.program = Program(groups(both.si_step))
+                self.program = Program(groups(scaled.step))
                 self._H = None
             self.program.write(form)
             if self._H is None or not np.array_equal(self._H, form.H):
@@ -136,7 +141,7 @@ class FastSolver(BackendSolver):
                 self._blocks = self.program.blocks(form.H)
         self.written = None
 
-    def reply(self, options: Options, both: StepInBothUnits) -> Reply:
+    def reply(self, options: Options, scaled: ScaledStep) -> Reply:
         """One attempt, by the workspaces that are kept if the groups are those of before."""
         kept = self._kept.pop(id(options), None)  # what has raised is set up again
         if kept is None or kept.program is not self.program:

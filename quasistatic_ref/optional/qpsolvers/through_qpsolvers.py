@@ -11,7 +11,7 @@ from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
-from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.standard_form import StandardForm
 
 
@@ -34,12 +34,12 @@ class QpsolversSolver(BackendSolver):
     interface = "qpsolvers"
     fixed = ("cone",)
 
-    def write(self, both: StepInBothUnits) -> Mask:
+    def write(self, scaled: ScaledStep) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
-        self.form = both.near_form
-        return both.out_of_reach
+        self.form = scaled.near
+        return scaled.out_of_reach
 
-    def reply(self, options: Options, both: StepInBothUnits) -> Reply:
+    def reply(self, options: Options, scaled: ScaledStep) -> Reply:
         """What the backend says, from a cold start."""
         name = self.name.removeprefix(QPSOLVERS)
         return qpsolvers_reply(self.form, name, options)

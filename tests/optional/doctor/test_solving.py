@@ -28,10 +28,10 @@ def fail(monkeypatch, fails, solver=Solver):
 
 
 def failing_method(answer, fails):
-    def lost(self, both, accuracy):
+    def lost(self, scaled, accuracy):
         if fails(self.name):
-            raise StepNotSolved(self.name, "lost", both.si_step, accuracy)
-        return answer(self, both, accuracy)
+            raise StepNotSolved(self.name, "lost", scaled.step, accuracy)
+        return answer(self, scaled, accuracy)
 
     return lost
 

@@ -16,7 +16,8 @@ from quasistatic_ref.optional.extensions.by_cvxpy import (
 from quasistatic_ref.optional.extensions.extended import simulated_solution
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.solve.step_problem import StepProblem
-from quasistatic_ref.solve.units import StepInBothUnits, natural_step
+from quasistatic_ref.solve.units import ScaledStep
+from quasistatic_ref.step.problem import set_values
 from tests.closeness import assert_same
 from tests.helpers import changed, point_on_floor, random_step
 from tests.tolerances import ROUNDING
@@ -37,11 +38,11 @@ def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
     """Row i of the contacts that have it: phi + [J'(n~ + d~_i)]' delta_q = A delta_q - b."""
     step = random_step(rng, rows=(6, 4))
     step = step.replace(contacts=changed(step.contacts, J=16 * step.contacts.J))
-    units = StepInBothUnits(step).units
+    units = ScaledStep(step).units
     form = standard_form(step)
     assert units.length > 2
-    natural = natural_step(step, units)
-    problem = StepProblem(natural)
+    problem = StepProblem(step)
+    set_values(problem.page, step, units)
     delta_q = rng.normal(size=7)
     x = delta_q / (units.size * units.coordinate)
     problem.delta_q_a.value = x[:3]
