@@ -1,15 +1,17 @@
 """The checker for sceptics, against files that are right, files with one fault, and `verify`."""
 
 import json
+from itertools import islice
 
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, StepInfeasible, solve_step
+from quasistatic_ref import Extra, QuasistaticError, StepInfeasible, solve_step
 from quasistatic_ref.certify.solution_files import infeasible_text, solution_text
 from quasistatic_ref.step.files import step_sha256, step_text
 from tests.cases import cases
 from tests.helpers import verify_refusal
+from tests.oracles.attacked_steps import steps
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import good_file
 from tests.oracles.random_steps import mixed_step
@@ -67,6 +69,22 @@ def test_degenerate_steps_hold_in_each_cone_and_a_last_bit_does_not(outcome, see
     if record["status"] == "optimal":
         moved = with_value(record, ("delta_q", 0), float(np.nextafter(record["delta_q"][0], 1.0)))
         assert outcome(text, json.dumps(moved)) == (1, "Eq. (9), delta_q: FAILS")
+
+
+@pytest.mark.parametrize("family", ["all scales", "subnormal loads", "nearly singular"])
+def test_answers_to_strange_steps_hold(outcome, tmp_path, family):
+    """Two of each family, besides those that are refused in a sentence."""
+
+    def files():
+        for step in steps(family):
+            try:
+                yield step_text(step), solved_text(step)
+            except QuasistaticError:
+                continue
+
+    for texts in islice(files(), 2):
+        assert outcome(*texts)[0] == 0
+        assert verify_refusal(tmp_path, *texts) is None
 
 
 def test_each_equation_is_named(outcome):

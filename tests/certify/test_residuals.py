@@ -1,10 +1,15 @@
 """Each residual answers to a planted violation with exactly the planted size."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, StepData, solve_step
 from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.solve.units import ScaledStep
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import planted_step, residuals_of, sphere_on_floor
 from tests.tolerances import ROUNDING
@@ -84,3 +89,14 @@ def test_residuals_of_what_is_at_rest_are_measured_by_its_loads(cone, turned):
     for certify in ("full", "residual"):
         residuals = solve_step(step, certify=certify).certificate.residuals
         assert max(residuals.values()) < ROUNDING
+
+
+def test_residuals_of_a_subnormal_answer_are_of_the_answer_as_given():
+    """A mass of 3 kg in a second: x* = tau / 3, of which delta_q has no digit."""
+    tau = 1e-323
+    step = free_step(np.array([[3.0]]), np.array([tau]), no_contacts(1), 1.0)
+    solution = solve_step(step, solver_for(step, "daqp", fast=True), certify="residual")
+    off = abs(3 * Fraction(solution.delta_q[0]) - Fraction(tau))
+    units = ScaledStep(step).units
+    natural = off * Fraction(units.coordinate[0]) / Fraction(units.size)
+    assert solution.certificate.residuals["stationarity"] == natural > 0

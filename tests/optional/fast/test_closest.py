@@ -126,10 +126,3 @@ def test_points_that_touch_two_faces_at_once_have_the_normal_of_the_core():
         pairs.append(ContactPair(f"{i} {j} {side}", box, cloud, 0.5, 0.0, 4, 1))
     written = same_bits(PosedPairs(pairs, 3), pairs, *at((0, 0, 0), far))
     assert np.count_nonzero(written.tie == OF_CLOUD) > 20
-
-
-def test_a_pose_that_is_not_finite_is_refused(rng):
-    pairs = [pair(placed_shape(SHAPES["box"], 1), placed_shape(PointCloud([[0.0] * 3]), 2))]
-    posed = PosedPairs(pairs, 3)
-    with pytest.raises(ContactError, match="poses: must be finite"):
-        posed.closest_points(standing_links(*at((0, 0, 0), (0, 0, np.nan))))
