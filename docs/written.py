@@ -108,20 +108,14 @@ def of_claims():
 
 
 def of_study():
-    """Claims of solvers in the study `default`, and how many of them are false."""
+    """What solvers said in the study `default`, of all and of each."""
     page = (ROOT / "validation" / "studies" / "default" / "summary.md").read_text("utf-8")
     shown = {"study-problems": re.search(r"^(\d+) problems", page, re.M)[1]}
-    rows = {
-        "solved": "of success, where there is a solution",
-        "unsolvable": "of success, where there is none",
-        "no-solution": "that there is no solution, where there is one",
-    }
-    for name, words in rows.items():
-        number, false, which = re.search(
-            rf"^\| {words} \| (.*) \| (.*) \| (.*) \|$", page, re.M
-        ).groups()
-        shown |= {f"study-{name}": number, f"study-{name}-false": false}
-        shown |= {f"study-{name}-{solver}": n for solver, n in re.findall(r"(\w+) (\d+)", which)}
+    table = page.partition("## What solvers say")[2].partition("## Who")[0]
+    for solver, *counts in re.findall(r"^\| (\w+) \|" + r" ([\d,]+) \|" * 4, table, re.M):
+        whose = "" if solver == "all" else f"-{solver}"
+        names = ("reached", "not-reached", "without", "infeasible")
+        shown |= {f"study-{name}{whose}": n for name, n in zip(names, counts, strict=True)}
     return shown
 
 

@@ -75,11 +75,11 @@ class CvxpySolver(BackendSolver):
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY
         raises TypeError on a second warm start anyway.)
         """
-        return cvxpy_reply(self.problem, self.name, options, warm=False)
+        return cvxpy_reply(self.problem, self.name, options)
 
 
-def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options, warm: bool) -> Reply:
-    """The reply of a backend to a problem as its parameters stand, by ``problem.solve``.
+def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options) -> Reply:
+    """The reply of a backend to a problem as its parameters stand, from a cold start.
 
     Parameters
     ----------
@@ -88,8 +88,6 @@ def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options, warm: bo
         Of the backend.
     options : dict
         In its own names.
-    warm : bool
-        Whether to start from the answer before.
     """
     problem = compiled.problem
     begin = perf_counter()
@@ -97,7 +95,7 @@ def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options, warm: bo
         warnings.simplefilter("ignore")  # the status says so, too
         problem.solve(
             solver=name.upper(),
-            warm_start=warm,
+            warm_start=False,
             canon_backend=CANON,
             ignore_dpp=is_large(problem),
             **options,

@@ -112,7 +112,7 @@ def test_every_backend_is_in_its_extras_and_its_table():
         solvers.keys() - BACKENDS.keys(),
         [name for name, table in solvers.items() if "doors" in table],
         f"{file} has no doors of {{}}, with which no step is solved: add doors",
-        f"{file} has doors of {{}}, which is a backend of steps: remove doors and warm",
+        f"{file} has doors of {{}}, which is a backend of steps: remove doors",
     )
 
 

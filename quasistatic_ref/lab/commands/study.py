@@ -9,7 +9,8 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.lab.commands import study_problems
-from quasistatic_ref.lab.study.row import OUTCOMES, Row
+from quasistatic_ref.lab.study.row import Row
+from quasistatic_ref.lab.study.saying import SAYINGS
 
 ACTIONS = {
     "run": "run the default study; one that was stopped goes on where it was",
@@ -60,8 +61,8 @@ def _run(options: argparse.Namespace) -> int:
         print(f"quasistatic-ref: interrupted; {kept}", file=sys.stderr)
         return 130
     if options.json:
-        counts = Counter(row.outcome for row in rows)
-        shared.print_json({"rows": len(rows), "outcomes": dict(counts), "store": str(options.out)})
+        counts = Counter(row.says for row in rows)
+        shared.print_json({"rows": len(rows), "says": dict(counts), "store": str(options.out)})
         return 0
     shared.print_rows(_summary(rows))
     print(f"wrote {Path(options.out) / ROWS}")
@@ -69,15 +70,10 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _summary(rows: list[Row]) -> list[tuple[str, ...]]:
-    """One line a solver: how many calls, how they ended, false claims."""
-    ends = {row.outcome for row in rows}
-    columns = [outcome for outcome in OUTCOMES if outcome in ends]
-    lines: list[tuple[str, ...]] = [("solver", "calls", *columns, "false claims")]
+    """One line a solver: how many calls, and what it said."""
+    lines: list[tuple[str, ...]] = [("solver", "calls", *SAYINGS)]
     for label in sorted({f"{row.door}:{row.solver}" for row in rows}):
-        rows_of_solver = [row for row in rows if f"{row.door}:{row.solver}" == label]
-        counts = Counter(row.outcome for row in rows_of_solver)
-        false = sum(row.false_claim for row in rows_of_solver)
-        lines.append(
-            (label, str(len(rows_of_solver)), *(str(counts[c]) for c in columns), str(false))
-        )
+        said = Counter(row.says for row in rows if f"{row.door}:{row.solver}" == label)
+        counts = (said.total(), *(said[says] for says in SAYINGS))
+        lines.append((label, *map(str, counts)))
     return lines

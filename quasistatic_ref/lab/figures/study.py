@@ -1,4 +1,4 @@
-"""The figures of a study: digits against time, and digits of answers that kept their promise."""
+"""The figures of a study: digits against time, and digits where the accuracy was reached."""
 
 from functools import partial
 from pathlib import Path
@@ -13,17 +13,17 @@ from quasistatic_ref.lab.figures.line_styles import pens
 from quasistatic_ref.optional.show.figures.style import PAGE
 
 
-def figures_written(folder: Path, points: Any, kept: Any) -> list[Path]:
+def figures_written(folder: Path, points: Any, reached: Any) -> list[Path]:
     """Draw both figures of what has any lines, as PNG.
 
     Parameters
     ----------
     folder : Path
-    points, kept : pandas.DataFrame
-        What ``digits_time`` and ``kept_digits`` draw.
+    points, reached : pandas.DataFrame
+        What ``digits_time`` and ``reached_digits`` draw.
     """
     paths = []
-    for draw, table in ((digits_time, points), (kept_digits, kept)):
+    for draw, table in ((digits_time, points), (reached_digits, reached)):
         if len(table):
             figure = draw(table)
             path = folder / f"{draw.__name__}.png"
@@ -56,8 +56,8 @@ def digits_time(table: Any) -> Figure:
     return figure
 
 
-def kept_digits(table: Any) -> Figure:
-    """Digits of answers that kept their promise, a row a family and a line a setting.
+def reached_digits(table: Any) -> Figure:
+    """Digits of answers that reached their accuracy, a row a family and a line a setting.
 
     Parameters
     ----------

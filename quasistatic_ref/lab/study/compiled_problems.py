@@ -1,35 +1,38 @@
 """Quadratic programs that CVXPY compiles once, as studies need them."""
 
-import warnings
-
 import cvxpy as cp
 import numpy as np
 
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.problem_data import CANON
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.through_cvxpy import cvxpy_reply
-from quasistatic_ref.step.standard_form import StandardForm
 
 
 class CompiledProblem:
-    """min 1/2 x'Hx - g'x, A x >= b, of which g alone is a parameter.
+    """min 1/2 x'Hx - g'x, A x >= b, of which g is a parameter.
 
     Parameters
     ----------
-    form : StandardForm
+    program : Program
     name : str
         Of the backend that it is compiled for.
     """
 
-    def __init__(self, form: StandardForm, name: str) -> None:
-        n = len(form.g)
-        self.form, self.x, self.g = form, cp.Variable(n), cp.Parameter(n, value=form.g)
+    def __init__(self, program: Program, name: str) -> None:
+        H, g, A, b, equations = program
+        self.program = program
+        self.x = cp.Variable(len(g))
         # H is known to be positive definite; CVXPY's check may err at condition numbers of 1e11.
-        objective = cp.quad_form(self.x, cp.psd_wrap(form.H)) / 2 - self.g @ self.x
-        self.rows = form.A @ self.x >= form.b
-        self.problem = cp.Problem(cp.Minimize(objective), [self.rows])
+        work = cp.Parameter(len(g), value=g) @ self.x
+        objective = cp.quad_form(self.x, cp.psd_wrap(H)) / 2 - work
+        self.rows = [A[equations:] @ self.x >= b[equations:]]
+        if equations:
+            self.rows.insert(0, -A[:equations] @ self.x == -b[:equations])
+        self.problem = cp.Problem(cp.Minimize(objective), self.rows)
         self.problem.get_problem_data(name.upper(), canon_backend=CANON, solver_opts={})
 
     def primal(self) -> Array:
@@ -38,8 +41,10 @@ class CompiledProblem:
 
     def dual(self) -> Array | None:
         """Its multipliers, shape (m,), where the backend has any."""
-        lam = self.rows.dual_value
-        return None if lam is None else np.array(lam, dtype=np.float64)
+        parts = [row.dual_value for row in self.rows]
+        if any(part is None for part in parts):
+            return None
+        return np.concatenate([np.ravel(part) for part in parts]).astype(np.float64)
 
 
 class CompiledProblems:
@@ -55,31 +60,16 @@ class CompiledProblems:
         self.name = name
         self._last: CompiledProblem | None = None
 
-    def reply(self, form: StandardForm, options: Options, warm: bool = False) -> Reply:
-        """The reply to one program.
+    def reply(self, program: Program, options: Options) -> Reply:
+        """The reply to a program, from a cold start.
 
         Parameters
         ----------
-        form : StandardForm
+        program : Program
         options : dict
             In the backend's own names.
-        warm : bool
-            Start from the reply before, to a program with the same H, A and b.
         """
-        program = self._last
-        if program is None or not _same_but_for_g(program.form, form):
-            program = self._last = CompiledProblem(form, self.name)
-        if not warm:
-            program.problem._solver_cache.clear()  # nothing is left of the reply before
-        program.g.value = form.g
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of statuses, in words of each backend's own
-            return cvxpy_reply(program, self.name, options, warm)
-
-
-def _same_but_for_g(one: StandardForm, other: StandardForm) -> bool:
-    return all(
-        mine.shape == theirs.shape and abs(mine - theirs).sum() == 0
-        for mine, theirs in zip(one, other, strict=True)
-        if mine is not one.g
-    )
+        last = self._last
+        if last is None or bits(last.program) != bits(program):
+            last = self._last = CompiledProblem(program, self.name)
+        return cvxpy_reply(last, self.name, options)

@@ -7,8 +7,8 @@ from quasistatic_ref.lab.folders import CONTACT_QP
 from quasistatic_ref.lab.study.limits import Limits
 from quasistatic_ref.lab.study.problems.names import NATURAL, RAW
 from quasistatic_ref.lab.study.problems.problem import Problem
-from quasistatic_ref.lab.study.problems.selection import groups_in_random_order, problems_taken
-from quasistatic_ref.lab.study.row import COLD, WARM, Row
+from quasistatic_ref.lab.study.problems.selection import in_random_order, problems_taken
+from quasistatic_ref.lab.study.row import Row
 from quasistatic_ref.lab.study.run import study
 from quasistatic_ref.lab.study.solvers import SETTINGS
 
@@ -36,12 +36,12 @@ FAMILIES = {
 QUICK = 20
 """By how much a quick study divides the number of problems."""
 EVERY = 3
-"""Of raw units, and of starts from an answer, every third problem is enough."""
+"""Of raw units every third problem is enough."""
 LIMITS = Limits(time_limit=1.0, budget=120.0)
 
 
 def default_problems(quick: bool = False) -> tuple[list[Problem], list[Problem]]:
-    """The problems of the default study, and the part of them for raw units and warm starts.
+    """The problems of the default study, and the part of them for raw units.
 
     Parameters
     ----------
@@ -51,8 +51,7 @@ def default_problems(quick: bool = False) -> tuple[list[Problem], list[Problem]]
     divisor = QUICK if quick else 1
     families = {name: -(-count // divisor) for name, count in FAMILIES.items()}
     problems = problems_taken(CONTACT_QP, families)
-    part = [one for group in groups_in_random_order(problems)[::EVERY] for one in group]
-    return problems, part
+    return problems, in_random_order(problems)[::EVERY]
 
 
 def default_study(
@@ -62,7 +61,7 @@ def default_study(
     quick: bool = False,
     progress: bool = True,
 ) -> list[Row]:
-    """Run the default study, or what is left of it: three calls of :func:`.study`.
+    """Run the default study, or what is left of it: two calls of :func:`.study`.
 
     Parameters
     ----------
@@ -78,15 +77,9 @@ def default_study(
         All rows of the folder.
     """
     problems, part = default_problems(quick)
-    through_qpsolvers = ["qpsolvers:*"]
-    every = SETTINGS
-    some = ("default", "tuned")
+    by_units = ((problems, ["qpsolvers:*", "cvxpy:*"], NATURAL), (part, ["qpsolvers:*"], RAW))
     rows: list[Row] = []
-    for these, solvers, settings, units, start in (
-        (problems, [*through_qpsolvers, "cvxpy:*"], every, NATURAL, COLD),
-        (part, through_qpsolvers, every, RAW, COLD),
-        (part, through_qpsolvers, some, NATURAL, WARM),
-    ):
-        rows = study(these, solvers, settings, folder, executor, units=[units], starts=[start],
-                     limits=LIMITS, progress=progress)  # fmt: skip
+    for these, solvers, units in by_units:
+        rows = study(these, solvers, SETTINGS, folder, executor, units=[units], limits=LIMITS,
+                     progress=progress)  # fmt: skip
     return rows

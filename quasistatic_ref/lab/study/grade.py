@@ -1,218 +1,105 @@
-"""A reply against the exact answer: correct digits, residuals, and whether its claim holds.
+"""A reply as facts: what it says, its residuals, and the digits of its x."""
 
-Errors and digits are computed in natural units, whichever units the solver was called in: the
-conversion is lossless, and digits are relative. Residuals are those in the units of the call.
-"""
-
-from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import EnergyNorm, digits_of_error, energy_norm
 from quasistatic_ref.formats.quoting import clipped
-from quasistatic_ref.lab.study.claims import INFEASIBLE, NEITHER, OPTIMAL, claim
-from quasistatic_ref.lab.study.false_claims import (
-    Terms,
-    certificate_holds,
-    exact_terms,
-    exceeded,
-    largest,
-    limits,
-    terms_of,
-)
-from quasistatic_ref.lab.study.problems.names import NATURAL, RAW
-from quasistatic_ref.lab.study.problems.problem import Answer, Problem
-from quasistatic_ref.lab.study.promises import RESIDUALS, UNSTATED, Promise
-from quasistatic_ref.lab.study.row import FAILED, NAN, SOLVED, WRONG_SHAPE
+from quasistatic_ref.lab.study.problems.names import RAW
+from quasistatic_ref.lab.study.program import Known, Program
+from quasistatic_ref.lab.study.saying import OTHER, saying
 from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.step.standard_form import StandardForm
-from quasistatic_ref.step.units import Units
+from quasistatic_ref.solve.units import in_natural, in_si
 
-SLACK = 1e-13
-"""Slacks below that, relative to the numbers that they are the difference of, may be rounding."""
+RESIDUALS = ("primal", "dual", "gap")
 
 
-@dataclass(frozen=True, eq=False)
-class ProblemForms:
-    """A problem in both units, with what the grading of calls needs.
-
-    Parameters
-    ----------
-    forms : dict of str to StandardForm
-        By units, ``"raw"`` and ``"natural"``.
-    units : Units
-    answer : Answer
-        In natural units.
-    norm : EnergyNorm
-        Of the problem in natural units.
-    length : float
-        That errors are divided by, in natural units [-].
-    terms : dict of str to mapping or None
-        By units, what promises are about; None where there is no solution.
-    """
-
-    forms: dict[str, StandardForm]
-    units: Units
-    answer: Answer
-    norm: EnergyNorm
-    length: float
-    terms: dict[str, Terms | None]
-
-
-@lru_cache(maxsize=8)  # of the problem at which all solvers are
-def problem_forms(problem: Problem) -> ProblemForms:
-    """A problem in both units, and the norm that errors are measured in."""
-    natural = problem.natural
-    forms = {RAW: problem.form, NATURAL: natural.form}
-    norm = energy_norm(natural.H.toarray())
-    answers = {RAW: problem.answer, NATURAL: natural.answer}
-    terms = {units: exact_terms(forms[units], answers[units]) for units in forms}
-    length = natural.error_length
-    return ProblemForms(forms, problem.units, natural.answer, norm, length, terms)
-
-
-def grades(
-    ready: ProblemForms,
-    units: str,
-    reply: Reply,
-    solver: Solver,
-    promise: Promise,
-    accuracy: float | None,
+def facts_of_reply(
+    problem: Known, units: str, reply: Reply, solver: Solver, accuracy: float | None
 ) -> dict[str, Any]:
-    """Outcome, claim, digits, residuals and limits of one reply, as fields of a row.
+    """What one reply is, as fields of a row.
 
     Parameters
     ----------
-    ready : ProblemForms
+    problem : Known
     units : str
-        ``"raw"`` or ``"natural"``.
+        Of the call: ``"raw"`` or ``"natural"``.
     reply : Reply
     solver : Solver
-        By whose exit codes a status is a claim.
-    promise : dict
-        Of the residuals of an answer that it calls optimal.
     accuracy : float or None
         That was asked for [-].
+    """
+    program = problem.program
+    facts = no_reply(reply.status, accuracy)
+    facts["says"] = saying(solver.door, solver.target, reply.status)
+    if not _is_vector(reply.x, program.g):
+        return facts
+    x = reply.x
+    lam = reply.lam if _is_vector(reply.lam, program.b) else np.full(len(program.b), np.nan)
+    with np.errstate(all="ignore"):  # the numbers of a solver may be anything
+        if units == RAW:
+            x, lam = in_natural(x, lam, problem.units)
+        sizes = residuals(program.natural(problem.units), x, lam)
+        if problem.feasible:
+            facts["digits"] = problem.digits(in_si(x, lam, problem.units)[0])
+    if accuracy is not None:
+        facts["reached"] = all(size is not None and size <= accuracy for size in sizes.values())
+    return facts | sizes
+
+
+def no_reply(status: str, accuracy: float | None, seconds: float | None = None) -> dict[str, Any]:
+    """The same fields of a call without an answer.
+
+    Parameters
+    ----------
+    status : str
+        Why there is none.
+    accuracy : float or None
+        That was asked for [-].
+    seconds : float or None
+        Until the call was ended [s].
+    """
+    return dict.fromkeys((*RESIDUALS, "digits")) | {
+        "status": clipped(status),
+        "says": OTHER,
+        "reached": None if accuracy is None else False,
+        "seconds": seconds,
+    }
+
+
+def _is_vector(returned: Array | None, like: Array) -> TypeGuard[Array]:
+    """Whether a solver returned finite numbers, in the shape of another array."""
+    return (
+        returned is not None and returned.shape == like.shape and bool(np.isfinite(returned).all())
+    )
+
+
+def residuals(program: Program, x: Array, lam: Array) -> dict[str, float | None]:
+    """The residuals of an answer: of the rows, of Eq. :eq:`eq-9` and signs, and of the costs.
+
+    Those of qpbenchmark, but that a negative multiplier is a dual residual, too.
+
+    Parameters
+    ----------
+    program : Program
+    x, lam : ndarray, shapes (n,) and (m,)
+        In the units of the program; NaN in place of multipliers that are not known [any].
 
     Returns
     -------
     dict
+        ``primal``, ``dual`` and ``gap``; None: not known, or beyond float64.
     """
-    form = ready.forms[units]
-    outcome, x, lam = _usable_numbers(form, reply)
-    claimed = claim(solver.door, solver.target, reply.status)
-    if reply.solved and outcome != WRONG_SHAPE:
-        claimed = OPTIMAL
-    elif claimed == OPTIMAL:
-        claimed = NEITHER
-    feasible = not ready.answer.farkas
-    fields = ungraded_fields(outcome, reply.status, feasible)
-    residuals: dict[str, float | None] = dict.fromkeys(RESIDUALS)
-    with np.errstate(all="ignore"):
-        terms = ready.terms[units] or terms_of(form, x, lam)
-        if x is not None:
-            residuals = _residuals(form, x, lam)
-            if units == RAW:
-                x = x / (ready.units.size * ready.units.coordinate)
-                lam = None if lam is None else lam * (ready.units.length / ready.units.size)
-            if feasible:
-                fields |= _digits(ready, x, lam)
-        allowed = limits(promise, terms, residuals, feasible)
-    overflows = any(size is not None and not np.isfinite(size) for size in residuals.values())
-    wrong = claimed == OPTIMAL and (x is None or overflows or exceeded(residuals, allowed))
-    if claimed == INFEASIBLE and feasible:
-        wrong = not _is_certified(form, reply.lam, accuracy or UNSTATED["abs"])
-    return (
-        fields
-        | {name: _finite(size) for name, size in residuals.items()}
-        | {
-            **{f"{name}_limit": most for name, most in allowed.items()},
-            "claim": claimed,
-            "false_claim": wrong,
-            "seconds_solver": _finite(reply.seconds),
-            "seconds_setup": _finite(reply.setup),
-            "iterations": reply.iterations,
-        }
-    )
-
-
-def _is_certified(form: StandardForm, lam: Array | None, accuracy: float) -> bool:
-    usable = lam is not None and lam.shape == form.b.shape
-    return lam is not None and usable and certificate_holds(form, lam, accuracy)
-
-
-def ungraded_fields(outcome: str, status: str, feasible: bool) -> dict[str, Any]:
-    """The same fields of a call that never came back, or never was made."""
-    every = ["digits", "digits_net", "digits_lam", *RESIDUALS]
-    every += [f"{name}_limit" for name in RESIDUALS]
-    times = ("seconds", "seconds_low", "seconds_high", "seconds_first", "seconds_solver",
-             "seconds_setup")  # fmt: skip
-    return dict.fromkeys([*every, *times, "iterations", "memory"]) | {
-        "outcome": outcome,
-        "status": clipped(status),
-        "feasible": feasible,
-        "claim": NEITHER,
-        "false_claim": False,
-        "calls": 0,
+    H, g, A, b, equations = program
+    slack = A @ x - b
+    violation = np.append(abs(slack[:equations]), np.maximum(-slack[equations:], 0.0))
+    wrong_sign = np.maximum(-lam[equations:], 0.0)
+    balance = H @ x - g - A.T @ lam
+    sizes = {
+        "primal": violation.max(initial=0.0),
+        "dual": max(abs(balance).max(initial=0.0), wrong_sign.max(initial=0.0)),
+        "gap": abs(x @ H @ x - g @ x - b @ lam),
     }
-
-
-def _usable_numbers(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array | None]:
-    """Outcome, and the numbers if they can be judged."""
-    if reply.x is None:
-        return FAILED, None, None
-    if reply.x.shape != form.g.shape or (reply.lam is not None and reply.lam.shape != form.b.shape):
-        return WRONG_SHAPE, None, None
-    lam_finite = reply.lam is None or bool(np.isfinite(reply.lam).all())
-    if not np.isfinite(reply.x).all() or not lam_finite:
-        # A solver that gave up and says so has failed, whatever it left in its arrays.
-        return (NAN if reply.solved else FAILED), None, None
-    return (SOLVED if reply.solved else FAILED), reply.x, reply.lam
-
-
-def _digits(of: ProblemForms, x: Array, lam: Array | None) -> Mapping[str, float]:
-    answer = of.answer
-    digits = {"digits": _digits_of(of.norm.of_displacement(x - answer.x), of)}
-    if lam is None:
-        return digits
-    form = of.forms[NATURAL]
-    net = form.A.T @ lam - answer.net
-    negative = form.A.T @ np.minimum(lam, 0.0)
-    off, below = (float(one) for one in of.norm.of_impulses(np.array([net, negative])))
-    # Slacks of the exact answer that rounding alone may have made are none. What multipliers of
-    # others add to the dual's gap bounds an error by strong convexity, as a gap does.
-    slack = form.A @ answer.x - form.b
-    slack[slack < SLACK * (abs(form.A) @ abs(answer.x) + abs(form.b))] = 0.0
-    gap = float(np.maximum(lam, 0.0) @ slack)
-    worst = max(off, below, float(np.sqrt(2 * gap)))
-    return digits | {"digits_net": _digits_of(off, of), "digits_lam": _digits_of(worst, of)}
-
-
-def _digits_of(size: float, of: ProblemForms) -> float:
-    return digits_of_error(size / of.length)
-
-
-def _residuals(form: StandardForm, x: Array, lam: Array | None) -> dict[str, float | None]:
-    """Primal and dual residual and duality gap, in the call's units.
-
-    They are those of qpbenchmark, except that a negative multiplier is a dual residual, too.
-    """
-    primal = largest(np.maximum(form.b - form.A @ x, 0.0))
-    if lam is None:
-        return {"primal": primal, "dual": None, "gap": None}
-    balance = form.H @ x - form.g - form.A.T @ lam
-    gap = abs(float(x @ form.H @ x - form.g @ x - form.b @ lam))
-    return {
-        "primal": primal,
-        "dual": float(np.max([largest(balance), largest(np.minimum(lam, 0.0))])),
-        "gap": gap,
-    }
-
-
-def _finite(value: float | None) -> float | None:
-    return value if value is not None and np.isfinite(value) else None
+    return {name: float(size) if np.isfinite(size) else None for name, size in sizes.items()}

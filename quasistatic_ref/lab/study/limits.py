@@ -19,7 +19,8 @@ class Limits:
     repetitions : int
         Calls of a measurement that are timed.
     budget : float
-        Of one solver, all its calls together, each time that a study runs [s].
+        Of one solver, all its calls together, each time that a study runs; calls beyond it are left
+        out [s].
     memory : float
         Of one solver's process and what it starts [bytes].
 

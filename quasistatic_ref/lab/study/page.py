@@ -1,7 +1,7 @@
 """The page of a study: tables in Markdown and two figures, from its rows as pandas has them.
 
-Digits that a call *delivers* are those of its answer if the solver says that it solved, and 0
-otherwise, since a simulator cannot go on with the answer of a solver that failed.
+Digits that a call *delivers* are those of its x if the solver says that it solved, and 0 otherwise,
+since a simulator cannot go on with an answer that its solver does not stand by.
 """
 
 from collections.abc import Iterator, Sequence
@@ -12,8 +12,9 @@ from typing import Any
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.lab.study.claims import INFEASIBLE, OPTIMAL
-from quasistatic_ref.lab.study.row import MEMORY, NOT_RUN, SOLVED, TIMEOUT, Row
+from quasistatic_ref.lab.study.problems.names import NATURAL
+from quasistatic_ref.lab.study.row import Row
+from quasistatic_ref.lab.study.saying import INFEASIBLE, OTHER, SOLVED
 from quasistatic_ref.lab.study.solvers import SETTINGS
 from quasistatic_ref.parts import needed_package
 
@@ -44,7 +45,7 @@ def page_written(rows: Sequence[Row], folder: Path) -> list[Path]:
     table = table_of(rows)
     return [
         text_written(folder / PAGE, page(table)),
-        *figures_written(folder / "figures", points(table), kept(table)),
+        *figures_written(folder / "figures", points(table), reached(table)),
     ]
 
 
@@ -54,26 +55,37 @@ def table_of(rows: Sequence[Row]) -> Any:
     Returns
     -------
     pandas.DataFrame
-        ``label``; ``delivered`` digits [-], NaN where there is no solution; ``ms`` of the first
-        call, or of the limit where it was ended.
+        ``label``; ``delivered`` digits [-], NaN where there is no solution; ``ms`` of a call.
     """
     pandas = needed_package("pandas", "study", "the page of a study")
     table = pandas.DataFrame([asdict(row) for row in rows], columns=list(Row.__annotations__))
     table["label"] = table["door"] + ":" + table["solver"]
-    solved = table["outcome"] == SOLVED
-    table["delivered"] = table["digits"].where(solved, 0.0).where(table["feasible"]).astype(float)
-    table["ms"] = 1e3 * table["seconds_first"].astype(float)
+    delivered = table["digits"].astype(float).fillna(0.0).where(table["says"] == SOLVED, 0.0)
+    table["delivered"] = delivered.where(table["feasible"])
+    table["ms"] = 1e3 * table["seconds"].astype(float)
     return table
 
 
 def page(table: Any) -> str:
     """The page of a :func:`table_of` rows, in Markdown."""
-    parts: list[str] = ["# Solvers on contact problems with exact answers", ""]
-    parts += ["## Who solves what", "", *_counted(table), ""]
     every = _by_setting(table)
-    parts += [
+    parts = [
+        "# Solvers on problems with exact answers",
+        "",
+        f"{table['problem'].nunique()} problems, {table['label'].nunique()} pairs of solver and "
+        f"door, {len(table):,} calls. Calls in natural units, unless a table says otherwise.",
+        "",
+        "## What solvers say",
+        "",
+        "**Calls at a setting with an accuracy**, by what the solver says, whether its residuals "
+        "reached the accuracy, and whether there is a solution.",
+        "",
+        *_sayings(table),
+        "",
+        "## Who solves what",
+        "",
         "**Each solver through the door, and at the setting, that most often has 6 digits** on "
-        "these same problems. Natural units, cold; calls that a budget did not reach are left out.",
+        "the problems with a solution.",
         "",
         *_lines(_best(every), options=False),
         "",
@@ -83,63 +95,64 @@ def page(table: Any) -> str:
         "",
         "## By problem family",
         "",
-        "**Median digits that are delivered, at the setting `default`.** Natural units, cold.",
+        "**Median digits that are delivered, at the setting `default`.**",
         "",
         *_families(table),
         "",
+        *_units(table),
     ]
-    parts += _in_order(table)
     return "\n".join(parts).rstrip() + "\n"
 
 
-def _base(table: Any) -> Any:
-    """Natural units, cold, and reached by the budget."""
-    return table[
-        (table["units"] == "natural") & (table["start"] == "cold") & (table["outcome"] != NOT_RUN)
-    ]
+def _natural(table: Any) -> Any:
+    return table[table["units"] == NATURAL]
 
 
-def _counted(table: Any) -> Iterator[str]:
-    """How much was measured, and how many claims are false."""
-    yield (
-        f"{table['problem'].nunique()} problems, {table['label'].nunique()} pairs of solver and "
-        f"door, {len(table):,} measurements."
-    )
-    yield ""
-    claims = {
-        "of success, where there is a solution": (OPTIMAL, True),
-        "of success, where there is none": (OPTIMAL, False),
-        "that there is no solution, where there is one": (INFEASIBLE, True),
+def _sayings(table: Any) -> list[str]:
+    """How many calls of each solver said what, a line a solver and one for all."""
+    asked = _natural(table)[lambda rows: rows["accuracy"].notna()]
+    solved, infeasible, other = (asked["says"] == says for says in (SOLVED, INFEASIBLE, OTHER))
+    feasible = asked["feasible"]
+    arrived = asked["reached"].eq(True)
+    kinds = {
+        "solved, reached": solved & feasible & arrived,
+        "solved, not reached": solved & feasible & ~arrived,
+        "solved, without a solution": solved & ~feasible,
+        "infeasible, with a solution": infeasible & feasible,
+        "infeasible, without one": infeasible & ~feasible,
+        "other": other,
     }
-    lines = []
-    for words, (claim, feasible) in claims.items():
-        made = table[(table["claim"] == claim) & (table["feasible"] == feasible)]
-        false = made[made["false_claim"]]["solver"].value_counts()
-        whose = ", ".join(f"{name} {count}" for name, count in false.items())
-        lines.append((words, f"{len(made):,}", f"{len(made[made['false_claim']]):,}", whose or "-"))
-    yield from markdown_table(("claims", "number", "false", "of which"), lines)
+    counts = [asked[kind].groupby("solver").size().rename(name) for name, kind in kinds.items()]
+    names = sorted(set(asked["solver"]))
+    lines = [[name, *(int(count.get(name, 0)) for count in counts)] for name in names]
+    lines.append(["all", *(int(count.sum()) for count in counts)])
+    rows = [[name, *(f"{count:,}" for count in line)] for name, *line in lines]
+    return markdown_table(["solver", *kinds], rows, 1)
 
 
 def _by_setting(table: Any) -> Any:
     """A line for each solver, door and setting."""
-    base = _base(table)
-    solvable = base[base["feasible"]]
-    keys = ["label", "setting", "options"]
-    lines = solvable.groupby(keys, sort=False).agg(
-        problems=("problem", "nunique"),
-        six=("delivered", lambda values: 100 * (values >= SIX).mean()),
-        three=("delivered", lambda values: 100 * (values >= SIX / 2).mean()),
-        digits=("delivered", "median"),
-        digits_lam=("digits_lam", "median"),
-        ms=("ms", "median"),
-        ms_95=("ms", lambda values: values.quantile(0.95)),
-        ms_again=("seconds", lambda values: 1e3 * values.median()),
-        ended=("outcome", lambda values: values.isin((TIMEOUT, MEMORY)).sum()),
-        failed=("outcome", lambda values: (values != SOLVED).sum()),
-        infeasible=("claim", lambda values: (values == INFEASIBLE).sum()),
+    solvable = _natural(table)[lambda rows: rows["feasible"]]
+    lines = (
+        solvable.assign(
+            missed=(solvable["says"] == SOLVED) & solvable["reached"].eq(False),
+            infeasible=solvable["says"] == INFEASIBLE,
+            other=solvable["says"] == OTHER,
+        )
+        .groupby(["label", "setting", "options"], sort=False)
+        .agg(
+            problems=("problem", "nunique"),
+            six=("delivered", lambda values: 100 * (values >= SIX).mean()),
+            three=("delivered", lambda values: 100 * (values >= SIX / 2).mean()),
+            digits=("delivered", "median"),
+            ms=("ms", "median"),
+            ms_95=("ms", lambda values: values.quantile(0.95)),
+            missed=("missed", "sum"),
+            infeasible=("infeasible", "sum"),
+            other=("other", "sum"),
+        )
+        .reset_index()
     )
-    false = base.groupby(keys, sort=False)["false_claim"].sum()
-    lines = lines.join(false).reset_index()
     lines["order"] = lines["setting"].map(ORDER).fillna(len(ORDER))
     return lines.sort_values(["label", "order"])
 
@@ -152,15 +165,13 @@ def _best(every: Any) -> Any:
 
 def _lines(every: Any, options: bool) -> list[str]:
     columns = ["solver", "setting", "problems", ">= 6 digits [%]", ">= 3 digits [%]",
-               "digits, median", "digits of multipliers", "time, median [ms]", "time, 95 % [ms]",
-               "repeated, median [ms]", "false claims", "failed", "of these ended",
-               "called infeasible"]  # fmt: skip
+               "digits, median", "time, median [ms]", "time, 95 % [ms]", "solved, not reached",
+               "infeasible", "other"]  # fmt: skip
     rows = []
     for one in every.itertuples():
-        times = (f"{v:.3g}" for v in (one.ms, one.ms_95, one.ms_again))
-        shares = (_shown(v) for v in (one.six, one.three, one.digits, one.digits_lam))
-        rows.append([one.label, one.setting, one.problems, *shares, *times, one.false_claim,
-                     one.failed, one.ended, one.infeasible])  # fmt: skip
+        shares = (_shown(v) for v in (one.six, one.three, one.digits))
+        rows.append([one.label, one.setting, one.problems, *shares, f"{one.ms:.3g}",
+                     f"{one.ms_95:.3g}", one.missed, one.infeasible, one.other])  # fmt: skip
         if options:
             rows[-1].append(f"`{one.options}`")
     return markdown_table([*columns, *["options"] * options], rows, 2)
@@ -171,52 +182,40 @@ def _shown(value: float) -> str:
     return f"{value:.1f}" if value == value else "-"
 
 
+def _medians(calls: Any, index: str, columns: str, first: str) -> list[str]:
+    """A table of median digits that are delivered."""
+    medians = calls.pivot_table(
+        index=index, columns=columns, values="delivered", aggfunc="median", observed=True
+    )
+    rows = [
+        [name, *map(_shown, line)]
+        for name, line in zip(medians.index, medians.to_numpy().tolist(), strict=True)
+    ]
+    return markdown_table([first, *medians.columns], rows, 1)
+
+
 def _families(table: Any) -> list[str]:
-    base = _base(table)
-    default = base[base["setting"] == "default"]
-    medians = default.pivot_table(
-        index="family", columns="label", values="delivered", aggfunc="median", observed=True
-    )
-    rows = [
-        [family, *map(_shown, line)]
-        for family, line in zip(medians.index, medians.to_numpy().tolist(), strict=True)
-    ]
-    return markdown_table(["family", *medians.columns], rows, 1)
+    natural = _natural(table)
+    return _medians(natural[natural["setting"] == "default"], "family", "label", "family")
 
 
-def _in_order(table: Any) -> list[str]:
-    """What a start from an answer is worth: of the same problems, cold and with it."""
-    solved = table[table["outcome"] == SOLVED]
-    warm = solved[solved["started"]]
-    cold = solved[solved["start"] == "cold"]
-    keys = ["problem", "label", "setting", "units"]
-    both = warm.merge(cold, on=keys, suffixes=("_warm", "_cold"))
-    if not len(both):
-        return []
-    both["ratio"] = both["seconds_warm"].astype(float) / both["seconds_cold"].astype(float)
-    lines = both.groupby(["label", "setting", "units", "start_warm"]).agg(
-        calls=("ratio", "size"),
-        cold=("seconds_cold", lambda values: 1e3 * values.median()),
-        warm=("seconds_warm", lambda values: 1e3 * values.median()),
-        ratio=("ratio", "median"),
-        digits_cold=("digits_cold", "median"),
-        digits_warm=("digits_warm", "median"),
-    )
-    rows = [
-        [*one.Index, one.calls, f"{one.cold:.3g}", f"{one.warm:.3g}", f"{one.ratio:.2f}",
-         f"{one.digits_cold:.1f}", f"{one.digits_warm:.1f}"]
-        for one in lines.itertuples()
-    ]  # fmt: skip
-    columns = ["solver", "setting", "units", "start", "calls", "cold, median [ms]",
-               "with a start, median [ms]", "ratio, median", "digits, cold",
-               "digits, with a start"]  # fmt: skip
-    return [
-        "## Starts from an answer",
-        "",
-        "**Calls that start from an answer, and the same calls cold.** Both were solved.",
-        "",
-        *markdown_table(columns, rows, 4),
+def _units(table: Any) -> Iterator[str]:
+    """Digits of the same calls in either units."""
+    raw = table[table["units"] != NATURAL]
+    both = table[
+        table["problem"].isin(raw["problem"])
+        & table["label"].isin(raw["label"])
+        & (table["setting"] == "tuned")
     ]
+    if both["units"].nunique() > 1:
+        yield "## By units"
+        yield ""
+        yield (
+            "**Median digits that are delivered, at the setting `tuned`**, of the problems that "
+            "were put in both units."
+        )
+        yield ""
+        yield from _medians(both, "label", "units", "solver")
 
 
 def points(table: Any) -> Any:
@@ -226,12 +225,13 @@ def points(table: Any) -> Any:
     return every[shown][["label", "setting", "digits", "ms"]]
 
 
-def kept(table: Any) -> Any:
-    """Digits of answers that kept their promise: 5th percentile and median, by family."""
-    base = _base(table)
-    answers = base[(base["outcome"] == SOLVED) & base["feasible"] & ~base["false_claim"]]
-    answers = answers[answers["setting"] != "default"]
-    ranges = answers.groupby(["family", "setting"])["digits"].quantile([0.05, 0.5]).unstack()
+def reached(table: Any) -> Any:
+    """Digits of answers that reached their accuracy: 5th percentile and median, by family."""
+    natural = _natural(table)
+    answers = natural[
+        (natural["says"] == SOLVED) & natural["reached"].eq(True) & natural["feasible"]
+    ]
+    ranges = answers.groupby(["family", "setting"])["delivered"].quantile([0.05, 0.5]).unstack()
     ranges = ranges.reset_index().rename(columns={0.05: "low", 0.5: "median"})
     if len(ranges):
         ranges["order"] = ranges["setting"].map(ORDER).fillna(len(ORDER))

@@ -1,6 +1,7 @@
 """A study: what is measured, in which order, and how a study that was stopped goes on."""
 
 import json
+import statistics
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
@@ -10,8 +11,6 @@ from itertools import groupby, product
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_read, json_text, text_written
 from quasistatic_ref.lab.fingerprint import fingerprint
@@ -19,24 +18,15 @@ from quasistatic_ref.lab.folders import CONTACT_QP
 from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.machine import machine
 from quasistatic_ref.lab.parallel import results
-from quasistatic_ref.lab.study.accepted import check_options
-from quasistatic_ref.lab.study.doors import neighbour
-from quasistatic_ref.lab.study.grade import grades, problem_forms, ungraded_fields
+from quasistatic_ref.lab.study.grade import facts_of_reply, no_reply
 from quasistatic_ref.lab.study.limits import Limits
 from quasistatic_ref.lab.study.problems.names import NATURAL, UNITS
-from quasistatic_ref.lab.study.problems.problem import QP, Problem
-from quasistatic_ref.lab.study.problems.selection import groups_in_random_order, problems_taken
-from quasistatic_ref.lab.study.row import COLD, NOT_RUN, STARTS, TIMEOUT, Row, key_of
-from quasistatic_ref.lab.study.solvers import (
-    CVXPY,
-    FUNCTION,
-    Setting,
-    Solver,
-    settings_of,
-    solvers_of,
-)
+from quasistatic_ref.lab.study.problems.selection import in_random_order, problems_taken
+from quasistatic_ref.lab.study.program import Known
+from quasistatic_ref.lab.study.row import Row, key_of
+from quasistatic_ref.lab.study.solvers import Setting, Solver, settings_of, solvers_of
 from quasistatic_ref.lab.study.store import ROWS, rows_read, rows_written
-from quasistatic_ref.lab.study.worker import Answer, Ended, Question, SolverProcess
+from quasistatic_ref.lab.study.worker import Ended, Question, SolverProcess
 from quasistatic_ref.simulate.progress import progress_bar
 
 RECORD = "study.json"
@@ -52,50 +42,50 @@ class Measurement:
 
     Parameters
     ----------
-    problem : Problem
+    problem : Known
     solver : Solver
     setting : Setting
     units : str
-    start : str
-    before : Problem or None
-        The step before it, whose answer it starts from.
     """
 
-    problem: Problem
+    problem: Known
     solver: Solver
     setting: Setting
     units: str
-    start: str
-    before: Problem | None = None
 
-    def row(self, limits: Limits, fields: dict[str, Any]) -> Row:
-        """The row of it, with what was `fields`."""
-        facts = self.problem.facts
+    def row(self, limits: Limits, facts: dict[str, Any]) -> Row:
+        """The row of this call, with the facts of what came back.
+
+        Parameters
+        ----------
+        limits : Limits
+        facts : dict
+            The fields that :func:`.facts_of_reply` returns, and seconds.
+        """
+        problem = self.problem
+        program = problem.program
+        options, accuracy = self.solver.asked(self.setting, limits.time_limit)
         return Row(
-            problem=self.problem.id,
-            family=facts["family"],
-            n=facts["n"],
-            m=facts["m"],
-            dial=None if facts["dial"] is None else float(facts["dial"]),
+            problem=problem.id,
+            family=problem.family,
+            n=len(program.g),
+            m=len(program.b),
+            dial=problem.dial,
+            feasible=problem.feasible,
             solver=self.solver.name,
             door=self.solver.door,
             version=self.solver.version,
             setting=self.setting.name,
-            options=self.options(limits),
+            accuracy=accuracy,
+            options=json_text(options),
             units=self.units,
-            start=self.start,
             machine=processor(),
-            **({"started": False} | fields),
+            **facts,
         )
 
     def key(self, limits: Limits) -> tuple[str, ...]:
-        """What tells it from others."""
-        nothing = ungraded_fields(NOT_RUN, "", self.problem.feasible)
-        return key_of(self.row(limits, nothing))
-
-    def options(self, limits: Limits) -> str:
-        """The options that its solver is given, as JSON."""
-        return json_text(self.solver.settings_of(self.setting, limits.time_limit))
+        """What tells this call from others."""
+        return key_of(self.row(limits, no_reply("", None, 0.0)))
 
 
 @cache
@@ -105,53 +95,49 @@ def processor() -> str:
 
 
 def study(
-    problems: Mapping[str, int] | Sequence[Problem],
+    problems: Mapping[str, int] | Sequence[Known],
     solvers: Sequence[str | Callable[..., Any] | Solver],
     settings: Sequence[str | Setting] = ("default",),
     folder: str | Path = "study",
     executor: Executor | None = None,
     *,
     units: Sequence[str] = (NATURAL,),
-    starts: Sequence[str] = (COLD,),
     limits: Limits | None = None,
     progress: bool = True,
 ) -> list[Row]:
-    """Put problems to solvers, or what is left of them: a row for each measurement.
+    """Put problems to solvers, or what is left of them: a row for each call.
 
     Parameters
     ----------
-    problems : mapping of str to int, or sequence of Problem
+    problems : mapping of str to int, or sequence of Known
         How many of each family of contact-qp; or problems, such as :func:`.problems_taken` and
-        :func:`.problems_of_runs` return.
+        :func:`.problems_of_runs` return, or any objects with the attributes of :class:`.Known`.
     solvers : sequence of str, callable or Solver
         ``"qpsolvers:NAME"``, ``"cvxpy:NAME"``, ``*`` for every NAME that is installed; functions
         ``(P, q, G, h) -> (x, z, status)``; what :func:`.function_solver` returns.
     settings : sequence of str or Setting
         Of ``"default"``, ``"low"``, ``"mid"``, ``"high"``, ``"tuned"``; or others.
     folder : str or Path
-        Of the rows. A measurement whose row is there is not made again.
+        Of the rows. A call whose row is there is not made again.
     executor : Executor, optional
-        Any of ``concurrent.futures``, which measures at several places at once; by default one call
+        Any of ``concurrent.futures``, which calls at several places at once; by default one call
         after the other, so that none disturbs the times of another. Wherever it is, each solver has
         a process of its own with limits of time and memory.
     units : sequence of str
-        Of ``"raw"`` and ``"natural"``.
-    starts : sequence of str
-        Of ``"cold"`` and ``"warm"``: from the solver's answer to the step before in a sequence,
-        else to a neighbour.
+        Of ``"raw"``, as the problems are given, and ``"natural"``.
     limits : Limits, optional
     progress : bool
 
     Returns
     -------
     list of Row
-        All rows of the folder.
+        All rows of the folder. Calls that a solver's budget did not reach have none.
 
     Raises
     ------
     InputError
-        If an argument is unusable, the folder holds another study or is being written, or a solver
-        does not know an option or refuses its value: before anything is measured.
+        If an argument is unusable, or the folder holds another study or is being written: before
+        anything is called.
     KeyboardInterrupt
         After Ctrl-C; the rows until then are kept.
     """
@@ -160,15 +146,15 @@ def study(
         problems = problems_taken(CONTACT_QP, problems)
     chosen = solvers_of(solvers)
     at = settings_of(settings)
-    _check(problems, chosen, at, limits)
-    for field, values, known in (("units", units, UNITS), ("starts", starts, STARTS)):
-        for value in values:
-            if value not in known:
-                raise InputError(f"must be of {', '.join(known)}", field=field, value=value)
-    wanted = plan(problems, chosen, at, units, starts)
+    _check(problems, chosen, at)
+    for value in units:
+        if value not in UNITS:
+            raise InputError(f"must be of {', '.join(UNITS)}", field="units", value=value)
+    wanted = plan(problems, chosen, at, units)
+    numbers = {one.id: fingerprint(tuple(one.program))[:12] for one in problems}
     folder = Path(folder)
     with locked(folder):
-        _recorded(folder / RECORD, problems, limits)
+        _recorded(folder / RECORD, numbers, limits)
         rows = rows_read(folder) if (folder / ROWS).exists() else []
         there = {key_of(row) for row in rows}
         todo = [one for one in wanted if one.key(limits) not in there]
@@ -187,66 +173,51 @@ def study(
 
 
 def plan(
-    problems: Sequence[Problem],
+    problems: Sequence[Known],
     solvers: Sequence[Solver],
     settings: Sequence[Setting],
     units: Sequence[str],
-    starts: Sequence[str],
 ) -> list[Measurement]:
-    """What a study measures: a solver after the other; of each, problems in one random order.
-
-    The steps of a sequence follow each other, as they do in the set.
+    """The calls of a study: a solver after the other; of each, problems in one random order.
 
     Parameters
     ----------
-    problems : sequence of Problem
+    problems : sequence of Known
     solvers : sequence of Solver
     settings : sequence of Setting
-    units, starts : sequence of str
+    units : sequence of str
     """
-    groups = groups_in_random_order(problems)
-    measurements = []
-    for solver, setting, group, unit, start in product(solvers, settings, groups, units, starts):
-        goes_on = start != COLD and len(group) > 1
-        # What CVXPY has compiled takes a start with another g alone.
-        starts_warm = solver.warm and not (goes_on and solver.door == CVXPY)
-        if not solver.takes(setting) or (start != COLD and not starts_warm):
-            continue
-        steps = [replace(one, units=group[0].units) for one in group] if goes_on else group
-        for one, before in zip(steps, [None, *steps], strict=False):
-            last = before if goes_on else None
-            measurements.append(Measurement(one, solver, setting, unit, start, last))
-    return measurements
+    order = in_random_order(problems)
+    return [
+        Measurement(problem, solver, setting, unit)
+        for solver, setting, problem, unit in product(solvers, settings, order, units)
+        if solver.takes(setting)
+    ]
 
 
 def _check(
-    problems: Sequence[Problem],
-    solvers: Sequence[Solver],
-    settings: Sequence[Setting],
-    limits: Limits,
+    problems: Sequence[Known], solvers: Sequence[Solver], settings: Sequence[Setting]
 ) -> None:
-    """Refuse what a study has no place for, and options that a solver would not get."""
-    for one in problems:
-        if one.facts["kind"] != QP:
-            words = "has cones; studies contain rows only"
-            raise InputError(words, field="problems", value=one.id)
+    """Refuse what a study has no place for."""
     if not 0 < len({one.id for one in problems}) == len(problems):
         raise InputError("must be some, of different names", field="problems", value=len(problems))
     for solver in solvers:
-        taken = [setting for setting in settings if solver.takes(setting)]
-        if not taken:
+        if not any(solver.takes(setting) for setting in settings):
             words = f"hold nothing that {solver.label} can be set to; add 'default', or give it"
             names = [setting.name for setting in settings]
             raise InputError(f"{words} options of its own", field="settings", value=names)
-        if solver.door != FUNCTION:
-            for setting in taken:
-                options = solver.settings_of(setting, limits.time_limit)
-                check_options(solver.door, solver.target, options)
 
 
-def _recorded(path: Path, problems: Sequence[Problem], limits: Limits) -> None:
-    """Write what a study is about, or refuse a folder of another one."""
-    numbers = {one.id: _digest(one) for one in problems}
+def _recorded(path: Path, numbers: Mapping[str, str], limits: Limits) -> None:
+    """Write what a study is about, or refuse a folder of another one.
+
+    Parameters
+    ----------
+    path : Path
+    numbers : mapping of str to str
+        What tells the numbers of a problem from others of its name.
+    limits : Limits
+    """
     mine: dict[str, Any] = {"limits": asdict(limits), "problems": numbers}
     there: Any = json_read(path) if path.exists() else mine
     kept = there.get("problems", {})
@@ -256,12 +227,6 @@ def _recorded(path: Path, problems: Sequence[Problem], limits: Limits) -> None:
         raise InputError(words, file=path.parent)
     record = mine | {"problems": kept | numbers, "machine": machine()}
     text_written(path, json.dumps(record, indent=1) + "\n")
-
-
-def _digest(one: Problem) -> str:
-    """What tells the numbers of a problem from others of its name."""
-    matrices = [part for M in (one.H, one.A) for part in (M.data, M.indices, M.indptr)]
-    return fingerprint((one.g, one.b, *matrices))[:12]
 
 
 def _measured_all(
@@ -303,61 +268,36 @@ def measured(measurements: Sequence[Measurement], limits: Limits) -> Iterator[Ro
     seen: set[object] = set()
     with SolverProcess(measurements[0].solver, limits.memory) as process:
         for one in measurements:
-            fields = ungraded_fields(NOT_RUN, "budget", one.problem.feasible)
-            if spent <= limits.budget:
-                if not process.is_there:
-                    seen.clear()
-                    process.start()
-                begin = time.perf_counter()
-                fields = _measured_fields(process, one, limits, seen)
-                spent += time.perf_counter() - begin
-            yield one.row(limits, fields)
+            if spent > limits.budget:
+                return
+            if not process.is_there:
+                seen.clear()
+                process.start()
+            begin = time.perf_counter()
+            facts = _facts(process, one, limits, seen)
+            spent += time.perf_counter() - begin
+            yield one.row(limits, facts)
 
 
-def _measured_fields(
+def _facts(
     process: SolverProcess, one: Measurement, limits: Limits, seen: set[object]
 ) -> dict[str, Any]:
     """What one measurement finds, as fields of its row."""
-    ready = problem_forms(one.problem)
-    form = ready.forms[one.units]
-    options = one.solver.settings_of(one.setting, limits.time_limit)
-    in_order = one.problem.facts["sequence"] is not None and one.start != COLD
-    start = None if one.start == COLD or in_order else neighbour(form, one.problem.id)
-    question = Question(form, options, 1, start, one.before is not None)
-    shape = (*form.A.shape, one.setting.name, one.units, one.start)
-    starts = 1 if start is None else 2
+    program = one.problem.program
+    if one.units == NATURAL:
+        program = program.natural(one.problem.units)
+    options, accuracy = one.solver.asked(one.setting, limits.time_limit)
+    question = Question(program, options)
+    shape = (*program.A.shape, program.equations, one.setting.name, one.units)
     try:
-        if one.before is not None and process.kept != one.before.id:
-            last = problem_forms(one.before).forms[one.units]
-            process.keep(one.before.id, Question(last, options), limits.warm_up)
         if shape not in seen:  # a solver may compile at the first call of a shape
             process.ask(question, limits.warm_up)
             seen.add(shape)
-        first = process.ask(question, starts * limits.time_limit)
-        again = first
-        if limits.repetitions > 1 and first.reply.solved:
+        reply, times = process.ask(question, limits.time_limit)
+        if limits.repetitions > 1 and reply.solved:
             many = replace(question, calls=limits.repetitions - 1)
-            again = process.ask(many, starts * limits.repetitions * limits.time_limit)
-        if in_order:  # what the next step goes on from
-            process.keep(one.problem.id, question, limits.time_limit)
+            times += process.ask(many, limits.repetitions * limits.time_limit).times
     except Ended as end:
-        fields = ungraded_fields(end.outcome, str(end), one.problem.feasible)
-        return fields | {"seconds_first": limits.time_limit if end.outcome == TIMEOUT else None}
-    return _graded(one, ready, first, again) | {"memory": process.peak or None}
-
-
-def _graded(one: Measurement, ready: Any, first: Answer, again: Answer) -> dict[str, Any]:
-    """The fields of a measurement that came back."""
-    solver = one.solver
-    promise = solver.promise(one.setting, solver.settings_of(one.setting, 1.0))
-    fields = grades(ready, one.units, first.reply, solver, promise, one.setting.accuracy)
-    times = first.times if again is first else (*first.times, *again.times)
-    low, middle, high = np.percentile(times, [25, 50, 75]).tolist()
-    return fields | {
-        "started": first.started,
-        "seconds": middle,
-        "seconds_low": low,
-        "seconds_high": high,
-        "seconds_first": first.times[0],
-        "calls": len(times),
-    }
+        return no_reply(str(end), accuracy, end.seconds)
+    facts = facts_of_reply(one.problem, one.units, reply, one.solver, accuracy)
+    return facts | {"seconds": statistics.median(times)}

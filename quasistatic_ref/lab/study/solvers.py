@@ -1,7 +1,6 @@
 """The solvers of a study, by the door through which they are called, and their settings."""
 
 import importlib.metadata
-import inspect
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -12,7 +11,6 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.lab.study.promises import RESIDUALS, Promise, promise_stated, resolved
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.solve.backends import BACKENDS, Options, installed
 
@@ -84,18 +82,12 @@ class Solver:
         The solver's name there; or a function, pickled: see :func:`function_solver`.
     options : mapping of str to mapping
         Options of its own by setting, in place of ours.
-    promised : mapping of str to mapping
-        By setting, what its author promises of residuals, as in ``promises.py``.
-    starts : bool
-        Whether a function takes ``start=(x, z)``.
     """
 
     name: str
     door: str
     target: Any
     options: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    promised: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    starts: bool = False
 
     @property
     def label(self) -> str:
@@ -114,61 +106,34 @@ class Solver:
         package = known.to_install if known else self.target
         return "" if self.door == FUNCTION else _version(package)
 
-    @property
-    def warm(self) -> bool:
-        """Whether its door, or its function, uses a start."""
-        if self.door == FUNCTION:
-            return self.starts
-        return self.door in self.facts.get("warm", ())
-
     def takes(self, setting: Setting) -> bool:
         """Whether a setting means anything to it."""
         return setting.name in self.options or setting.accuracy is None or "accuracy" in self.facts
 
-    def settings_of(self, setting: Setting, seconds: float) -> Options:
-        """The options that a setting is to this solver.
+    def asked(self, setting: Setting, seconds: float) -> tuple[Options, float | None]:
+        """The options that a setting is to this solver, and the accuracy that it is asked for.
 
         Parameters
         ----------
         setting : Setting
         seconds : float
-            The time limit of a problem [s].
+            The time limit of a call [s].
         """
         if setting.name in self.options:
-            return dict(self.options[setting.name])
+            return dict(self.options[setting.name]), setting.accuracy
         facts = self.facts
         limit: Options = {facts["time_limit"]: seconds} if "time_limit" in facts else {}
         limit |= facts.get("always", {})
-        if setting.accuracy is None or "accuracy" not in facts:
-            return limit
+        if setting.accuracy is None:
+            return limit, None
         if setting.tuned and self.target in BACKENDS:
-            (_, options), *_ = BACKENDS[self.target].attempts(setting.accuracy)
-            return options | limit
-        return limit | self._options_at(setting)
-
-    def _options_at(self, setting: Setting) -> Options:
-        """The plain options of an accuracy."""
-        facts = self.facts
-        accuracy = max(setting.accuracy or 0.0, facts.get("floor", 0.0))
-        options: Options = dict.fromkeys(facts["accuracy"], accuracy) | facts.get("others", {})
+            (accuracy, options), *_ = BACKENDS[self.target].attempts(setting.accuracy)
+            return options | limit, accuracy
+        accuracy = max(setting.accuracy, facts.get("floor", 0.0))
+        options = dict.fromkeys(facts["accuracy"], accuracy) | facts.get("others", {})
         refused = facts.get(self.door, {}).get("refused", ())
-        return {option: value for option, value in options.items() if option not in refused}
-
-    def promise(self, setting: Setting, options: Options) -> Promise:
-        """What its "optimal" promises of residuals at a setting, with the options that it got.
-
-        It is what its author says, else what its documentation says of its options; of a function
-        whose author says nothing, the accuracy.
-        """
-        if setting.name in self.promised:
-            return resolved(self.promised[setting.name], options)
-        if self.door == FUNCTION:
-            every = {} if setting.accuracy is None else dict.fromkeys(RESIDUALS, setting.accuracy)
-            return resolved(every, {})
-        facts = self.facts
-        here = facts.get(self.door, {})
-        stated = here.get("promise", facts.get("promise", {}))
-        return resolved(stated, facts.get("defaults", {}) | here.get("defaults", {}) | options)
+        taken = {option: value for option, value in options.items() if option not in refused}
+        return limit | taken, accuracy
 
 
 def function_solver(
@@ -176,53 +141,35 @@ def function_solver(
     name: str | None = None,
     *,
     options: Mapping[str, Mapping[str, Any]] | None = None,
-    promised: Mapping[str, Mapping[str, Any]] | None = None,
 ) -> Solver:
     """A function as a solver of a study.
 
     Parameters
     ----------
     function : callable
-        ``(P, q, G, h, **options) -> (x, z, status)``. One of a script goes to other processes by
+        ``(P, q, G, h, **options) -> (x, z, status)``; of a problem with equations A x = b it gets A
+        and b by name, and returns (x, z, y, status). One of a script goes to other processes by
         value, one of a module by its name.
     name : str, optional
         By default the function's own.
     options : mapping of str to mapping, optional
         What it is given at a setting, by the name of the setting.
-    promised : mapping of str to mapping, optional
-        By setting, what "optimal" promises of residuals: primal, dual and gap, each a number or a
-        table of abs, rel and of. By default the accuracy of the setting.
 
     Raises
     ------
     InputError
-        If it is not callable or cannot be pickled, or a promise is none.
+        If it is not callable or cannot be pickled.
     """
     name = name or str(getattr(function, "__name__", type(function).__name__))
     if not callable(function):
         raise InputError("is not a function", field=name, value=function)
-    for setting, value in (promised or {}).items():
-        try:
-            promise_stated(value)
-        except (ValueError, TypeError, KeyError, AttributeError) as error:
-            words = "must be a table of primal, dual and gap, each a number or a table of abs, rel"
-            where = f"{name}: promised.{setting}"
-            raise InputError(f"{words} and of: {error}", field=where, value=value) from None
     cloudpickle = needed_package("cloudpickle", "study", "a solver of your own")
     try:
         target = cloudpickle.dumps(function)
     except Exception as error:  # whatever the things that it holds raise
         words = f"cannot be sent to another process: {error}"
         raise InputError(words[:200], field=name) from None
-    return Solver(name, FUNCTION, target, options or {}, promised or {}, takes_start(function))
-
-
-def takes_start(function: Callable[..., Any]) -> bool:
-    """Whether a function takes ``start=(x, z)``; a compiled one may not say what it takes."""
-    try:
-        return "start" in inspect.signature(function).parameters
-    except ValueError:
-        return False
+    return Solver(name, FUNCTION, target, options or {})
 
 
 def solvers_of(wanted: Iterable[str | Callable[..., Any] | Solver]) -> list[Solver]:

@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from time import perf_counter
@@ -19,11 +19,9 @@ from typing import Any, NamedTuple
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.processes import resident
 from quasistatic_ref.lab.study.doors import Call, call_of
-from quasistatic_ref.lab.study.row import CRASHED, MEMORY, TIMEOUT
+from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.lab.study.solvers import Solver
-from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.step.standard_form import StandardForm
 
 TICK = 0.02
 """How often the limits of a call are looked at [s]."""
@@ -44,24 +42,15 @@ class Question:
 
     Parameters
     ----------
-    form : StandardForm
+    program : Program
     options : mapping
     calls : int
-        How often the problem is put to the solver.
-    start : StandardForm or None
-        Each call starts from the answer to this neighbour.
-    goes_on : bool
-        Each call starts from the answer to the question before.
-    is_kept : bool
-        Whether the answer is one that the next question goes on from.
+        How often the program is put to the solver.
     """
 
-    form: StandardForm
+    program: Program
     options: Mapping[str, Any]
     calls: int = 1
-    start: StandardForm | None = None
-    goes_on: bool = False
-    is_kept: bool = False
 
 
 class Answer(NamedTuple):
@@ -73,13 +62,10 @@ class Answer(NamedTuple):
         Of the first call.
     times : tuple of float
         Of all calls [s].
-    started : bool
-        Whether there was an answer to start from.
     """
 
     reply: Reply
     times: tuple[float, ...]
-    started: bool
 
 
 class Ended(Exception):
@@ -87,11 +73,13 @@ class Ended(Exception):
 
     Parameters
     ----------
-    outcome, words : str
+    words : str
+    seconds : float
+        How long it was asked [s].
     """
 
-    def __init__(self, outcome: str, words: str) -> None:
-        self.outcome = outcome
+    def __init__(self, words: str, seconds: float) -> None:
+        self.seconds = seconds
         super().__init__(words)
 
 
@@ -110,44 +98,21 @@ def serve(handle: int) -> None:
         connection.send(str(error))
         return
     connection.send("")
-    before: Reply | None = None
     with contextlib.suppress(EOFError):
         while True:
-            question = connection.recv()
-            answer = answered(call, question, before)
-            if question.is_kept:
-                before = answer.reply
-            connection.send(answer)
+            connection.send(answered(call, connection.recv()))
 
 
-def answered(call: Call, question: Question, before: Reply | None) -> Answer:
-    """Put a question to a solver.
-
-    A step that was not solved starts nothing: what its solver left may be no point at all (OSQP's
-    x of an infeasible step has entries of 2147483647).
-
-    Parameters
-    ----------
-    call : callable
-    question : Question
-    before : Reply or None
-        To the question that this one goes on from.
-    """
-    options: Options = dict(question.options)
+def answered(call: Call, question: Question) -> Answer:
+    """Put a question to a solver."""
     replies = []
     times = []
     for _ in range(question.calls):
-        start = before if question.goes_on else None
-        if question.start is not None:
-            start = call(question.start, options, None)
-        if start is not None and not start.solved:
-            start = None
         begin = perf_counter()
-        reply = call(question.form, options, start)
+        reply = call(question.program, dict(question.options))
         times.append(reply.call_seconds or perf_counter() - begin)
-        replies.append((reply, start is not None))
-    reply, started = replies[0]
-    return Answer(reply, tuple(times), started)
+        replies.append(reply)
+    return Answer(replies[0], tuple(times))
 
 
 class SolverProcess:
@@ -163,8 +128,6 @@ class SolverProcess:
     def __init__(self, solver: Solver, memory: float) -> None:
         self.solver = solver
         self.memory = memory
-        self.peak = 0.0
-        self.kept = ""
         self._guard: subprocess.Popen[bytes]
         self._process: subprocess.Popen[bytes]
         self._connection: Connection | None = None
@@ -198,22 +161,9 @@ class SolverProcess:
             self._connection.send(question)
         except OSError:  # it ended by itself, after its last answer
             self.end()
-            raise Ended(CRASHED, "ended before the call") from None
+            raise Ended("ended before the call", 0.0) from None
         answer: Answer = self._received(seconds)
         return answer
-
-    def keep(self, name: str, question: Question, seconds: float) -> None:
-        """Ask a question whose answer the next one may go on from, and remember its `name`.
-
-        Parameters
-        ----------
-        name : str
-        question : Question
-        seconds : float
-            Limit of all its calls [s].
-        """
-        self.ask(replace(question, is_kept=True), seconds)
-        self.kept = name
 
     @property
     def is_there(self) -> bool:
@@ -230,7 +180,6 @@ class SolverProcess:
             with self._guard:  # closes its pipe, and waits for it
                 pass
             self._connection = None
-            self.kept = ""
 
     def start(self) -> None:
         """Start the process.
@@ -255,7 +204,6 @@ class SolverProcess:
             process_group=self._guard.pid,
         )
         other.close()
-        self.peak = 0.0
         try:
             self._connection.send(self.solver)
             words = self._received(START)
@@ -272,18 +220,15 @@ class SolverProcess:
         while not self._connection.poll(TICK):
             passed = perf_counter() - begin
             used = resident(self._process.pid)
-            self.peak = max(self.peak, used)
             if passed > seconds or used > self.memory:
                 self.end()
-                outcome = TIMEOUT if passed > seconds else MEMORY
-                words = f"took {passed:.3g} s" if outcome == TIMEOUT else f"took {used:.3g} bytes"
-                raise Ended(outcome, f"{words}, and was ended")
+                much = f"{passed:.3g} s" if passed > seconds else f"{used:.3g} bytes"
+                raise Ended(f"took {much}, and was ended", passed)
         try:
-            received = self._connection.recv()
+            return self._connection.recv()
         except (EOFError, OSError):
             with contextlib.suppress(subprocess.TimeoutExpired):
                 self._process.wait(GRACE)
             self.end()
-            raise Ended(CRASHED, f"ended with {self._process.returncode}") from None
-        self.peak = max(self.peak, resident(self._process.pid))
-        return received
+            words = f"ended with {self._process.returncode}"
+            raise Ended(words, perf_counter() - begin) from None

@@ -7,7 +7,7 @@ from time import perf_counter
 import numpy as np
 import qpsolvers
 
-from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.arrays import Mask
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
@@ -45,9 +45,7 @@ class QpsolversSolver(BackendSolver):
         return qpsolvers_reply(self.form, name, options)
 
 
-def qpsolvers_reply(
-    form: StandardForm, name: str, options: Options, start: Array | None = None
-) -> Reply:
+def qpsolvers_reply(form: StandardForm, name: str, options: Options, equations: int = 0) -> Reply:
     """The reply of a backend to a plain quadratic program.
 
     Parameters
@@ -57,23 +55,28 @@ def qpsolvers_reply(
         Of the backend in qpsolvers.
     options : dict
         In its own names.
-    start : ndarray, shape (n,), optional
-        Where a warm start begins [m, rad].
+    equations : int
+        How many of the first rows hold with equality.
     """
-    program = qpsolvers.Problem(P=form.H.copy(), q=-form.g, G=-form.A, h=-form.b)
-    initial = None if start is None else start.copy()
+    H, g, A, b = form
+    e = equations
+    equal = {"A": A[:e].copy(), "b": b[:e].copy()} if e else {}
+    program = qpsolvers.Problem(P=H.copy(), q=-g, G=-A[e:], h=-b[e:], **equal)
     begin = perf_counter()
     with warnings.catch_warnings():
         # It warns of dense matrices converted (13 x 80 numbers), of defaults that will change,
         # and of statuses, which are dealt with below.
         warnings.simplefilter("ignore")
-        solution = qpsolvers.solve_problem(program, name, initvals=initial, **options)
+        solution = qpsolvers.solve_problem(program, name, **options)
     seconds = perf_counter() - begin
     status, iterations = _status(solution)
     solve_time, setup = _account(solution)
+    z = solution.z
+    if z is not None and e:
+        z = np.append(-np.ravel(solution.y), z)  # Px + q + G'z + A'y = 0
     return Reply(
         None if solution.x is None else np.array(solution.x, dtype=np.float64),
-        None if solution.z is None else np.array(solution.z, dtype=np.float64).reshape(-1),
+        None if z is None else np.array(z, dtype=np.float64).reshape(-1),
         bool(solution.found),
         status,
         iterations,

@@ -15,12 +15,6 @@ def honest(P, q, G, h):
     return x, z, "optimal"
 
 
-def warm(P, q, G, h, start=None):
-    """Says "again" where it starts from the very answer."""
-    x, z, status = honest(P, q, G, h)
-    return x, z, status if start is None or abs(start[0] - x).max() > 0 else "again"
-
-
 def zeros(P, q, G, h):
     """No digit."""
     return np.zeros(len(q)), np.zeros(len(h)), "optimal"
@@ -52,7 +46,7 @@ def gives_up(P, q, G, h):
 
 
 def denies(P, q, G, h):
-    """A false claim that there is no solution."""
+    """The solution."""
     return None, None, "infeasible"
 
 

@@ -39,7 +39,7 @@ def test_a_function_runs_in_a_study_of_ten_problems(folder, capsys):
     assert rows.groupby("solver").size().to_dict() == {"clarabel": 10, "daqp": 10, "solve": 10}
     nnls = rows[rows.solver == "solve"]
     assert (nnls[nnls.feasible].digits > 9).all()
-    assert set(nnls[~nnls.feasible].claim) == {"infeasible"}
+    assert set(nnls[~nnls.feasible].says) == {"infeasible"}
     assert "function:solve" in Path("report/summary.md").read_text("utf-8")
     exec(FILES["rows.py"], {})  # how the page asks the rows
     assert "contacts/" in capsys.readouterr().out
@@ -57,6 +57,6 @@ def test_a_program_in_c_runs_in_a_study(folder, monkeypatch):
     families = {"contacts": 2, "gaps": 2, "infeasible": 1}
     study(families, [solve], limits=Limits(time_limit=20.0))
     rows = pandas.read_parquet("study/rows.parquet")
-    solved = rows[rows.feasible & (rows.outcome == "solved")]
+    solved = rows[rows.feasible & (rows.says == "solved")]
     assert len(solved) >= 2
     assert (solved.digits > 9).all()

@@ -1,4 +1,4 @@
-"""The committed studies: each summary is what the rows beside it give, by plain loops, too."""
+"""The committed study: its summary is what the rows beside it give, by plain loops, too."""
 
 from statistics import median
 
@@ -7,7 +7,6 @@ import pytest
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.default import default_problems
 from quasistatic_ref.lab.study.page import page, page_written, table_of
-from quasistatic_ref.lab.study.store import rows_read
 from tests.pages import ROOT
 
 STUDIES = ROOT / "validation" / "studies"
@@ -25,32 +24,47 @@ def cells(text, start):
     return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in lines]
 
 
-def test_each_summary_is_what_the_rows_beside_it_give(table):
+def test_the_summary_is_what_the_rows_beside_it_give(table):
     assert (STUDIES / "default" / "summary.md").read_text("utf-8") == page(table)
-    others = table_of(rows_read(STUDIES / "sequences"))
-    assert (STUDIES / "sequences" / "summary.md").read_text("utf-8") == page(others)
+
+
+def test_what_was_reached_is_what_the_residuals_beside_it_give(committed):
+    for row in committed:
+        sizes = (row.primal, row.dual, row.gap)
+        accuracy = row.accuracy
+        wanted = accuracy and all(size is not None and size <= accuracy for size in sizes)
+        assert row.reached == wanted, row
+        assert (accuracy is None) == (row.setting == "default")
 
 
 def test_lines_of_the_tables_by_loops_over_the_rows(committed, table):
     text = page(table)
-    base = [row for row in committed if (row.units, row.start) == ("natural", "cold")]
-    osqp = [row for row in base if (row.door, row.solver) == ("qpsolvers", "osqp")]
+    natural = [row for row in committed if row.units == "natural"]
+    osqp = [row for row in natural if (row.door, row.solver) == ("qpsolvers", "osqp")]
     high = [row for row in osqp if row.setting == "high" and row.feasible]
-    digits = [row.digits if row.outcome == "solved" else 0.0 for row in high]
+    digits = [row.digits if row.says == "solved" else 0.0 for row in high]
     (line,) = cells(text.partition("## Every setting")[0], "qpsolvers:osqp")
     shares = [f"{100 * sum(d >= most for d in digits) / len(digits):.1f}" for most in (6, 3)]
     assert line[1:6] == ["high", str(len(high)), *shares, f"{median(digits):.1f}"]
-    assert float(line[7]) == pytest.approx(1e3 * median(row.seconds_first for row in high), 1e-2)
-    for words, feasible in (("where there is a solution", True), ("where there is none", False)):
-        claims = [r for r in committed if r.claim == "optimal" and r.feasible == feasible]
-        counts = [f"{len(claims):,}", str(sum(row.false_claim for row in claims))]
-        assert cells(text, f"of success, {words}")[0][1:3] == counts
+    assert float(line[6]) == pytest.approx(1e3 * median(row.seconds for row in high), 1e-2)
+    asked = [row for row in natural if row.accuracy]
+    counts = {
+        1: [r for r in asked if r.says == "solved" and r.feasible and r.reached],
+        2: [r for r in asked if r.says == "solved" and r.feasible and not r.reached],
+        3: [r for r in asked if r.says == "solved" and not r.feasible],
+        4: [r for r in asked if r.says == "infeasible" and r.feasible],
+    }
+    for name in ("all", "highs"):
+        (line,) = cells(text, name)
+        for place, rows in counts.items():
+            count = sum(name in ("all", row.solver) for row in rows)
+            assert line[place] == f"{count:,}"
 
 
 def test_the_page_is_written_with_its_figures(committed, tmp_path):
     paths = page_written(committed[::50], tmp_path)
     names = [path.relative_to(tmp_path).as_posix() for path in paths]
-    assert names == ["summary.md", "figures/digits_time.png", "figures/kept_digits.png"]
+    assert names == ["summary.md", "figures/digits_time.png", "figures/reached_digits.png"]
     with pytest.raises(InputError, match="there are no rows to show; run the study first"):
         page_written([], tmp_path)
 

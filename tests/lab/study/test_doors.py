@@ -1,6 +1,8 @@
-"""What a function returns, and what its row says of it."""
+"""What a solver returns through each door, and what its row says of it."""
 
 import importlib
+import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,32 +10,35 @@ import pytest
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.compiled_problems import CompiledProblems
 from quasistatic_ref.lab.study.limits import Limits
+from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.lab.study.run import study
+from quasistatic_ref.lab.study.solvers import Solver, function_solver
 from quasistatic_ref.solve.backends import BACKENDS
-from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.step.units import Units
 from tests.lab.study import broken
 
 RETURNED = {
-    "honest": ("solved", "optimal", False, "optimal"),
-    "spoils": ("solved", "optimal", False, "optimal"),
-    "zeros": ("solved", "optimal", True, "optimal"),
-    "too_long": ("wrong shape", "neither", False, "optimal"),
-    "no_numbers": ("wrong shape", "neither", False, "optimal"),
-    "pair": ("wrong shape", "neither", False, "returned a tuple in place of (x, z, status)"),
-    "nan": ("not a number", "optimal", True, "optimal"),
-    "gives_up": ("failed", "neither", False, "too many sweeps"),
-    "denies": ("failed", "infeasible", True, "infeasible"),
-    "raises": ("failed", "neither", False, "RuntimeError: no licence at all"),
+    "honest": ("solved", True, "optimal"),
+    "spoils": ("solved", True, "optimal"),
+    "zeros": ("solved", False, "optimal"),
+    "too_long": ("solved", False, "optimal"),
+    "no_numbers": ("solved", False, "optimal"),
+    "pair": ("other", False, "returned a tuple in place of (x, z, status)"),
+    "nan": ("solved", False, "optimal"),
+    "gives_up": ("other", False, "too many sweeps"),
+    "denies": ("infeasible", False, "infeasible"),
+    "raises": ("other", False, "RuntimeError: no licence at all"),
 }
 
 
 def test_what_a_function_returns_is_judged_as_it_is(tmp_path, three):
-    functions = [getattr(broken, name) for name in RETURNED]
+    functions = [function_solver(getattr(broken, name), options={"high": {}}) for name in RETURNED]
     limits = Limits(repetitions=1)
-    rows = study(three[:1], functions, folder=tmp_path, limits=limits)
-    said = {row.solver: (row.outcome, row.claim, row.false_claim, row.status) for row in rows}
+    rows = study(three[:1], functions, ["high"], folder=tmp_path, limits=limits)
+    said = {row.solver: (row.says, row.reached, row.status) for row in rows}
     assert said == RETURNED
-    assert all((row.digits is not None) == (row.outcome == "solved") for row in rows)
+    with_digits = {row.solver for row in rows if row.digits is not None}
+    assert with_digits == {"honest", "spoils", "zeros"}
 
 
 def test_a_function_whose_module_is_not_there_is_one_sentence(tmp_path, monkeypatch, three):
@@ -46,10 +51,59 @@ def test_a_function_whose_module_is_not_there_is_one_sentence(tmp_path, monkeypa
         study(three, [function], folder=tmp_path / "store")
 
 
+def test_an_option_that_a_solver_refuses_is_its_row(tmp_path, three):
+    clarabel = Solver("c", "qpsolvers", "clarabel", {"default": {"tol_feasibility": 1.0}})
+    (row,) = study(three[:1], [clarabel], folder=tmp_path, limits=Limits(repetitions=1))
+    assert row.says == "other"
+    assert "tol_feasibility" in row.status
+
+
 def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():
-    form = StandardForm(np.array([[3.0, 1.0], [1.0, 2.0]]), np.array([0.0, 4.0]), np.eye(2),
-                        np.array([1.0, -9.0]))  # fmt: skip
+    program = Program(np.array([[3.0, 1.0], [1.0, 2.0]]), np.array([0.0, 4.0]), np.eye(2),
+                      np.array([1.0, -9.0]))  # fmt: skip
     programs = CompiledProblems("osqp")
     options = BACKENDS["osqp"].attempts(1e-10)[0][1]
-    first, warm, cold = (programs.reply(form, options, warm=w) for w in (False, True, False))
-    assert cold.iterations == first.iterations > warm.iterations
+    first, again = (programs.reply(program, options) for _ in range(2))
+    assert first.iterations == again.iterations > 1
+
+
+def nearest():
+    """The point of x_1 + x_2 = 1, x_1 >= 0.75 that is nearest to the origin: (0.75, 0.25)."""
+    rows = np.array([[1.0, 1.0], [1.0, 0.0]])
+    return SimpleNamespace(
+        id="nearest",
+        family="mine",
+        dial=None,
+        feasible=True,
+        program=Program(np.eye(2), np.zeros(2), rows, np.array([1.0, 0.75]), equations=1),
+        units=Units(np.array([0.5, 2.0]), 4.0, 0.25),
+        digits=digits,
+    )
+
+
+def digits(x):
+    """Of the x of this problem."""
+    return -math.log10(abs(x - [0.75, 0.25]).max() + 1e-16)
+
+
+def by_substitution(P, q, G, h, A, b):
+    """It knows where x_2 = 1 - x_1."""
+    assert (A.tolist(), b.tolist(), G.tolist(), h.tolist()) == (
+        [[1.0, 1.0]],
+        [1.0],
+        [[-1.0, 0.0]],
+        [-0.75],
+    )
+    return np.array([0.75, 0.25]), np.array([0.5]), np.array([-0.25]), "optimal"
+
+
+def test_a_problem_of_others_with_an_equation_goes_through_each_door(tmp_path):
+    """Residuals see the signs of multipliers, of which an equation's may be any."""
+    mine = function_solver(by_substitution, options={"tuned": {}})
+    solvers = ["qpsolvers:daqp", "cvxpy:clarabel", mine]
+    rows = study([nearest()], solvers, ["tuned"], tmp_path, units=["raw"])
+    natural = study([nearest()], solvers[:2], ["tuned"], tmp_path)[3:]
+    assert [(row.family, row.dial, row.n, row.m) for row in rows] == [("mine", None, 2, 2)] * 3
+    assert [row.says for row in rows + natural] == ["solved"] * 5
+    assert all(max(row.primal, row.dual, row.gap) < 1e-8 for row in rows + natural)
+    assert all(row.digits > 7 for row in rows + natural)

@@ -2,7 +2,6 @@
 
 import os
 import signal
-from collections import Counter
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -25,22 +24,19 @@ from tests.processes import has_ended, python, started, waited_for
 
 CALLS = 3 * (2 + 1) * 2
 """Three problems, to a solver at two settings and to a function at one, in two units."""
-MEASURED = ("seconds", "seconds_low", "seconds_high", "seconds_first", "seconds_solver",
-            "seconds_setup", "memory")  # fmt: skip
 
 
 def facts(rows):
     """What two runs of a study have in common."""
-    return sorted(str(replace(row, **dict.fromkeys(MEASURED))) for row in rows)
+    return sorted(str(replace(row, seconds=None)) for row in rows)
 
 
 def test_every_measurement_is_a_row_once_and_libraries_read_them(whole):
     rows, store = whole
     assert len(rows) == len({key_of(row) for row in rows}) == CALLS
-    assert {row.outcome for row in rows} <= {"solved", "failed"}
-    natural = [row for row in rows if row.units == "natural" and row.solver == "mine"]
-    assert all(row.digits > 5 and not row.false_claim for row in natural)
-    assert all(0 < row.seconds_low <= row.seconds <= row.seconds_high for row in rows)
+    assert {row.says for row in rows} <= {"solved", "other"}
+    assert all(row.digits > 5 for row in rows if row.units == "natural" and row.solver == "mine")
+    assert all(row.seconds > 0 for row in rows)
     table = pandas.read_parquet(store / ROWS)
     assert list(table.columns) == [field.name for field in fields(Row)]
     assert table["seconds"].tolist() == [row.seconds for row in rows]
@@ -156,7 +152,7 @@ def test_a_script_needs_no_guard_against_processes_that_import_it(tmp_path):
 
 
 def limited(folder, executor=None):
-    """Outcomes of one that sleeps, on two problems; those of others are as they are alone."""
+    """Words about one that sleeps, on two problems; those about others are as they are alone."""
     problems = problems_taken(CONTACT_QP, {"contacts": 2}, {"contacts": 12})
     short = Limits(warm_up=3.0, budget=1.0)
     others = Limits(time_limit=30.0, warm_up=30.0, memory=0.3e9, repetitions=1)
@@ -167,14 +163,12 @@ def limited(folder, executor=None):
     ):
         store = folder / solvers[0].__name__
         rows += study(problems, solvers, folder=store, executor=executor, limits=limits)
-    outcomes = {row.solver: [one.outcome for one in rows if one.solver == row.solver]
-                for row in rows}  # fmt: skip
-    assert outcomes["eats"] == ["out of memory"] * 2
-    assert outcomes["exits"] == ["crashed"] * 2
-    assert outcomes["spoils"] == ["solved"] * 2
-    assert "ended with 7" in {row.status for row in rows if row.solver == "exits"}
+    words = {row.solver: [one.status for one in rows if one.solver == row.solver] for row in rows}
+    assert [word.endswith("bytes, and was ended") for word in words["eats"]] == [True] * 2
+    assert words["exits"] == ["ended with 7"] * 2
+    assert words["spoils"] == ["optimal"] * 2
     assert has_ended(int(Path(os.environ["CHILD"]).read_text()))
-    return outcomes["sleeps"]
+    return [word.endswith(" s, and was ended") for word in words["sleeps"]]
 
 
 @pytest.fixture
@@ -186,7 +180,7 @@ def child(tmp_path, monkeypatch):
 @pytest.mark.usefixtures("child")
 def test_a_solver_that_exceeds_its_limits_is_ended_and_costs_itself_only(tmp_path):
     """One sleeps, and so does what it starts; others take memory, end, print."""
-    assert limited(tmp_path) == ["timeout", "not run"]  # a call takes longer than the budget
+    assert limited(tmp_path) == [True]  # a call takes longer than the budget: no second one
 
 
 @pytest.mark.long
@@ -196,35 +190,4 @@ def test_on_two_workers_of_dask_the_rows_are_the_same_and_limits_hold(
 ):
     """Its workers are daemons, which may start no process of multiprocessing."""
     assert facts(small(tmp_path / "there", two_of_dask)) == facts(whole[0])
-    assert limited(tmp_path, two_of_dask) == ["timeout"] * 2
-
-
-@pytest.fixture(scope="module")
-def warm_and_cold(tmp_path_factory):
-    """The rows of steps, cold and from an answer, of solvers that use it and that do not."""
-    solvers = ["qpsolvers:osqp", "qpsolvers:piqp", "cvxpy:osqp", broken.warm]
-    problems = problems_taken(CONTACT_QP, {"moving": 12, "gaps": 2}, {"moving": 1})
-    rows = study(problems, solvers, folder=tmp_path_factory.mktemp("started"),
-                 starts=["cold", "warm"], limits=Limits(repetitions=1))  # fmt: skip
-    return {name: [row for row in rows if row.family == name] for name in ("moving", "gaps")}
-
-
-def test_steps_in_order_start_from_the_step_before_and_only_where_a_start_is_used(warm_and_cold):
-    """The function says "again" where it starts from the very answer to this step: never."""
-    rows = warm_and_cold["moving"]
-    counts = Counter((row.door, row.solver, row.start) for row in rows)
-    assert counts == {
-        ("qpsolvers", "osqp", "cold"): 12, ("qpsolvers", "osqp", "warm"): 12,
-        ("qpsolvers", "piqp", "cold"): 12, ("cvxpy", "osqp", "cold"): 12,
-        ("function", "warm", "cold"): 12, ("function", "warm", "warm"): 12,
-    }  # fmt: skip
-    warm = [row for row in rows if row.start == "warm" and row.solver == "warm"]
-    assert [row.started for row in warm] == [False] + [True] * 11
-    assert {row.status for row in warm} == {"optimal"}
-
-
-def test_problems_alone_start_from_a_neighbour(warm_and_cold):
-    rows = [row for row in warm_and_cold["gaps"] if row.start == "warm"]
-    assert {(row.door, row.solver) for row in rows} == {
-        ("qpsolvers", "osqp"), ("cvxpy", "osqp"), ("function", "warm")}  # fmt: skip
-    assert all(row.started for row in rows)
+    assert limited(tmp_path, two_of_dask) == [True] * 2

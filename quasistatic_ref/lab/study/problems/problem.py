@@ -2,12 +2,15 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from quasistatic_ref.certify.norm import error_length
+from quasistatic_ref.certify.norm import digits_of_error, energy_norm, error_length
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.step.units import Units
@@ -92,6 +95,17 @@ class Problem:
         return str(self.facts["id"])
 
     @property
+    def family(self) -> str:
+        """The family that it is of."""
+        return str(self.facts["family"])
+
+    @property
+    def dial(self) -> float | None:
+        """Where the family's dial stands [the dial's unit]; None: the family has none."""
+        dial = self.facts["dial"]
+        return None if dial is None else float(dial)
+
+    @property
     def feasible(self) -> bool:
         """Whether it has a solution."""
         return not self.answer.farkas
@@ -135,3 +149,17 @@ class Problem:
     def form(self) -> StandardForm:
         """H, g, A, b as arrays."""
         return StandardForm(self.H.toarray(), self.g, self.A.toarray(), self.b)
+
+    @cached_property
+    def program(self) -> Program:
+        """H, g, A, b as arrays; InputError if its rows are cones."""
+        if self.facts["kind"] != QP:
+            raise InputError("has cones; studies contain rows only", value=self.id)
+        return Program(*self.form)
+
+    def digits(self, x: Array) -> float:
+        """Correct digits of an x, shape (n,), in SI units [-]; if there is a solution."""
+        S = self.units.coordinate
+        H = csr_matrix(self.H.multiply(S).multiply(S[:, None]))
+        error = energy_norm(H.toarray()).of_displacement((x - self.answer.x) / S)
+        return digits_of_error(error / self.error_length)

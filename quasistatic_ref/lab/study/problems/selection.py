@@ -2,14 +2,15 @@
 
 import random
 from collections.abc import Mapping, Sequence
-from itertools import groupby
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 from quasistatic_ref.lab.study.problems.problem import Problem
+
+One = TypeVar("One")
 
 
 def problems_taken(
@@ -83,19 +84,6 @@ def evenly(there: int, count: int) -> list[int]:
     return [int(i) for i in np.unique(places)]
 
 
-def groups_in_random_order(problems: Sequence[Problem]) -> list[list[Problem]]:
-    """Problems one by one, and sequences whole, in an order that is random and always the same.
-
-    Parameters
-    ----------
-    problems : sequence of Problem
-        The steps of a sequence one after the other.
-    """
-    groups = [
-        list(some)
-        for _, some in groupby(
-            problems, lambda one: (one.facts["sequence"] or {}).get("name", one.id)
-        )
-    ]
-    random.Random(1).shuffle(groups)
-    return groups
+def in_random_order(problems: Sequence[One]) -> list[One]:
+    """Problems in an order that is random and always the same."""
+    return random.Random(1).sample(problems, len(problems))
