@@ -15,6 +15,7 @@ from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull, hull_of_
 MESHES = (".stl", ".obj", ".off", ".ply", ".gltf", ".glb", ".dae")
 """Extensions of files that ``optional/readers`` reads."""
 PACKAGE = "package://"
+FILE = "file://"
 LARGEST_MESH = 16 * 2**20
 """Largest mesh [bytes]."""
 
@@ -33,7 +34,8 @@ def mesh_path(
     uri : str
         ``package://NAME/PATH``, looked for as NAME/PATH in each of the package folders and in the
         folders above `folder`, up to that of its repository, then as PATH in those that are called
-        NAME, then as PATH in each; or a path relative to `folder`, which may lead into a folder
+        NAME, then as PATH in each; or a path relative to `folder`, with ``file://`` before it or
+        without, which may lead into a folder
         beside it, and anywhere in the package (``package.xml``) or the repository that it lies in.
     folder : Path
         Of the file that the URI stands in.
@@ -60,11 +62,12 @@ def mesh_path(
         places += [parent / below for parent in above if parent.name == name]
         places += [parent / below for parent in above]
         packages += above
-    elif "://" in uri:
+    elif "://" in uri.removeprefix(FILE):
         raise ModelError("must be package://NAME/PATH or a relative path", value=uri)
     else:
-        places = [folder / uri]
-        packages += _package(uri, folder.resolve()) if is_of_file else []
+        relative = uri.removeprefix(FILE)
+        places = [folder / relative]
+        packages += _package(relative, folder.resolve()) if is_of_file else []
     try:
         path = next((place.resolve() for place in places if place.is_file()), None)
     except (OSError, ValueError, RuntimeError):  # a NUL, a name too long, a ring of links

@@ -318,7 +318,7 @@ def written_shape(collision: Tag) -> FileShape | None:
         scale = shape.numbers("scale", 3, default=1.0)
         if not (scale != 0).all():
             return None
-        return FileMesh(shape.text("filename").strip(), scale)
+        return FileMesh(shape.expanded("filename").strip(), scale)
     sizes = {
         name: shape.numbers(name, 3) if name == "size" else shape.number(name)
         for name in _GEOMETRIES[kind]
@@ -340,6 +340,8 @@ def _joint(joint: Tag, limits_needed: bool) -> FileJoint:
         problem = f"this type is not supported; use {', '.join(_MOVING)} or fixed"
         if kind == "floating":
             problem += ', or base = "floating" where the whole body floats'
+        elif kind == "planar":
+            problem += ', or base = "planar" where the whole body glides on a plane'
         raise ModelError(problem, field=f"{joint.where}.type", value=kind)
     joint.pass_over(
         "origin", "parent", "child", "axis", "mimic", "dynamics", attributes=("name", "type")

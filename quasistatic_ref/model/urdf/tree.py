@@ -114,6 +114,12 @@ def _check_mimic(joint: FileJoint, named: Mapping[str, FileJoint]) -> None:
             'type="revolute" with limits in its place'
         )
         raise ModelError(problem, field=field, value=of)
+    if joint.kind == "continuous" and not joint.mimic.multiplier.is_integer():
+        problem = (
+            "must be a whole number, since the position of a continuous joint does not count "
+            'turns; write type="revolute" with limits for both joints'
+        )
+        raise ModelError(problem, field=f"{field}.multiplier", value=joint.mimic.multiplier)
 
 
 def visiting_order(root: str, joints: Sequence[FileJoint]) -> list[FileJoint]:

@@ -61,6 +61,14 @@ class Tag:
             raise ModelError("is missing", field=f"{self.where}.{name}")
         return value
 
+    def expanded(self, name: str) -> str:
+        """Text of an attribute, as :meth:`text` reads it; ModelError if it holds a macro."""
+        value = self.text(name)
+        if "$(" in value or "${" in value:
+            problem = "holds a macro: expand the file with xacro first"
+            raise ModelError(problem, field=f"{self.where}.{name}", value=value)
+        return value
+
     def numbers(
         self, name: str, count: int, default: float | None = None, most: float = LARGE
     ) -> Array:
@@ -84,7 +92,7 @@ class Tag:
         """
         if default is not None and name not in self.element.attrib:
             return np.full(count, default)
-        text = self.text(name)
+        text = self.expanded(name)
         field = f"{self.where}.{name}"
         if len(text.split()) != count:
             problem = f"must be {count} number{'s' if count > 1 else ''}"

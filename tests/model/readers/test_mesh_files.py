@@ -53,6 +53,12 @@ def test_a_package_address_is_looked_for_in_package_dirs(tmp_path):
     assert found == expected.resolve()
 
 
+@cases("uri", {"relative": "file://a.obj", "absolute": "file://{root}/a.obj"})
+def test_a_file_address_is_a_path(tmp_path, uri):
+    mesh = text_written(tmp_path / "a.obj", TETRAHEDRON)
+    assert mesh_path(uri.format(root=tmp_path), tmp_path) == mesh.resolve()
+
+
 PLACES = {
     "in the repository": "repo/arm/meshes/a.obj",
     "next to the file": "repo/arm/urdf/arm/meshes/a.obj",
@@ -113,7 +119,9 @@ OUTSIDE = {
     "up": ("../secret.obj", "leads to .*, outside the folder of this file"),
     "absolute": ("{root}/secret.obj", "leads to .*, outside the folder of this file"),
     "link": ("link.obj", "leads to .*, outside the folder of this file"),
-    "file": ("file:///a.obj", "must be package://NAME/PATH or a relative path"),
+    "a file anywhere": ("file://{root}/secret.obj", "leads to .*, outside the folder of this file"),
+    "on the web": ("https://host/a.obj", "must be package://NAME/PATH or a relative path"),
+    "twice": ("file://https://host/a.obj", "must be package://NAME/PATH or a relative path"),
     "no package": ("package://arm/b.obj", r"no such file \(looked for in .*home.*--root FOLDER"),
     "missing": ("b.obj", "no such file"),
     "kind": ("a.blend", "is not a known kind of mesh; known: .dae, .glb"),

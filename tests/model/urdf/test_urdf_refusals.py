@@ -19,6 +19,11 @@ TWO = robot(link("a", collision('<sphere radius="0.5"/>')), link("b"), joint("j"
 THREE = robot(
     link("a"), link("b"), link("c"), joint("j", "a", "b"), joint("k", "b", "c", more=mimic("j"))
 )
+WHEELS = robot(
+    link("a"), link("b"), link("c"), joint("j", "a", "b", "continuous"),
+    joint("k", "a", "c", "continuous", more='<mimic joint="j" multiplier="RATIO"/>'),
+)  # fmt: skip
+"""A wheel that follows another at a ratio that is written in the place of RATIO."""
 EXPANSION = '<!DOCTYPE robot [<!ENTITY a "aaaaaaaa"><!ENTITY b "&a;&a;&a;">]>'
 REFUSED = {
     # name: text, what is replaced, by what, words of the sentence
@@ -49,6 +54,16 @@ REFUSED = {
     "zero axis": (TWO, '"0 0 1"', '"0 0 0"', r"joint\[j\].axis.xyz: must not be zero"),
     "degrees": (TWO, "<limit", '<origin rpy_deg="0 0 90"/><limit', "origin.rpy_deg: is unknown"),
     "floating": (TWO, "revolute", "floating", 'not supported.*base = "floating"'),
+    "planar": (TWO, "revolute", "planar", 'not supported.*base = "planar"'),
+    "macro in a path": (
+        TWO,
+        '<sphere radius="0.5"/>',
+        '<mesh filename="$(arg folder)/tip.stl"/>',
+        r"mesh.filename: holds a macro: expand the file with xacro first .*'\$\(arg folder\)/tip",
+    ),
+    "macro in a number": (TWO, '"0.5"', '"${radius}"', "sphere.radius: holds a macro: expand"),
+    "wheel at a half": (WHEELS, "RATIO", "-0.5", r"\[k\].mimic.multiplier: must be a whole.*-0.5"),
+    "wheel at a third": (WHEELS, "RATIO", "0.3333", 'write type="revolute" with limits for both'),
     "no type": (TWO, 'type="revolute"', "", r"joint\[j\].type: is missing"),
     "no limit": (TWO, "<limit", "<bound", r"joint\[j\].limit: is missing: URDF requires effort"),
     "bad upper": (TWO, 'upper="1"', 'upper="one"', r"\[j\].limit.upper: must be a finite.*'one'"),
