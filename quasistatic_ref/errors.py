@@ -49,6 +49,12 @@ class InputError(QuasistaticError, ValueError):
     file : str or Path, optional
         The file that it stands in.
 
+    Attributes
+    ----------
+    change : str or None
+        Where the value is written, if that is no file: ``--set h=-1`` on the command line, and in
+        Python the field. The message then begins with it, in the place of file and field.
+
     Examples
     --------
     >>> try:
@@ -70,17 +76,23 @@ class InputError(QuasistaticError, ValueError):
         self.field = field
         self.value = value
         self.file = file
+        self.change: str | None = None
         super().__init__(problem)
 
     def __str__(self) -> str:
         where = f"{clipped(str(self.file))}: " if self.file is not None else ""
         what = f"{clipped(self.field)}: " if self.field is not None else ""
         got = f" (got {shown_value(self.value)})" if self.value is not None else ""
+        if self.change is not None:
+            where = f"{clipped(self.change)}: "
+            if self.change != self.field:  # it shows the value
+                got = ""
+            what = ""
         return one_line(f"{where}{what}{short_words(self.problem)}{got}")
 
     def in_file(self, file: str | Path) -> InputError:
-        """The same error, saying which file it is about (unless it says so already)."""
-        if self.file is None:
+        """The same error, saying which file it is about (unless another place is named)."""
+        if self.file is None and self.change is None:
             self.file = file
         return self
 

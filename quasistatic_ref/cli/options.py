@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import shlex
 import sys
 import textwrap
 from collections.abc import Sequence
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.formats.quoting import aligned
+from quasistatic_ref.scenario.overrides import OptionChange
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
@@ -89,11 +91,15 @@ def scenario_settings(options: argparse.Namespace) -> list[str]:
     """``--set``, ``--root`` and the options of ``SOLVER`` as changes of a scenario."""
     settings: list[str] = list(getattr(options, "settings", []))
     for name in ("solver.backend", "solver.certify", "fast", "cone", "law"):
-        value = getattr(options, name.removeprefix("solver."), None)
+        word = name.removeprefix("solver.")
+        value = getattr(options, word, None)
         if value is not None and value is not False:  # a flag that is not given
-            settings.append(f"{name}={json_text(value)}")
-    if getattr(options, "roots", []):
-        settings.append(f"roots={json_text([os.path.abspath(root) for root in options.roots])}")
+            written = f"--{word}" if value is True else f"--{word} {shlex.quote(value)}"
+            settings.append(OptionChange(f"{name}={json_text(value)}", written))
+    if roots := getattr(options, "roots", []):
+        folders = json_text([os.path.abspath(root) for root in roots])
+        written = " ".join(f"--root {shlex.quote(str(root))}" for root in roots)
+        settings.append(OptionChange(f"roots={folders}", written))
     return settings
 
 

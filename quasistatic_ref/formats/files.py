@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import re
 import stat
 import sys
 import tempfile
@@ -23,6 +24,10 @@ LARGEST_TEXT = 64 * 2**20
 """Largest JSON file [bytes]: a step with 300 coordinates and 1000 contacts has 30 MiB."""
 LARGEST_TOML = 2**20
 """Largest TOML file [bytes]."""
+MOST_PARTS = 10
+"""Most parts of a dotted key: a parser of TOML takes memory with the square of their number."""
+_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
+_LONG_KEY = re.compile(rf"(?<![\w.-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{MOST_PARTS}}}", re.ASCII)
 PARTIAL = ".partial"
 """End of the names of files that are being written."""
 
@@ -258,7 +263,12 @@ def toml_read(
     """
     with about_file(path):
         try:
-            return tomllib.loads(text_read(path, error, LARGEST_TOML))
+            text = text_read(path, error, LARGEST_TOML)
+            if long_key := _LONG_KEY.search(text):
+                line = text.count("\n", 0, long_key.start()) + 1
+                problem = f"a key has more than {MOST_PARTS} parts"
+                raise error(problem, field=f"line {line}")
+            return tomllib.loads(text)
         except tomllib.TOMLDecodeError as failure:
             wanted = "TOML" if Path(path).suffix == ".toml" else what
             raise error(f"is not {wanted}: {failure}") from None

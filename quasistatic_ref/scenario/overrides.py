@@ -2,18 +2,86 @@
 
 import itertools
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import PurePath
 from typing import Any
 
-from quasistatic_ref.errors import ScenarioError
-from quasistatic_ref.formats.files import plain
+from quasistatic_ref.errors import InputError, ScenarioError
+from quasistatic_ref.formats.files import MOST_PARTS, plain
 from quasistatic_ref.scenario.paths import OwnWord
 
 Changes = Sequence[str] | Mapping[str, Any]
 
+SET = "--set"
 ESSENTIAL = {"bodies": "urdf", "contacts": "alpha"}
 """Tables of tables, and a field without which none of theirs can be."""
+
+
+class OptionChange(str):
+    """A change that an option of a command makes: ``solver.backend="osqp"`` for ``--backend osqp``.
+
+    Parameters
+    ----------
+    text : str
+        The change, as ``--set`` has it.
+    option : str
+        What the user wrote.
+    """
+
+    option: str
+
+    def __new__(cls, text: str, option: str) -> "OptionChange":
+        """The text, which keeps the option."""
+        change = super().__new__(cls, text)
+        change.option = option
+        return change
+
+    def __getnewargs__(self) -> tuple[str, str]:
+        return str(self), self.option
+
+
+@contextmanager
+def about_changes(settings: Changes, named: Mapping[str, Any]) -> Iterator[None]:
+    """Make an InputError of this block name the change that wrote the value, if one did.
+
+    Parameters
+    ----------
+    settings, named
+        The changes, as of :func:`apply_settings`.
+    """
+    try:
+        yield
+    except InputError as error:
+        if error.file is None and error.field == SET:
+            error.change = f"{SET} {error.value}"
+        elif error.file is None and error.field is not None:
+            error.change = _change(error.field, settings, named)
+        raise
+
+
+def _change(field: str, settings: Changes, named: Mapping[str, Any]) -> str | None:
+    """How the user wrote the value of a field: the last of the changes that it is part of.
+
+    In Python it is the field itself; None where no change wrote it.
+    """
+    written: str | None = None
+    in_order = settings.items() if isinstance(settings, Mapping) else map(_of_text, settings)
+    for key, source in [*in_order, *named.items()]:
+        inner = field.removeprefix(key)
+        if not field.startswith(key) or inner[:1] not in ("", ".", "["):
+            continue
+        if isinstance(settings, Mapping) or key in named:
+            written = field
+        else:
+            written = f"{source}: {inner.lstrip('.')}" if inner else source
+    return written
+
+
+def _of_text(setting: str) -> tuple[str, str]:
+    """The key of a change, and how the user wrote it."""
+    written = setting.option if isinstance(setting, OptionChange) else f"{SET} {setting}"
+    return setting.partition("=")[0].strip(), written
 
 
 def apply_settings(
@@ -50,7 +118,7 @@ def apply_settings(
     else:
         for setting in settings:
             key, equals, text = str(setting).partition("=")
-            _put(tables, key if equals else "", parsed(text), "--set", setting)
+            _put(tables, key if equals else "", parsed(text), SET, setting)
     for key in filter(_is_dotted, named):
         _put(tables, key, python_value(key, named[key]), "settings", key)
     made = _second_level(tables) - before
@@ -87,6 +155,9 @@ def _put(tables: dict[str, Any], key: str, value: Any, field: str, source: objec
     parts = [part.strip() for part in key.split(".")]
     if not all(parts):
         problem = "must be table.field=value, such as contacts.floor.mu_v=0.5"
+        raise ScenarioError(problem, field=field, value=source)
+    if len(parts) > MOST_PARTS:
+        problem = f"is a key of {len(parts)} parts; a scenario has none of more than {MOST_PARTS}"
         raise ScenarioError(problem, field=field, value=source)
     table: Any = tables
     for part in parts[:-1]:

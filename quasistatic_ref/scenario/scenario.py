@@ -27,7 +27,7 @@ from quasistatic_ref.scenario.bodies import (
 )
 from quasistatic_ref.scenario.checks import check_made, check_motion, check_sizes, checked_fields
 from quasistatic_ref.scenario.contacts import contact_pairs, placed_shapes
-from quasistatic_ref.scenario.overrides import Changes, apply_settings
+from quasistatic_ref.scenario.overrides import Changes, about_changes, apply_settings
 from quasistatic_ref.scenario.paths import OwnWord, folders_in
 from quasistatic_ref.scenario.scenario_table import (
     FORMAT,
@@ -210,11 +210,12 @@ def load_scenario(
     """
     if isinstance(name, Mapping):
         tables = scene_tables(name, of_others)
-        apply_settings(tables, settings, fields)
-        check_sizes(tables)
-        return _scenario(HERE, TableReader(tables, error=ScenarioError))
+        with about_changes(settings, fields):
+            apply_settings(tables, settings, fields)
+            check_sizes(tables)
+            return _scenario(HERE, TableReader(tables, error=ScenarioError))
     path = scenario_path(name)
-    with about_file(path):
+    with about_file(path), about_changes(settings, fields):
         tables = toml_read(path, ScenarioError, "a scenario, which is TOML")
         check_made(apply_settings(tables, settings, fields), tables)
         check_sizes(tables)

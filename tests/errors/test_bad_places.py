@@ -73,14 +73,17 @@ def test_a_path_with_a_nul_character_is_none(tmp_path, refused):
 
 
 SETTINGS = {
-    "h.x=1": "--set: is not a table (got 'h.x=1')",
-    "bodies.rail.targets.0.t=1": "--set: is not a table",
-    "h=0.01\nsteps=9": r"h: must be a number (got '0.01\nsteps=9')",
-    "h=" + "1" * 5000: "h: must be a number",
-    "h=" + "[" * 5000: "h: must be a number",
-    "h=" + "0x" + "f" * 5000: "h: must be at most 1e+15 (got of type int, too long to show)",
-    "gravity=[0, 0": "gravity: must be 3 numbers, with commas between them and brackets around",
-    "bodies.ball=3": "bodies.ball: must be a table of named fields (got 3)",
+    "h.x=1": "--set h.x=1: is not a table",
+    "bodies.rail.targets.0.t=1": "--set bodies.rail.targets.0.t=1: is not a table",
+    "a." * 5000 + "b=1": ": is a key of 5001 parts; a scenario has none of more than 10",
+    "h=0.01\nsteps=9": r"--set h=0.01\nsteps=9: must be a number",
+    "h=-1": "--set h=-1: must be greater than 0",
+    "h=" + "1" * 5000: "1: must be a number",
+    "h=" + "[" * 5000: "[: must be a number",
+    "h=" + "0x" + "f" * 5000: "f: must be at most 1e+15",
+    "gravity=[0, 0": "--set gravity=[0, 0: must be 3 numbers, with commas between them and",
+    "bodies.ball=3": "--set bodies.ball=3: must be a table of named fields",
+    "contacts.floor={alpha='floor', beta='ball', mu_v='x'}": "mu_v='x'}: mu_v: must be a number",
 }
 
 
@@ -88,8 +91,22 @@ SETTINGS = {
 def test_a_setting_that_does_not_fit_is_refused(tmp_path, refused, setting):
     path = scene_written(tmp_path)
     sentence = refused("run", path, "--set", setting, "--out", tmp_path / "out")
-    assert sentence.startswith(f"{path}: ")
+    assert sentence.startswith("--set ")
     assert SETTINGS[setting] in sentence
+
+
+OPTIONS = {
+    ("--cone", "round"): "--cone round: must be one of pyramid",
+    ("--certify", "yes"): "--certify yes: is not a choice",
+    ("--law", "newton"): "--law newton: is not a choice",
+    ("--root", "no folder"): "--root 'no folder': is no folder",
+}
+
+
+@pytest.mark.parametrize("option", OPTIONS)
+def test_an_option_that_does_not_fit_is_named_and_no_file_is_blamed(tmp_path, refused, option):
+    path = scene_written(tmp_path)
+    assert refused("run", path, *option, "--out", tmp_path / "out").startswith(OPTIONS[option])
 
 
 @pytest.mark.parametrize("name", ["clarable", "", "a\nb", "qpsolvers:"])
@@ -100,7 +117,7 @@ def test_an_unknown_backend_is_refused_before_anything_is_done(tmp_path, refused
     where = ["--out", tmp_path / "out"]
     arguments = [path, *where] if command == "run" else [tmp_path / "step.json"]
     sentence = refused(command, *arguments, "--backend", name)
-    assert "backend: is not a backend" in sentence
+    assert "backend: is not a backend" in sentence or sentence.startswith("--backend ")
     assert "known: " in sentence
     assert "did you mean 'clarabel'" in sentence or name != "clarable"
 

@@ -168,6 +168,17 @@ CONTENTS = {
         b"<a>" * 101 + b"</a>" * 101,
         "line 1: is nested deeper than 100",
     ),
+    "a key without end": (
+        toml_read,
+        b"h = 1\n" + b"a." * DEEP + b"b = 1",
+        "line 2: a key has more",
+    ),
+    "a table without end": (toml_read, b"[" + b"a . " * DEEP + b"b]", "line 1: a key has more"),
+    "a quoted key without end": (
+        toml_read,
+        b"x = { " + b"'a'." * DEEP + b"b = 1 }",
+        "line 1: a key",
+    ),
     "many digits in TOML": (toml_read, b"h = " + b"1" * 5000, "an unusable number"),
     "many digits in JSON": (json_read, b'{"h": ' + b"1" * 5000 + b"}", "a number too long"),
     "a field twice in TOML": (toml_read, b"h = 1\nh = 2\n", "is not TOML: Cannot overwrite"),

@@ -94,8 +94,15 @@ REFUSED = {
 
 @cases("settings, named, says", REFUSED)
 def test_changes_that_cannot_be_made_are_one_sentence(path, settings, named, says):
-    with refusal(InputError, f"{path}: {says}"):
+    file = f"{path}: " if says.startswith(("settings", "contacts.flor")) else ""
+    with refusal(InputError, f"{file}{says}"):
         load_scenario(path, settings, **named)
+
+
+def test_what_the_file_says_wrong_is_said_of_the_file_whatever_else_is_changed(path):
+    path.write_text(path.read_text().replace("mu_v", "mu_w", 1))
+    with refusal(InputError, f"{path}: contacts."):
+        load_scenario(path, ["h=0.02", "contacts.floor.k=3"], steps=3)
 
 
 def test_a_contact_may_be_made_of_changes_alone(path):

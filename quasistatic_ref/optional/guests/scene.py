@@ -21,7 +21,7 @@ from quasistatic_ref.optional.guests.places import overlapped_children
 from quasistatic_ref.optional.guests.settled import settled
 from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
 from quasistatic_ref.parts import fast_backend, fast_simulator
-from quasistatic_ref.scenario.overrides import Changes, apply_settings
+from quasistatic_ref.scenario.overrides import Changes, about_changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.scenario.scenario_table import LIMITS, SOLVER, TOP, fields_of
 from quasistatic_ref.simulate.failures import RunFailed
@@ -161,7 +161,14 @@ def mujoco_scenario(
     array([1.      , 0.999019, 0.998038, 0.997057])
     """
     tables = dict(START)
-    apply_settings(tables, settings, fields)
+    with about_changes(settings, fields):
+        apply_settings(tables, settings, fields)
+        return _scenario_of(model, data, targets, tables, Path(path))
+
+
+def _scenario_of(
+    model: MjModel, data: MjData | None, targets: Driven, tables: dict[str, Any], path: Path
+) -> MujocoScenario:
     top = TableReader(tables, error=ScenarioError)
     for name in top.names_left():
         if name not in FIELDS:
@@ -204,7 +211,7 @@ def mujoco_scenario(
         else model.opt.gravity.copy()
     )
     return MujocoScenario(
-        path=Path(path),
+        path=path,
         h=h,
         steps=steps,
         gravity=gravity,
