@@ -31,14 +31,11 @@ class OptionChange(str):
 
     option: str
 
-    def __new__(cls, text: str, option: str) -> "OptionChange":
-        """The text, which keeps the option."""
+    def __new__(cls, text: str, option: str = "") -> "OptionChange":
+        """The text; a copy of a pickle is given its option afterwards."""
         change = super().__new__(cls, text)
         change.option = option
         return change
-
-    def __getnewargs__(self) -> tuple[str, str]:
-        return str(self), self.option
 
 
 @contextmanager
