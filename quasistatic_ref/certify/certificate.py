@@ -1,12 +1,10 @@
-"""What is claimed about an answer: the exact method states its result as a :class:`Certificate`."""
+"""What is claimed about an answer."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.step.data import StepData
@@ -88,33 +86,3 @@ class Certificate(Plain, HasPage):
     def is_of(self, step: StepData) -> bool:
         """Whether it is about this step: the same object, or one with the same SHA-256."""
         return self.step is step or self.step_sha256 == step_sha256(step)
-
-
-def exact_certificate(
-    step: StepData, optimum: ExactOptimum, residuals: Mapping[str, float] | None = None
-) -> Certificate:
-    """The certificate of an exact optimum.
-
-    Parameters
-    ----------
-    step : StepData
-    optimum : ExactOptimum
-        That of the step.
-    residuals : mapping of str to float, optional
-        Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at the rounded answer, in natural units [-].
-
-    Returns
-    -------
-    Certificate
-    """
-    return Certificate(
-        kind="exact",
-        residuals=dict(residuals or {}),
-        active=contact_rows(step, optimum.working_set),
-        multipliers_unique=optimum.multipliers_unique,
-        differentiable=optimum.differentiable,
-        smallest_inactive_slack=optimum.smallest_inactive_slack,
-        smallest_active_multiplier=optimum.smallest_active_multiplier,
-        error_bound=0.0,
-        step=step,
-    )

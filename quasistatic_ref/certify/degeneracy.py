@@ -16,15 +16,64 @@ derivatives with respect to A and b: where Z has dependent rows, they exist alon
 keep the dependence (all numbers of one contact), not along those that break it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from flint import arb, arb_mat, fmpz
 
 from quasistatic_ref.certify.active_set import dual_active_set
 from quasistatic_ref.certify.dependence import implied
-from quasistatic_ref.certify.form import ExactForm, MatrixForm, exact_matrix
+from quasistatic_ref.certify.form import ExactForm, MatrixForm, StepForm, exact_matrix
+from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.step.data import StepData
+
+
+class Degeneracy(NamedTuple):
+    """What the rows without slack say of an optimum.
+
+    Parameters
+    ----------
+    multipliers_unique : bool
+    differentiable : bool
+        With respect to g.
+    smallest_inactive_slack : float or None
+        Smallest slack [m] of the rows that are not strictly active: 0.0 where delta_q is not
+        differentiable, otherwise the smallest that is not zero; None if there are no such rows.
+    """
+
+    multipliers_unique: bool
+    differentiable: bool
+    smallest_inactive_slack: float | None
+
+
+def step_degeneracy(step: StepData, working: Sequence[int]) -> Degeneracy:
+    """That of the optimum of a step in a polyhedral cone, group by group.
+
+    Parameters
+    ----------
+    step : StepData
+    working : sequence of int
+        Independent rows whose multipliers at the optimum are positive, and all others zero.
+    """
+    parts = group_steps(step)
+    return _of_all(form_degeneracy(StepForm(part), group.within(working)) for group, part in parts)
+
+
+def form_degeneracy(form: ExactForm, working: Sequence[int]) -> Degeneracy:
+    """That of the optimum of a program, which is the minimiser on such rows."""
+    minimiser = Minimiser(form, tuple(working))
+    unique, smooth = degeneracy(form, working, minimiser.implied_rows, minimiser.tight_rows)
+    return Degeneracy(unique, smooth, minimiser.smallest_slack() if smooth else 0.0)
+
+
+def _of_all(every: Iterable[Degeneracy]) -> Degeneracy:
+    """That of a step from those of its groups: a row is implied by others of its group alone."""
+    unique, smooth, slacks = zip(*every, strict=True)
+    return Degeneracy(
+        all(unique), all(smooth), min((s for s in slacks if s is not None), default=None)
+    )
 
 
 def degeneracy(

@@ -21,13 +21,12 @@ from quasistatic_ref.certify.active_set import (
     dual_active_set,
     most_violated,
 )
-from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.failures import StepIllPosed, StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import ExactForm, StepForm
 from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.minimiser import Minimiser
-from quasistatic_ref.certify.norm import Parts, energy_norm, single_lengths, single_loads
+from quasistatic_ref.certify.norm import Parts, energy_norm, single_loads
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.step.cones import cone
@@ -59,12 +58,6 @@ class ExactOptimum:
         A'lam [N s, N m s].
     working_set : tuple of int
         Rows in increasing order, independent, with positive multipliers where no equations.
-    multipliers_unique : bool
-    differentiable : bool
-        With respect to g; see :mod:`~quasistatic_ref.certify.degeneracy`.
-    smallest_inactive_slack : float or None
-        Smallest slack [m] of the rows that are not strictly active: 0.0 where delta_q is not
-        differentiable, otherwise the smallest that is not zero; None if there are no such rows.
     smallest_active_multiplier : float or None
         Smallest of lam [N s] on the working set, equations left out; None if there is no other.
     walks : int
@@ -75,9 +68,6 @@ class ExactOptimum:
     lam: Array
     net: Array
     working_set: tuple[int, ...]
-    multipliers_unique: bool
-    differentiable: bool
-    smallest_inactive_slack: float | None
     smallest_active_multiplier: float | None
     walks: int
 
@@ -106,9 +96,8 @@ def form_optimum(
 
 
 def _rounded(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
-    """The optimum that the method ended with: what is unique at it, and its numbers, rounded."""
+    """The optimum that the method ended with, its numbers rounded."""
     working = minimiser.working
-    unique, smooth = degeneracy(form, working, minimiser.implied_rows, minimiser.tight_rows)
     lam = np.zeros(form.m)
     lam[list(working)] = minimiser.rounded(lambda m: m.y, form.h)
     pressed = [i for i in working if i >= form.equations]
@@ -117,9 +106,6 @@ def _rounded(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
         lam=lam,
         net=minimiser.rounded(lambda m: m.net.entries(), form.h),
         working_set=tuple(sorted(working)),
-        multipliers_unique=unique,
-        differentiable=smooth,
-        smallest_inactive_slack=minimiser.smallest_slack() if smooth else 0.0,
         smallest_active_multiplier=float(lam[pressed].min()) if pressed else None,
         walks=minimiser.walks,
     )
@@ -153,7 +139,7 @@ def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     parts = group_steps(step)
     starts = [group.within(warm) for group, _ in parts]
     optimum = optimum_by_groups(step, parts, starts)
-    check_length(step, optimum.delta_q, parts, without_warnings(single_lengths, parts))
+    without_warnings(check_length, step, optimum.delta_q, parts)
     return optimum
 
 
@@ -192,27 +178,19 @@ def optimum_by_groups(
         net[group.coordinates] = optimum.net
         lam[group.rows] = optimum.lam
         working += group.rows[list(optimum.working_set)].tolist()
-
-    # A row is strictly active, or implied by others, within its group.
     each = [optimum for _, optimum in optima]
-    slacks = [optimum.smallest_inactive_slack for optimum in each]
     multipliers = [optimum.smallest_active_multiplier for optimum in each]
     return ExactOptimum(
         delta_q=delta_q,
         lam=lam,
         net=net,
         working_set=tuple(sorted(working)),
-        multipliers_unique=all(optimum.multipliers_unique for optimum in each),
-        differentiable=all(optimum.differentiable for optimum in each),
-        smallest_inactive_slack=min((s for s in slacks if s is not None), default=None),
         smallest_active_multiplier=min((v for v in multipliers if v is not None), default=None),
         walks=sum(optimum.walks for optimum in each),
     )
 
 
-def check_length(
-    step: StepData, delta_q: Array, parts: Parts, lengths: Sequence[Sequence[float]]
-) -> None:
+def check_length(step: StepData, delta_q: Array, parts: Parts) -> None:
     """Refuse a delta_q, shape (n_v,) [m, rad], that is absurdly long in one of the step's groups.
 
     Parameters
@@ -221,18 +199,18 @@ def check_length(
     delta_q : ndarray, shape (n_v,)
     parts : sequence of (Group, StepData)
         The groups of the step.
-    lengths : sequence of sequence of float
-        Their :func:`~quasistatic_ref.certify.norm.single_lengths` [(N m s)^0.5].
 
     Raises
     ------
     StepIllPosed
     """
     relative = []
-    for (group, part), of_loads in zip(parts, lengths, strict=True):
+    for group, part in parts:
         moved = delta_q[group.coordinates]
-        most = 0.1 * ILL_POSED * max(of_loads[:-1])  # a tenth is for rounding
-        length = energy_norm(part.H).of_displacement(moved)
+        norm = energy_norm(part.H)
+        of_loads = norm.of_impulses(single_loads(part))
+        most = 0.1 * ILL_POSED * float(of_loads.max())  # a tenth is for rounding
+        length = norm.of_displacement(moved)
         if not (MIDDLE[0] < most < MIDDLE[1] and length <= most):
             relative.append(relative_length(part, moved))
     longest = max(relative, key=lambda r: math.inf if math.isnan(r) else r, default=0.0)

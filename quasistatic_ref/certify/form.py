@@ -32,10 +32,10 @@ from flint import arb, arb_mat, fmpq, fmpz
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.dependence import implied
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import StepData, row_layout
 from quasistatic_ref.step.standard_form import inequalities
 
 EXACT: Final = 1 << 30
@@ -259,26 +259,26 @@ class StepForm(ExactForm):
         check_arithmetic()
         self._step = step
         self._cone = cone(step.cone)
-        self._cone_matrix = exact_matrix(self._cone.matrix)
         self._mu = self._cone.row_coefficients(step.contacts.mu)
         n_c = step.contacts.n_c
-        self._contact, kind = np.nonzero(step.mask)
-        self._places = [*zip(self._contact.tolist(), kind.tolist(), strict=True)]
-        self._places += [(n_c + k, 0) for k in range(len(step.extra.names))]
+        self._contact, self._places = _places(step.cone, step.contacts.rows.tobytes())
+        if step.extra.names:
+            of_extra = [(n_c + k, 0) for k in range(len(step.extra.names))]
+            self._places = [*self._places, *of_extra]
         self._factors: dict[int, tuple[arb_mat, arb_mat, arb_mat]] = {}
         self._rows: dict[int, list[Row]] = {}
         self.n = step.n_v
         self.m = step.m
         self.h = arb(step.h)
         n_a = step.n_a
-        parts = np.zeros((3, self.n, self.n))
-        parts[0, :n_a, :n_a] = step.K_q
-        parts[1, n_a:, n_a:] = step.M_u
         pull = arb_mat(self.n, 1)
+        of_cost = b""
         if step.extra.cost is not None:
-            parts[2], of_cost = step.extra.cost
-            pull = exact_matrix(of_cost[:, None])
-        springs, self.H, self.H_inverse = _hessian(parts.tobytes(), self.n, step.h)
+            H, g = step.extra.cost
+            of_cost = H.tobytes()
+            pull = exact_matrix(g[:, None])
+        matrices = step.K_q.tobytes(), step.M_u.tobytes(), of_cost
+        springs, self.H, self.H_inverse = _hessian(matrices, n_a, self.n, step.h)
         shift = arb_mat(self.n, 1, [*step.delta_q_bar_a.tolist(), *[0] * step.n_u])
         force = arb_mat(self.n, 1, [*step.tau_a.tolist(), *step.tau_u.tolist()])
         with working_precision(EXACT):
@@ -329,7 +329,8 @@ class StepForm(ExactForm):
             J[4, -1] = contacts.phi[c]
             d1, d2 = [mu_1 * v for v in d1], [mu_2 * v for v in d2]
             turn = [*n, 0, 1, *d1, 0, 0, *d2, 0, 0, 0, 0, 0, mu_w, 0]
-            self._factors[c] = self._cone_matrix, arb_mat(4, 5, turn), exact_matrix(J)
+            combined = _cone_matrix(self._cone.name)
+            self._factors[c] = combined, arb_mat(4, 5, turn), exact_matrix(J)
         return self._factors[c]
 
     def exact_rows(self, some: Iterable[int]) -> list[Row]:
@@ -372,13 +373,36 @@ def row_sizes(A: Array, b: Array, most: Array) -> Array:
 
 
 @lru_cache(maxsize=32)
-def _hessian(parts: bytes, n: int, h: float) -> tuple[arb_mat, arb_mat, arb_mat]:
-    """h^2 K_q; H = h^2 K_q + M_u + h H of a cost; and the inverse of H in balls."""
-    K_q, M_u, of_cost = map(exact_matrix, np.frombuffer(parts).reshape(3, n, n))
+def _hessian(
+    matrices: tuple[bytes, bytes, bytes], n_a: int, n: int, h: float
+) -> tuple[arb_mat, arb_mat, arb_mat]:
+    """h^2 K_q; H = h^2 K_q + M_u + h H of a cost; and the inverse of H in balls.
+
+    The numbers are those of K_q, M_u and the H of a cost, if there is one.
+    """
+    parts = np.zeros((3, n, n))
+    numbers = [np.frombuffer(matrix) for matrix in matrices]
+    parts[0, :n_a, :n_a] = numbers[0].reshape(n_a, n_a)
+    parts[1, n_a:, n_a:] = numbers[1].reshape(n - n_a, n - n_a)
+    if numbers[2].size:
+        parts[2] = numbers[2].reshape(n, n)
+    K_q, M_u, of_cost = map(exact_matrix, parts)
     with working_precision(EXACT):
         springs = K_q * (arb(h) * h)
         H = springs + M_u + of_cost * arb(h)
     return springs, H, inverse(H)
+
+
+@lru_cache(maxsize=64)
+def _places(cone_name: str, rows: bytes) -> tuple[Indices, list[tuple[int, int]]]:
+    """The contact of each row, (m,), and with it which of the cone's rows that is."""
+    contact, kind = np.nonzero(row_layout(cone_name, rows).mask)
+    return contact, [*zip(contact.tolist(), kind.tolist(), strict=True)]
+
+
+@lru_cache(maxsize=32)
+def _cone_matrix(cone_name: str) -> arb_mat:
+    return exact_matrix(cone(cone_name).matrix)
 
 
 @lru_cache(maxsize=1024)

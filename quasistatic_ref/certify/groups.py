@@ -50,26 +50,35 @@ def groups(step: StepData) -> list[Group]:
     ----------
     step : StepData
     """
-    contacts = step.contacts.J.any(axis=1)
-    couplings = np.concatenate([contacts, step.extra.A != 0, step.coupled()])
-    return [*_groups(couplings.tobytes(), couplings.shape, step.counts.tobytes())]
+    n_c = step.contacts.n_c
+    n_rows = n_c + len(step.extra.names)
+    contact, of_contact = step.contacts.moved
+    row, of_row = np.nonzero(step.extra.A)
+    i, j = step.coupled_entries
+    coupling = np.concatenate([contact, n_c + row, n_rows + i])
+    coordinate = np.concatenate([of_contact, of_row, j])
+    shape = n_rows + step.n_v, step.n_v
+    return [*_groups(coupling.tobytes(), coordinate.tobytes(), shape, step.counts.tobytes())]
 
 
 @lru_cache(maxsize=64)
-def _groups(couplings: bytes, shape: tuple[int, int], row_counts: bytes) -> tuple[Group, ...]:
+def _groups(
+    coupling: bytes, coordinate: bytes, shape: tuple[int, int], row_counts: bytes
+) -> tuple[Group, ...]:
     """The groups of all steps whose numbers differ from zero in the same places.
 
     Parameters
     ----------
-    couplings : bytes
-        Which coordinates move a contact, or a user's row, or have an entry in a row of
-        H: a mask of that shape.
+    coupling, coordinate : bytes
+        Which coordinates move a contact, or a user's row, or have an entry in a row of H: pairs of
+        numbers.
     shape : (int, int)
     row_counts : bytes
         Of the number of rows of each contact.
     """
-    coupling, coordinate = np.nonzero(np.frombuffer(couplings, np.bool_).reshape(shape))
-    return parted(coupling, coordinate, shape, np.frombuffer(row_counts, np.int64))
+    every = (np.frombuffer(numbers, np.int64) for numbers in (coupling, coordinate, row_counts))
+    of_coupling, of_coordinate, counts = every
+    return parted(of_coupling, of_coordinate, shape, counts)
 
 
 def parted(

@@ -199,27 +199,10 @@ def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> floa
         The answer, and the optimum [m, rad].
     """
     parts = group_steps(step)
-    return digits_by_groups(parts, single_lengths(parts), delta_q, exact_delta_q)
-
-
-def digits_by_groups(
-    parts: Parts, lengths: Sequence[Sequence[float]], delta_q: Array, exact_delta_q: Array
-) -> float:
-    """The same [-], of a step whose groups are known.
-
-    Parameters
-    ----------
-    parts : sequence of (Group, StepData)
-        The groups of a step in SI units.
-    lengths : sequence of sequence of float
-        Their :func:`single_lengths` [(N m s)^0.5].
-    delta_q, exact_delta_q : ndarray, shape (n_v,)
-        The answer, and the optimum [m, rad].
-    """
     norms = [(group.coordinates, energy_norm(part.H)) for group, part in parts]
     off, moved = (
         math.hypot(*(norm.of_displacement(v[c]) for c, norm in norms))
         for v in (delta_q - exact_delta_q, exact_delta_q)
     )
     softest = min(part.H.diagonal().min() for _, part in parts)
-    return digits_of_error(off / _length(moved, joined(lengths), softest))
+    return digits_of_error(off / _length(moved, joined(single_lengths(parts)), softest))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
 
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.contact_forces import ContactForces
@@ -19,7 +18,8 @@ from quasistatic_ref.step.friction import contact_wrenches
 UNKNOWN = "are not known: a step holds no costs, nonlinear constraints or smoothing"
 
 
-class SolverStatistics(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class SolverStatistics(Plain):
     """What the solver said and what it cost; never evidence, never written to a solution file.
 
     Parameters

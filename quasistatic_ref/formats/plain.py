@@ -62,6 +62,36 @@ class Plain:
             values[name].setflags(write=False)
 
 
+class Late(Plain):
+    """Plain data of which some fields are formed when they are read.
+
+    A class inherits it before the class whose data it forms.
+
+    Attributes
+    ----------
+    formed, kept_instead : tuple of str
+        Their names, and what is kept in their place.
+    """
+
+    formed: ClassVar[tuple[str, ...]]
+    kept_instead: ClassVar[tuple[str, ...]]
+
+    def __new__(cls, *_: object, **fields: Any) -> Any:
+        """Such data as any other where all fields are given, as by ``dataclasses.replace``."""
+        return cls.compared_as()(**fields) if fields else super().__new__(cls)
+
+    @classmethod
+    def compared_as(cls) -> type:
+        """The class whose fields it forms."""
+        return cls.__bases__[1]
+
+    @classmethod
+    def kept(cls) -> tuple[str, ...]:
+        """As of that class, without what is formed."""
+        every = (name for name in super().kept() if name not in cls.formed)
+        return *every, *cls.kept_instead
+
+
 def field_values(data: Plain) -> dict[str, Any]:
     """All fields of plain data by name."""
     return {f.name: getattr(data, f.name) for f in fields(data)}

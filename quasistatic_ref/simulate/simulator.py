@@ -417,5 +417,6 @@ class Simulator(Settings, Shown):
                 if type(another) is not StepNotSolved:  # a proof
                     raise
                 continue
-            return replace(solution, statistics=solution.statistics._replace(unanswered=True))
+            statistics = replace(solution.statistics, unanswered=True)
+            return replace(solution, statistics=statistics)
         raise failure

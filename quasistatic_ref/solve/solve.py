@@ -5,21 +5,24 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.certify.certificate import Certificate, exact_certificate
+from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.exact import ExactOptimum, check_length, optimum_by_groups
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.norm import digits_by_groups
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.certify.warm import basic_rows, warm_rows
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import all_finite, without_warnings
+from quasistatic_ref.numbers.arrays import Array, all_finite, without_warnings
 from quasistatic_ref.parts import extended_step
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.solve.proved import answer_residuals, exact_certificate, proof_statistics
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import FREE, Solver
 from quasistatic_ref.solve.units import ScaledStep, in_natural, in_si, out_of_range
@@ -32,6 +35,8 @@ if TYPE_CHECKING:
 FEW = 100
 """Most rows of which a start is chosen from all groups at once, and not from each. Where lam is not
 unique, the start decides on it; that of small scenes is in committed runs."""
+WITHIN_RANGE = 1e100
+"""Far below the square root of float64's largest number."""
 NOTHING_CLAIMED = Certificate("none")
 
 
@@ -155,32 +160,51 @@ def solved(
         if not reply.solved:
             raise StepNotSolved(solver.name, reply.status, scaled.step, reply.accuracy)
         solution = judged(scaled, solver, reply, certify)
+    step = solution.step
     numbers = [solution.delta_q, solution.lam]
-    if certify != "off" or solution.step.extra.names:
+    checked = certify != "off" or step.extra.names
+    if checked and not _surely_finite(step, solution.lam):
         numbers.append(solution.wrench.ravel())
-    residuals = solution.certificate.residuals.values()
-    if not (all(map(all_finite, numbers)) and all(map(math.isfinite, residuals))):
+    if not all(map(all_finite, numbers)):
         raise out_of_range()
     return solution
+
+
+def _surely_finite(step: StepData, lam: Array) -> bool:
+    """Whether bounds alone show that all wrenches of multipliers are finite: they are not formed.
+
+    A wrench is a sum of multipliers, each times at most 1 and a coefficient of friction, over h.
+    """
+    most = math.sqrt(np.vdot(lam, lam)) * (1.0 + step.contacts.mu.max(initial=0.0))
+    return bool(most < WITHIN_RANGE * step.h)
 
 
 def answered(
     scaled: ScaledStep, solver: Solver, accuracy: float
 ) -> tuple[Reply | None, SolverStatistics]:
     """A backend's answer, its status and time; it may not call its answer a solution."""
-    statistics = SolverStatistics(
-        solver.name, "not called", None, None, accuracy, interface=solver.interface
-    )
+
+    def without(status: str, unanswered: bool = False) -> SolverStatistics:
+        return SolverStatistics(
+            solver.name,
+            status,
+            None,
+            None,
+            accuracy,
+            interface=solver.interface,
+            unanswered=unanswered,
+        )
+
     if not scaled.step.m:
-        return None, statistics._replace(status=FREE)
+        return None, without(FREE)
     if solver.name == NONE:
-        return None, statistics
+        return None, without("not called")
     try:
         reply = solver.answer(scaled, accuracy)
     except StepNotSolved as failure:
-        return None, statistics._replace(status=f"failed: {failure.status}", unanswered=True)
+        return None, without(f"failed: {failure.status}", unanswered=True)
     if not reply.solved:
-        return reply, statistics._replace(status=f"failed: {reply.status}")
+        return reply, without(f"failed: {reply.status}")
     return reply, statistics_of(solver, reply)
 
 
@@ -237,16 +261,20 @@ def proved(
             raise StepNotSolved(solver.name, status, step, statistics.accuracy)
     delta_q = optimum.delta_q
     lam = optimum.lam
-    check_length(step, delta_q, scaled.groups, scaled.lengths)
-    digits = None
-    if answer is not None:
-        digits = digits_by_groups(scaled.groups, scaled.lengths, answer[0], delta_q)
-    residuals = vars(scaled.residuals(*in_natural(delta_q, lam, scaled.units)))
-    statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
+    check_length(step, delta_q, scaled.groups)
+    scaled.check_range()
     if isinstance(optimum, ExactOptimum):
-        certificate = exact_certificate(step, optimum, residuals)
+        certificate = exact_certificate(step, optimum, scaled.units)
     else:
+        residuals = answer_residuals(step, scaled.units, delta_q, lam)
+        if not all(map(math.isfinite, residuals.values())):
+            raise out_of_range()
         certificate = optimum.certificate(step, residuals)
+    seconds = time.perf_counter() - begin
+    if answer is None:
+        statistics = replace(statistics, proof_time=seconds)
+    else:
+        statistics = proof_statistics(statistics, seconds, step, answer[0], delta_q)
     return StepSolution(delta_q, lam, step, certificate, statistics, optimum.net)
 
 
@@ -312,5 +340,5 @@ def judged(scaled: ScaledStep, solver: Solver, reply: Reply, certify: str) -> St
         status = f"it said {reply.status}, but its worst residual is {worst}"
         raise StepNotSolved(solver.name, status, step, reply.accuracy, residuals)
     certificate = Certificate("residual", dict(vars(residuals)), step=step)
-    statistics = statistics._replace(proof_time=time.perf_counter() - begin)
+    statistics = replace(statistics, proof_time=time.perf_counter() - begin)
     return StepSolution(delta_q, lam, step, certificate, statistics)

@@ -166,6 +166,10 @@ class ScaledStep:
             raise out_of_range()
         return units
 
+    def check_range(self) -> None:
+        """Refuse a step that its natural units take out of the range of float64: StepDataError."""
+        _ = self.natural
+
     @cached_property
     def natural(self) -> StandardForm:
         """Its standard form in natural units."""

@@ -110,6 +110,12 @@ class Contacts(Plain, Shown):
         """Number of columns of J."""
         return int(self.J.shape[-1])
 
+    @property
+    def moved(self) -> tuple[Indices, Indices]:
+        """Contacts and coordinates that move them, (k,) each: where J is not zero."""
+        contact, coordinate = np.nonzero(self.J.any(axis=1))
+        return contact, coordinate
+
     def raised(self, s: Array) -> Contacts:
         """These contacts with phi + s, shape (n_c,) [m], in the place of phi."""
         return replace(self, phi=self.phi + s)

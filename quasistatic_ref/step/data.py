@@ -271,6 +271,12 @@ class StepData(Plain, HasPage):
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
         return self.M_u[np.ix_(some, some)]
 
+    @property
+    def coupled_entries(self) -> tuple[Indices, Indices]:
+        """Row and column of each of these entries, (k,)."""
+        i, j = np.nonzero(self.coupled())
+        return i, j
+
     def coupled(self) -> Mask:
         """Which entries of H a term of it may have, shape (n_v, n_v)."""
         coupled = np.zeros((self.n_v, self.n_v), dtype=bool)

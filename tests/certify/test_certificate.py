@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, StepDataError, solve_step, verify, verify_answer
-from quasistatic_ref.certify.certificate import exact_certificate
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.certify.solution_files import solution_text
 from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.solve.proved import exact_certificate
+from quasistatic_ref.solve.units import ScaledStep
 from tests.certify.test_exact import resting_point
 from tests.helpers import point_on_floor
 
@@ -54,7 +55,7 @@ def test_a_row_without_multiplier_is_in_no_working_set(touching):
     step = step.replace(extra=Extra(("touched",), np.eye(4)[:1], [0.75]))
     step = step if touching != "a contact" else point_on_floor(mu_v=0.0)
     optimum = step_optimum(step)
-    claims = exact_certificate(step, optimum)
+    claims = exact_certificate(step, optimum, ScaledStep(step).units)
     assert claims.active == ()
     assert not claims.differentiable
     assert verify_answer(step, optimum.delta_q, (), optimum.lam, claims)

@@ -4,6 +4,7 @@ import numpy as np
 
 from quasistatic_ref import StepIllPosed, StepInfeasible
 from quasistatic_ref.certify.active_set import Combination
+from quasistatic_ref.certify.degeneracy import form_degeneracy, step_degeneracy
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.form import StepForm
@@ -11,14 +12,8 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.at_random import divided
 from tests.oracles.random_steps import mixed_step
 
-SAME = (
-    "delta_q",
-    "net",
-    "multipliers_unique",
-    "differentiable",
-    "smallest_inactive_slack",
-)
-"""What of an optimum no choice is left of."""
+SAME = ("delta_q", "net")
+"""What of an optimum no choice is left of, beside what its rows without slack say."""
 
 
 def random_case(seed):
@@ -41,12 +36,10 @@ def faults(step):
         if isinstance(whole, Combination):
             return ["feasible by group only"]
         return [] if failure.delta_q.tobytes() == whole.delta_q.tobytes() else ["delta_q"]
-    return unlike_fields(grouped, whole)
-
-
-def unlike_fields(one, whole):
-    """In what of that no choice is left of an optimum is not that of the whole step."""
     if isinstance(whole, Combination):
         return ["feasible by group only"]
-    names = (*SAME, "lam") if whole.multipliers_unique else SAME
-    return [name for name in names if bits(getattr(one, name)) != bits(getattr(whole, name))]
+    facts = form_degeneracy(StepForm(step), whole.working_set)
+    names = (*SAME, "lam") if facts.multipliers_unique else SAME
+    unlike = [name for name in names if bits(getattr(grouped, name)) != bits(getattr(whole, name))]
+    by_group = step_degeneracy(step, grouped.working_set)
+    return unlike if bits(by_group) == bits(facts) else [*unlike, "degeneracy"]

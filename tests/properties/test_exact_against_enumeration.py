@@ -13,6 +13,7 @@ from itertools import chain, combinations
 import numpy as np
 
 from quasistatic_ref.certify.active_set import Combination
+from quasistatic_ref.certify.degeneracy import form_degeneracy
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of, exact_slack
 from tests.oracles.rational_kkt import (
@@ -125,10 +126,11 @@ def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
             slack = exact_slack(form, found.working_set)
             answer = (found.delta_q, found.net, slack, found.lam)
             assert refutation(H, g, A, b, *answer) is None, seed
-            assert found.multipliers_unique == truth.unique, seed
-            assert found.differentiable == truth.differentiable, seed
+            facts = form_degeneracy(form, found.working_set)
+            assert facts.multipliers_unique == truth.unique, seed
+            assert facts.differentiable == truth.differentiable, seed
             outside = [s for s in truth.slack if s] if truth.differentiable else [Fraction(0)]
-            assert found.smallest_inactive_slack == min(map(float, outside), default=None), seed
+            assert facts.smallest_inactive_slack == min(map(float, outside), default=None), seed
             active = [v for v in found.lam.tolist() if v]
             assert found.smallest_active_multiplier == min(active, default=None), seed
             assert found.working_set == tuple(np.flatnonzero(found.lam).tolist()), seed
@@ -143,8 +145,7 @@ def bits_of(seed):
     if isinstance(found, Combination):
         return None
     arrays = found.delta_q, found.net, exact_slack(form, found.working_set)
-    unique = found.multipliers_unique, found.differentiable
-    return [array.tobytes() for array in arrays], unique
+    return [array.tobytes() for array in arrays], form_degeneracy(form, found.working_set)
 
 
 def test_bits_do_not_depend_on_the_precision_of_the_balls(monkeypatch):

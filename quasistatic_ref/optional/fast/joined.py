@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.plain import Late
 from quasistatic_ref.model.mass import whole
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
 from quasistatic_ref.simulate.record import LARGEST
@@ -15,35 +14,7 @@ from quasistatic_ref.step.contacts import Contacts, spread
 from quasistatic_ref.step.data import StepData, hessian
 
 
-class Joined(Plain):
-    """Data of which some fields are formed when they are read.
-
-    Attributes
-    ----------
-    formed, kept_instead : tuple of str
-        Their names, and what is kept in their place.
-    """
-
-    formed: tuple[str, ...]
-    kept_instead: tuple[str, ...]
-
-    def __new__(cls, *_: object, **fields: Any) -> Any:
-        """Such data as any other where all fields are given, as by ``dataclasses.replace``."""
-        return cls.compared_as()(**fields) if fields else super().__new__(cls)
-
-    @classmethod
-    def compared_as(cls) -> type:
-        """The class whose fields it forms."""
-        return cls.__bases__[1]
-
-    @classmethod
-    def kept(cls) -> tuple[str, ...]:
-        """As of that class, without what is formed."""
-        every = (name for name in super().kept() if name not in cls.formed)
-        return *every, *cls.kept_instead
-
-
-class JoinedContacts(Joined, Contacts):
+class JoinedContacts(Late, Contacts):
     """Contacts whose J is formed when it is read.
 
     Attributes
@@ -63,6 +34,12 @@ class JoinedContacts(Joined, Contacts):
     def J(self) -> Array:
         """J of Eq. :eq:`eq-3`, shape (n_c, 4, n_v)."""
         return read_only(spread(self.own_J, self.column[:, None], self.n_v))
+
+    @property
+    def moved(self) -> tuple[Indices, Indices]:
+        """Contacts and coordinates that move them, (k,) each: where J is not zero."""
+        contact, k = np.nonzero(self.own_J.any(axis=1))
+        return contact, self.column[contact, k]
 
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
@@ -112,6 +89,16 @@ class Masses:
         body, i = np.divmod(u, self.blocks.shape[-1])
         return np.where(body[:, None] == body, self.blocks[body[:, None], i[:, None], i], 0.0)
 
+    @cached_property
+    def entries(self) -> tuple[Indices, Indices]:
+        """Where K_q and M_u are not zero in H, (k,) each."""
+        first = len(self.K_q)
+        *block, i, j = np.nonzero(self.blocks)
+        if block:
+            first = first + self.blocks.shape[-1] * block[0]
+        of_K, of_K_column = np.nonzero(self.K_q)
+        return np.concatenate([of_K, first + i]), np.concatenate([of_K_column, first + j])
+
     def of(self, coordinates: Indices) -> Array:
         """H of some coordinates, shape (k, k)."""
         n_a = len(self.K_q)
@@ -120,7 +107,7 @@ class Masses:
         return hessian(self.h, self.K_q[np.ix_(a, a)], self.some(u))
 
 
-class JoinedStep(Joined, StepData):
+class JoinedStep(Late, StepData):
     """A step whose M_u and H are formed when they are read.
 
     Attributes
@@ -156,6 +143,11 @@ class JoinedStep(Joined, StepData):
             "K_q": self.K_q,
             "M_u": blocks.reshape(-1, *blocks.shape[-2:]),
         }
+
+    @property
+    def coupled_entries(self) -> tuple[Indices, Indices]:
+        """Row and column of each entry that a term of H may have, (k,): no cost has a part."""
+        return self.of_masses.entries
 
     def masses(self, some: Indices) -> Array:
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""

@@ -8,13 +8,13 @@ from functools import cached_property
 import numpy as np
 
 from quasistatic_ref.certify.groups import Group, group_step, group_steps, groups
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, all_finite
 from quasistatic_ref.optional.fast.program import Program, Workspaces
 from quasistatic_ref.solve.backends import Options, check_backend
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, Solver
-from quasistatic_ref.solve.units import ScaledStep, of_group
+from quasistatic_ref.solve.units import ScaledStep, of_group, out_of_range
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import StandardForm
@@ -60,6 +60,11 @@ class FormedStep(ScaledStep):
         super().__init__(step, units)
         self.blocks = blocks
         self.program = program
+
+    def check_range(self) -> None:
+        """As of a step whose natural form is formed here."""
+        if not all(map(all_finite, (self.program.f, self.program.A, self.program.b))):
+            raise out_of_range()
 
     @cached_property
     def _finer(self) -> list[tuple[int, Group, Group, StepData]]:

@@ -13,6 +13,7 @@ from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Combination, least_index
 from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.degeneracy import Degeneracy, form_degeneracy
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.form import MatrixForm
@@ -51,16 +52,17 @@ def expected(case_input: Json) -> Expected:
     exact = _checked_optimum(case_input, form, optimum.working_set)
     slack = exact_slack(form, optimum.working_set)
     bound = bounds(form, optimum.working_set)
+    facts = form_degeneracy(form, optimum.working_set)
     return Expected(
         output={
             "delta_q": optimum.delta_q.tolist(),
             "lam": optimum.lam.tolist(),
             "A_lam": optimum.net.tolist(),
             "slack": slack.tolist(),
-            "certificate": _certificate(optimum),
+            "certificate": _certificate(optimum, facts),
         },
         digits=short(rounded_results(lambda: exact)[1]),
-        flags=flags_of(optimum, slack, bound),
+        flags=flags_of(optimum, facts, slack, bound),
         tolerance=tolerances(bound),
     )
 
@@ -157,13 +159,19 @@ def _checked_optimum(
     return {"delta_q": x, "A_lam": net}
 
 
-def _certificate(optimum: ExactOptimum) -> Json:
-    facts = {name: getattr(optimum, name) for name in FACTS}
-    working_set = list(optimum.working_set)
-    return {"kind": "exact", "working_set": working_set, **facts, "error_bound": 0.0}
+def _certificate(optimum: ExactOptimum, facts: Degeneracy) -> Json:
+    return {
+        "kind": "exact",
+        "working_set": list(optimum.working_set),
+        **facts._asdict(),
+        "smallest_active_multiplier": optimum.smallest_active_multiplier,
+        "error_bound": 0.0,
+    }
 
 
-def flags_of(optimum: ExactOptimum, slack: Array, bound: Bounds) -> dict[str, bool]:
+def flags_of(
+    optimum: ExactOptimum, facts: Degeneracy, slack: Array, bound: Bounds
+) -> dict[str, bool]:
     """What may be compared, and what is delicate about an optimum.
 
     Ties between rows that float64 data split in the last place count as ties: a solver cannot see
@@ -177,8 +185,8 @@ def flags_of(optimum: ExactOptimum, slack: Array, bound: Bounds) -> dict[str, bo
     return {
         "infeasible": False,
         "degenerate": tied or weak,
-        "unique_multipliers": optimum.multipliers_unique and known and not tied,
-        "differentiable": optimum.differentiable,
+        "unique_multipliers": facts.multipliers_unique and known and not tied,
+        "differentiable": facts.differentiable,
     }
 
 

@@ -1,0 +1,73 @@
+"""What is said of a proved answer is formed when it is read, and is what it always was."""
+
+import gc
+import pickle
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref import load_scenario, solve_step, verify
+from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.form import ExactForm
+from quasistatic_ref.certify.norm import correct_digits
+from quasistatic_ref.certify.solution import SolverStatistics
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.solve import proved
+
+
+@pytest.fixture(scope="module")
+def solution():
+    return solve_step(grasp_step(np.random.default_rng(11)))
+
+
+def forms_alive():
+    gc.collect()
+    return [one for one in gc.get_objects() if isinstance(one, ExactForm)]
+
+
+def test_a_run_does_not_ask_how_rows_touch(monkeypatch):
+    def refused(*_):
+        raise AssertionError("asked")
+
+    monkeypatch.setattr(proved, "step_degeneracy", refused)
+    before = len(forms_alive())
+    run = load_scenario("stack", steps=2).run(progress=False)
+    assert run["digits"].min() > 0
+    assert len(forms_alive()) == before
+    certificate = solve_step(run.step_data(1)).certificate
+    with pytest.raises(AssertionError, match="asked"):
+        _ = certificate.differentiable
+
+
+def test_late_fields_are_those_of_the_data_that_they_stand_for(solution):
+    """Equal, of one hash, and the same through a pickle, read before it or not."""
+    late = solution.certificate
+    unread = pickle.loads(pickle.dumps(late))
+    assert not {"residuals", "degeneracy", "active"} & {*vars(unread)}
+    formed = Certificate(**{f.name: getattr(late, f.name) for f in fields(Certificate)})
+    assert type(formed) is Certificate
+    for other in (unread, pickle.loads(pickle.dumps(late)), replace(late), formed):
+        assert other == late
+        assert hash(other) == hash(late)
+        assert verify(replace(solution, certificate=other))
+    assert replace(late, kind="none") != late
+
+
+def test_digits_are_those_of_the_answer_that_was_given(solution):
+    statistics = solution.statistics
+    unread = pickle.loads(pickle.dumps(statistics))
+    given = statistics.answer, solution.delta_q
+    assert statistics.digits == correct_digits(solution.step, *given) == unread.digits
+    formed = SolverStatistics(
+        **{f.name: getattr(statistics, f.name) for f in fields(SolverStatistics)}
+    )
+    assert bits(formed) == bits(statistics) == bits(unread)
+
+
+def test_forged_flags_are_refused(solution):
+    for name in ("multipliers_unique", "differentiable"):
+        flag = getattr(solution.certificate, name)
+        forged = replace(solution.certificate, **{name: not flag})
+        assert name in verify(replace(solution, certificate=forged)).reason
