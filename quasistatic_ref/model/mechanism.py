@@ -23,6 +23,7 @@ from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.joints.joint import Coordinate, Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.named import Named, Values
+from quasistatic_ref.model.state import State
 from quasistatic_ref.numbers.arrays import Array, Indices, checked_array, checked_numbers, read_only
 from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.shapes.placed_shape import PlacedShape
@@ -30,7 +31,7 @@ from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 @runtime_checkable
 class StepSystem(Protocol):
-    """What a step asks a system for: these ten names, and no other.
+    """What a step asks a system for: these six names, and no other.
 
     A System has them from pinocchio, and a MuJoCo scene's from MuJoCo.
     """
@@ -55,20 +56,8 @@ class StepSystem(Protocol):
     def lock(self) -> RLock:
         """Held by who takes a step."""
 
-    def kinematics(self, q: ArrayLike) -> Kinematics:
-        """Pose and Jacobian of every link at q, (n_q,)."""
-
-    def M_u(self, q: ArrayLike) -> Array:
-        """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
-
-    def gravity_force(self, q: ArrayLike, gravity: ArrayLike) -> Array:
-        """Generalised force of gravity, (3,) [m/s^2], at q, shape (n_v,) [N, N m]."""
-
-    def actuated_difference(self, q: ArrayLike, q_a: ArrayLike) -> Array:
-        """Change of the actuated coordinates q_a (-) q, shape (n_a,)."""
-
-    def integrate(self, q: ArrayLike, delta_q: ArrayLike) -> Array:
-        """Configuration q (+) delta_q, shape (n_q,)."""
+    def at(self, q: ArrayLike | State) -> State:
+        """The system at a configuration, shape (n_q,), or at a state of its own."""
 
 
 class Mechanism(ABC):
@@ -164,8 +153,39 @@ class Mechanism(ABC):
         return f"<{type(self).__name__} of {clipped(names) or 'no bodies'}: {counts}>"
 
     @abstractmethod
+    def at(self, q: ArrayLike | State) -> State:
+        """The system at a configuration, which is checked here and not again.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,); or State
+            A state of this system is returned itself.
+
+        Raises
+        ------
+        ModelError
+            If q has another shape, or a quaternion in it is not of length one.
+        """
+
     def kinematics(self, q: ArrayLike) -> Kinematics:
-        """Pose and Jacobian of every link at q."""
+        """Pose and Jacobian of every link at q, (n_q,)."""
+        return self.at(q).kinematics
+
+    def M_u(self, q: ArrayLike) -> Array:
+        """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
+        return self.at(q).M_u
+
+    def gravity_force(self, q: ArrayLike, gravity: ArrayLike) -> Array:
+        """Generalised force of gravity, (3,) [m/s^2], at q, shape (n_v,) [N, N m]."""
+        return self.at(q).gravity(gravity)
+
+    def actuated_difference(self, q: ArrayLike, q_a: ArrayLike) -> Array:
+        """Change of the actuated coordinates q_a (-) q, shape (n_a,)."""
+        return self.at(q).change_to(q_a)
+
+    def integrate(self, q: ArrayLike, delta_q: ArrayLike) -> Array:
+        """Configuration q (+) delta_q, shape (n_q,)."""
+        return self.at(q).plus(delta_q).q
 
     @abstractmethod
     def _centre(self, name: str, link: int) -> Array:

@@ -9,6 +9,7 @@ base has x, y and the angle of the same twist, in the plane.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 import pinocchio as pin
@@ -28,6 +29,7 @@ from quasistatic_ref.model.mass import (
     whole,
 )
 from quasistatic_ref.model.mechanism import Mechanism
+from quasistatic_ref.model.state import State
 from quasistatic_ref.model.urdf.urdf import body_frame
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
@@ -43,11 +45,11 @@ __all__ = ["Body", "Kinematics", "System"]
 class System(Mechanism):
     """Bodies in one world.
 
-    Methods that take q refuse quaternions, and pairs (cos, sin), that are not of length one;
-    :meth:`normalised` mends them, and :meth:`checked` checks the rest of q, too. They share a
-    workspace: a System is for one thread (who takes a step holds `lock`), a copy for another.
-    Copies and pickles hold the URDFs' texts, and read no file. Equal systems have equal bodies and
-    files.
+    What takes q refuses quaternions, and pairs (cos, sin), that are not of length one;
+    :meth:`normalised` mends them, and :meth:`checked` checks the rest of q, too. :meth:`at` checks
+    a q once for all that is asked there. States share a workspace: a System is for one thread (who
+    takes a step holds `lock`), a copy for another. Copies and pickles hold the URDFs' texts, and
+    read no file. Equal systems have equal bodies and files.
 
     Parameters
     ----------
@@ -126,11 +128,9 @@ class System(Mechanism):
     def _make(self, world: World) -> None:
         self._world = world
         self._model = world.model
-        self._latest: tuple[bytes, Kinematics] | None = None
         self._order = paper_order(world.joints)
         self._workspace = self.workspace()
         self._frames = [body_frame(world.model, link) for link in world.links[1:]]
-        self._M_u: Array | None = None  # if M_u is constant: kept once it has been read
         self.mimics = world.mimics
         self.texts = world.texts
         super().__init__(
@@ -155,11 +155,16 @@ class System(Mechanism):
             neutral = self.kinematics(self.neutral())
             mass = mass_matrix(self._model, unactuated, neutral, self.n_a, inertias)
             self.varying_mass = mass if len(mass.link) else None
-            self._M_u = mass.known
+            self.constant_M_u = mass.known
             unactuated = []
         self.mass_blocks = read_only(rigid_masses(self._model, unactuated))
         if not (self.constant_mass_matrix and positive_pivots(self.mass_blocks)):
             check_mass(self.M_u(self.q_start), self.coordinates[self.n_a :], self._roots)
+
+    @cached_property
+    def constant_M_u(self) -> Array:
+        """M_u, shape (n_u, n_u), where it is constant [kg, kg m, kg m^2]."""
+        return whole(self.mass_blocks)
 
     def workspace(self) -> Workspace:
         """A workspace of the caller's own."""
@@ -169,73 +174,25 @@ class System(Mechanism):
         """Configuration with every position zero and bases at the origin, shape (n_q,)."""
         return self._order.paper_q(pin.neutral(self._model))
 
-    def integrate(self, q: ArrayLike, delta_q: ArrayLike) -> Array:
-        """Configuration q (+) delta_q, shape (n_q,). In C: screws.c."""
-        here = self._entries(q)
-        delta_q = with_shape(delta_q, "delta_q", (self.n_v,))
-        change = delta_q.tolist()
-        there: list[float] = []
-        for joint in self.joints:  # in the order of q
-            there += joint.moved(here[joint.q], change[joint.v])
-        return np.array(there)
-
-    def difference(self, q: ArrayLike, q_next: ArrayLike) -> Array:
-        """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
-        return _change(self.joints, self._entries(q), self._entries(q_next))
-
-    def actuated_difference(self, q: ArrayLike, q_a: ArrayLike) -> Array:
-        """Change of the actuated coordinates q_a (-) q, shape (n_a,).
+    def at(self, q: ArrayLike | State) -> SystemState:
+        """The system at a configuration, shape (n_q,), or at a state of its own.
 
         Raises
         ------
         ModelError
-            Unless q_a has shape (n_q_a,).
+            If q has another shape, or a quaternion in it is not of length one.
         """
-        q_a = with_shape(q_a, "q_a", (self.n_q_a,))
-        self.actuated_units.check(q_a)
-        return _change(self.actuated, self._entries(q), q_a.tolist())
-
-    def _entries(self, q: ArrayLike) -> list[float]:
-        """Entries of a q of shape (n_q,), whose quaternions have length one."""
+        if isinstance(q, State):
+            if isinstance(q, SystemState) and q.system is self:
+                return q
+            q = q.q
         q = with_shape(q, "q", (self.n_q,))
         self.units.check(q)
-        entries: list[float] = q.tolist()
-        return entries
+        return SystemState(self, q)
 
-    def M_u(self, q: ArrayLike) -> Array:
-        """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
-        if self.varying_mass is not None:
-            return self.varying_mass.at(self.kinematics(q))
-        if self._M_u is None:
-            self._M_u = whole(self.mass_blocks)
-        return self._M_u
-
-    def gravity_force(self, q: ArrayLike, gravity: ArrayLike) -> Array:
-        """Generalised force of gravity at q, shape (n_v,) [N, N m].
-
-        Parameters
-        ----------
-        q : ndarray, shape (n_q,)
-        gravity : array_like, shape (3,)
-            Acceleration of free fall in the world frame [m/s^2].
-        """
-        down = gravity if isinstance(gravity, tuple) else tuple(np.asarray(gravity).tolist())
-        # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
-        self.kinematics(q)
-        return 0.0 - self._order.paper_v(self._workspace.gravity_torque(down))
-
-    def kinematics(self, q: ArrayLike) -> Kinematics:
-        """Pose and Jacobian of every link at q.
-
-        The last result is kept, because the q at the end of a step is the q of the next one.
-        """
-        q = with_shape(q, "q", (self.n_q,))
-        bits = q.tobytes()
-        if self._latest is None or self._latest[0] != bits:
-            self.units.check(q)
-            self._workspace.move(q)
-            self._latest = bits, Kinematics(*self._workspace.poses(), self.column_map)
-        return self._latest[1]
+    def difference(self, q: ArrayLike, q_next: ArrayLike) -> Array:
+        """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
+        return _change(self.joints, self.at(q).entries, self.at(q_next).entries)
 
     def _centre(self, name: str, link: int) -> Array:
         """Where a load acts by default, (3,) [m], in the frame of a link that moves."""
@@ -244,6 +201,66 @@ class System(Mechanism):
         # The root link's frame is that of the base's joint.
         joint = self._model.frames[self._frames[link - 1]].parentJoint
         return np.asarray(self._model.inertias[joint].lever)
+
+
+class SystemState(State):
+    """A System at one configuration.
+
+    Parameters
+    ----------
+    system : System
+    q : ndarray, shape (n_q,)
+        Checked.
+    """
+
+    def __init__(self, system: System, q: Array) -> None:
+        self.system = system
+        self.q = read_only(q.copy())
+
+    @cached_property
+    def entries(self) -> list[float]:
+        """The entries of q [m, rad, -]."""
+        return list(self.q.tolist())
+
+    @cached_property
+    def _q_parts(self) -> list[Array]:
+        """Q of the parts of the workspace."""
+        return self.system._workspace.q_parts(self.q)
+
+    @cached_property
+    def kinematics(self) -> Kinematics:
+        """Pose and Jacobian of every link."""
+        workspace = self.system._workspace
+        workspace.move(self._q_parts)
+        return Kinematics(*workspace.poses(), self.system.column_map)
+
+    @cached_property
+    def M_u(self) -> Array:
+        """Un-actuated block of the mass matrix, shape (n_u, n_u) [kg, kg m, kg m^2]."""
+        mass = self.system.varying_mass
+        return self.system.constant_M_u if mass is None else mass.at(self.kinematics)
+
+    def gravity(self, acceleration: ArrayLike) -> Array:
+        """Generalised force of gravity, (3,) [m/s^2], shape (n_v,) [N, N m]."""
+        down = tuple(np.asarray(acceleration).tolist())
+        # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
+        torque = self.system._workspace.gravity_torque(self._q_parts, down)
+        return 0.0 - self.system.column_map.order.paper_v(torque)
+
+    def change_to(self, q_a: ArrayLike) -> Array:
+        """Change of the actuated coordinates q_a (-) q, shape (n_a,); ModelError of its shape."""
+        system = self.system
+        q_a = with_shape(q_a, "q_a", (system.n_q_a,))
+        system.actuated_units.check(q_a)
+        return _change(system.actuated, self.entries, q_a.tolist())
+
+    def plus(self, delta_q: ArrayLike) -> SystemState:
+        """The state at q (+) delta_q, of a change of shape (n_v,) [m, rad]. In C: screws.c."""
+        change = with_shape(delta_q, "delta_q", (self.system.n_v,)).tolist()
+        there: list[float] = []
+        for joint in self.system.joints:  # in the order of q
+            there += joint.moved(self.entries[joint.q], change[joint.v])
+        return SystemState(self.system, np.array(there))
 
 
 def _change(joints: Sequence[Joint], here: list[float], there: list[float]) -> Array:

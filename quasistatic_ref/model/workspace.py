@@ -5,7 +5,7 @@ of them at once is what it says about each. It gets the cosine and the sine of r
 not their angles: its own sines are those of the C library.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -76,14 +76,22 @@ class Workspace:
             entries, turns = _sources(world.model, model, before)
             self.parts.append(WorkspacePart(model, data, R, t, of_paper[entries], turns))
             before += model.njoints - 1
-        self._q: list[Array] = []
         self._none = np.zeros((6, 0))
         self._gravity: tuple[float, ...] | None = None
 
-    def move(self, q: Array) -> None:
-        """Have pinocchio write the poses and the columns at q, shape (n_q,), into the parts."""
-        self._q = [part.part_q(q) for part in self.parts]
-        for part, q_part in zip(self.parts, self._q, strict=True):
+    def q_parts(self, q: Array) -> list[Array]:
+        """Each part's own q, shape (n,), from the paper's, shape (n_q,)."""
+        return [part.part_q(q) for part in self.parts]
+
+    def move(self, q_parts: Sequence[Array]) -> None:
+        """Have pinocchio write the poses and the columns at a q.
+
+        Parameters
+        ----------
+        q_parts : sequence of ndarray, each of shape (n,)
+            As of :meth:`q_parts` [m, rad, -].
+        """
+        for part, q_part in zip(self.parts, q_parts, strict=True):
             pin.computeJointJacobians(part.model, part.data, q_part)
             pin.updateFramePlacements(part.model, part.data)
 
@@ -106,11 +114,17 @@ class Workspace:
             array.setflags(write=False)
         return arrays
 
-    def gravity_torque(self, gravity: tuple[float, ...]) -> Array:
+    def gravity_torque(self, q_parts: Sequence[Array], gravity: tuple[float, ...]) -> Array:
         """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m].
 
-        It is that of the last move, in pinocchio's order. Gravity is the acceleration of free fall
-        in the world frame, three numbers [m/s^2].
+        It is in pinocchio's order.
+
+        Parameters
+        ----------
+        q_parts : sequence of ndarray, each of shape (n,)
+            As of :meth:`q_parts` [m, rad, -].
+        gravity : tuple of float, length 3
+            The acceleration of free fall in the world frame [m/s^2].
         """
         if gravity != self._gravity:
             for part in self.parts:
@@ -118,7 +132,7 @@ class Workspace:
             self._gravity = gravity
         torques = [
             pin.computeGeneralizedGravity(part.model, part.data, q_part)
-            for part, q_part in zip(self.parts, self._q, strict=True)
+            for part, q_part in zip(self.parts, q_parts, strict=True)
         ]
         return torques[0] if len(torques) == 1 else np.concatenate([self._none[0], *torques])
 

@@ -15,6 +15,7 @@ from quasistatic_ref.contact.separations import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.model.state import State
 from quasistatic_ref.numbers.arrays import Array, freeze_copies
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.scene import Scene
@@ -44,6 +45,8 @@ class StepResult(Plain, Shown):
         Configuration before the step [m, rad, -]; a copy, read-only.
     scene : Scene, optional
         The system and the pairs; not compared, copied or pickled.
+    end : State, optional
+        The system at q, from which the next step may start; as the scene.
 
     Examples
     --------
@@ -61,6 +64,7 @@ class StepResult(Plain, Shown):
     seconds: dict[str, float] = field(compare=False)
     q_start: Array | None = field(default=None, compare=False)
     scene: Scene | None = field(default=None, compare=False)
+    end: State | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         freeze_copies(self, "q")
@@ -69,8 +73,8 @@ class StepResult(Plain, Shown):
 
     @classmethod
     def kept(cls) -> tuple[str, ...]:
-        """All fields but the scene."""
-        return tuple(name for name in super().kept() if name != "scene")
+        """All fields but the scene and the end."""
+        return tuple(name for name in super().kept() if name not in ("scene", "end"))
 
     @property
     def forces(self) -> Array:

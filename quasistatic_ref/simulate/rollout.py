@@ -110,7 +110,8 @@ def rollout(
                     observer.before(recorder)
                 q = recorder.q
                 q_bar_a = q_bar_a_at(recorder.t, q, last)
-                last = simulator.step(q, q_bar_a, force_at(recorder.t, q, last))
+                start = q if last is None or last.end is None else last.end
+                last = simulator.step(start, q_bar_a, force_at(recorder.t, q, last))
                 recorder.add(q_bar_a, last)
                 if recorder.steps == steps:
                     recorder.flush()

@@ -21,8 +21,10 @@ from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, checked_pairs, contact_layout
 from quasistatic_ref.errors import BackendError, InputError, StepDataError
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mechanism import StepSystem
-from quasistatic_ref.model.system import Kinematics, System
+from quasistatic_ref.model.state import State
+from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Mask, checked_array, without_warnings
 from quasistatic_ref.parts import coulomb_solution, extended_solution, findings_of_scene
 from quasistatic_ref.simulate.finding import Finding
@@ -230,12 +232,15 @@ class Simulator(Settings, Shown):
         chosen = {"backend": self.named_backend, "extension": self.extension}
         return _remade, (type(self), self.settings() | chosen)
 
-    def step(self, q: ArrayLike, q_bar_a: ArrayLike, force: ArrayLike | None = 0.0) -> StepResult:
+    def step(
+        self, q: ArrayLike | State, q_bar_a: ArrayLike, force: ArrayLike | None = 0.0
+    ) -> StepResult:
         """One step from q towards the target q_bar_a.
 
         Parameters
         ----------
-        q : array_like, shape (n_q,)
+        q : array_like, shape (n_q,); or State
+            A state is not computed again: the ``end`` of the last step, ``system.at(q)``.
         q_bar_a : array_like, shape (n_q_a,)
             Target of the actuated coordinates at the end of the step.
         force : array_like, shape (n_v,), optional
@@ -262,13 +267,12 @@ class Simulator(Settings, Shown):
         with by_one_thread(self.system):
             times: dict[str, float] = {}
             lap = stopwatch(times)
-            kinematics = self.system.kinematics(q)
-            here = np.asarray(q, np.float64)
-            points = self.closest_points(kinematics)
+            here = self.system.at(q)
+            points = self.closest_points(here.kinematics)
             lap("distances")
-            step = self.step_data(here, q_bar_a, force, points, kinematics)
+            step = self.step_data(here, q_bar_a, force, points)
             lap("rows")
-            solution = self.extended(step, here)
+            solution = self.extended(step, here.q)
             # After the solve: a proof of infeasibility says more.
             self.limits.check_penetration(step)
             # An extension adds rows and coordinates: from here on the step is the one that was
@@ -278,10 +282,10 @@ class Simulator(Settings, Shown):
             times["proof"] = solution.statistics.proof_time
             times["solve"] -= times["proof"]
             delta_q = solution.delta_q[: self.system.n_v]
-            q_next = self.system.integrate(here, delta_q)  # q (+) delta_q
-            self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
+            end = here.plus(delta_q)  # q (+) delta_q
+            self.limits.check_reach(step, self.system.links, end.kinematics.t)
             lap("integrate")
-            return StepResult(q_next, step, solution, points, times, here, self)
+            return StepResult(end.q, step, solution, points, times, here.q, self, end)
 
     def start_cold(self) -> None:
         """Forget what is kept of earlier steps, if answers depend on it."""
@@ -301,40 +305,43 @@ class Simulator(Settings, Shown):
 
     def step_data(
         self,
-        q: Array,
+        q: ArrayLike | State,
         q_bar_a: ArrayLike,
         force: ArrayLike | None,
         points: ClosestPoints,
-        kinematics: Kinematics,
     ) -> StepData:
-        """The problem of one step: everything in Eq. :eq:`eq-13` at q.
+        """The problem of one step: everything in Eq. :eq:`eq-13` at q, (n_q,) or a state.
 
         Raises
         ------
         StepDataError
             If the force has another shape.
         """
-        contacts = self.geometry.contacts(points, kinematics)  # Eqs. (2)-(3)
-        return self.step_under(q, q_bar_a, self.generalised_force(q, force), contacts)
+        here = self.system.at(q)
+        contacts = self.geometry.contacts(points, here.kinematics)  # Eqs. (2)-(3)
+        return self.step_under(here, q_bar_a, self.generalised_force(here, force), contacts)
 
-    def step_under(self, q: Array, q_bar_a: ArrayLike, tau: Array, contacts: Contacts) -> StepData:
+    def step_under(
+        self, q: ArrayLike | State, q_bar_a: ArrayLike, tau: Array, contacts: Contacts
+    ) -> StepData:
         """The problem of one step from its contacts and all generalised forces, (n_v,) [N, N m]."""
+        here = self.system.at(q)
         n_a = self.system.n_a
         return StepData(
             h=self.h,
             K_q=self.K_q,
-            M_u=self.system.M_u(q),
+            M_u=here.M_u,
             tau_a=tau[:n_a],
             tau_u=tau[n_a:],
-            delta_q_bar_a=self.system.actuated_difference(q, q_bar_a),  # q_bar_a(t + h) (-) q_a
+            delta_q_bar_a=here.change_to(q_bar_a),  # q_bar_a(t + h) (-) q_a
             contacts=contacts,
             cone=self.cone,
         )
 
-    def generalised_force(self, q: ArrayLike, force: ArrayLike | None) -> Array:
+    def generalised_force(self, q: ArrayLike | State, force: ArrayLike | None) -> Array:
         """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
         force = checked_force(self.system, force)
-        tau = self.system.gravity_force(q, self.gravity)
+        tau = self.system.at(q).gravity(self.gravity)
         tau[: self.system.n_a] *= self.gravity_acts
         return tau + force
 

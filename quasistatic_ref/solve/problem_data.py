@@ -60,4 +60,4 @@ def problem_data(problem: cp.Problem, name: str, options: Options) -> ProblemDat
 
 def is_large(problem: cp.Problem) -> bool:
     """Whether a problem has more entries of parameters than are compiled."""
-    return bool(sum(parameter.size for parameter in problem.parameters()) > MOST_ENTRIES)
+    return bool(sum([parameter.size for parameter in problem.parameters()]) > MOST_ENTRIES)

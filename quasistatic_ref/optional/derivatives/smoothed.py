@@ -80,7 +80,7 @@ def smoothed(
     q = np.asarray(q, dtype=np.float64)
     kinematics = simulator.system.kinematics(q)
     points = simulator.closest_points(kinematics)
-    step = simulator.step_data(q, q_bar_a, force, points, kinematics)
+    step = simulator.step_data(q, q_bar_a, force, points)
     barrier = barrier_step(step, kappa)
     if not np.abs(barrier.x).max(initial=0.0) < FILLED:
         raise InputError(

@@ -50,6 +50,7 @@ class Poses:
         self.t = np.array([one.ctypes.data for one in t])
         self.columns = np.array(columns, np.int64)
         self.gravity = np.array(gravity, np.int64)[self._order.v]
+        self._q_parts: list[Array] = []
         self._at: bytes | None = None
         self._kinematics: Kinematics | None = None
 
@@ -61,7 +62,8 @@ class Poses:
         self._at = None  # of a failure
         self._kinematics = None
         self.q[:] = q
-        self._workspace.move(q)
+        self._q_parts = self._workspace.q_parts(q)
+        self._workspace.move(self._q_parts)
         self._at = at
 
     def kinematics(self) -> Kinematics:
@@ -72,4 +74,4 @@ class Poses:
 
     def weigh(self, gravity: tuple[float, ...]) -> None:
         """Have gravity [m/s^2] at that configuration written."""
-        self._workspace.gravity_torque(gravity)
+        self._workspace.gravity_torque(self._q_parts, gravity)

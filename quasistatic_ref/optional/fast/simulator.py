@@ -18,6 +18,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.model.state import State
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.optional.fast.guard import Plainly, program_is_plain
@@ -174,12 +175,14 @@ class FastSimulator(Simulator):
     def __reduce__(self) -> tuple[object, ...]:
         return FastSimulator, (self.simulator,)
 
-    def step(self, q: ArrayLike, q_bar_a: ArrayLike, force: ArrayLike | None = 0.0) -> StepResult:
+    def step(
+        self, q: ArrayLike | State, q_bar_a: ArrayLike, force: ArrayLike | None = 0.0
+    ) -> StepResult:
         """One step, as of a Simulator."""
         with by_one_thread(self.system):
             if self.by_c:
                 try:
-                    result = self._step(q, q_bar_a, force)
+                    result = self._step(q.q if isinstance(q, State) else q, q_bar_a, force)
                 except StepDataError:  # the plain path says of which number
                     return self.simulator.step(q, q_bar_a, force)
                 if result is not None:
@@ -291,14 +294,13 @@ class FastSimulator(Simulator):
 
     def step_data(
         self,
-        q: Array,
+        q: ArrayLike | State,
         q_bar_a: ArrayLike,
         force: ArrayLike | None,
         points: ClosestPoints,
-        kinematics: Kinematics,
     ) -> StepData:
         """Those of the simulator."""
-        return self.simulator.step_data(q, q_bar_a, force, points, kinematics)
+        return self.simulator.step_data(q, q_bar_a, force, points)
 
     def fitting_solver(self, step: StepData) -> Solver:
         """The solver of the last step if it fits this step, else a new one."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,7 +24,8 @@ from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mechanism import Mechanism
-from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.model.state import State
+from quasistatic_ref.numbers.arrays import Array, Indices, read_only
 from quasistatic_ref.numbers.ordered import rotated
 from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.optional.guests import constraints
@@ -146,7 +148,6 @@ class MujocoSystem(Mechanism):
         self.start = copy.copy(data)
         self.h = h
         self._arguments = self.model, self.start, h, {**stiffnesses}, margin
-        self._latest: tuple[bytes, Placed] | None = None
         self._at: bytes | None = None
         state = self._state = mujoco_state(self.model, self.start)
         check(state)
@@ -303,24 +304,32 @@ class MujocoSystem(Mechanism):
             self._at = bits
         return self._state
 
-    def kinematics(self, q: ArrayLike) -> Placed:
-        """Pose and Jacobian of every body at q, and the closest points."""
-        bits = np.asarray(q).tobytes()
-        if self._latest is None or self._latest[0] != bits:
-            state = self.state(q)
-            data, model = state.data, self.model
-            omega, along = data.cdof[:, :3], data.cdof[:, 3:]  # about the centre of the tree
-            centre = data.subtree_com[model.body_rootid[model.dof_bodyid]]
-            columns = np.concatenate([(along - np.cross(omega, centre)).T, omega.T])
-            R, t = data.xmat.reshape(-1, 3, 3).copy(), data.xpos.copy()
-            points = self._freed(self.places.points(state), columns)
-            self._latest = bits, Placed(R, t, columns, self.column_map, points)
-        return self._latest[1]
+    def at(self, q: ArrayLike | State) -> SceneState:
+        """The system at a configuration, shape (n_q,), or at a state of its own.
 
-    def _freed(self, points: ClosestPoints, columns: Array) -> ClosestPoints:
+        Raises
+        ------
+        ModelError
+            If q has another shape, or a quaternion in it is not of length one.
+        """
+        if isinstance(q, State):
+            if isinstance(q, SceneState) and q.system is self:
+                return q
+            q = q.q
+        q = with_shape(q, "q", (self.n_q,))
+        self.units.check(q)
+        return SceneState(self, q)
+
+    def freed(self, points: ClosestPoints, columns: Array) -> ClosestPoints:
         """The same places, in which a contact that nothing can open bears nothing.
 
         Its bodies are in each other, and no joint moves them along its normal.
+
+        Parameters
+        ----------
+        points : ClosestPoints
+        columns : ndarray, shape (6, nv)
+            Of MuJoCo's velocities [m, rad].
         """
         deep = np.flatnonzero(points.phi < 0)
         if not len(deep):
@@ -334,27 +343,6 @@ class MujocoSystem(Mechanism):
         phi[held] = FILLED
         return points._replace(phi=phi)
 
-    def M_u(self, q: ArrayLike) -> Array:
-        """Un-actuated block of the mass matrix, with armatures, shape (n_u, n_u)."""
-        T_u = self.T[:, self.n_a :]
-        M = T_u.T @ self.state(q).M @ T_u
-        symmetric: Array = (M + M.T) / 2
-        return symmetric
-
-    def gravity_force(self, q: ArrayLike, gravity: ArrayLike) -> Array:
-        """All forces but those of springs and actuators, shape (n_v,) [N, N m].
-
-        Gravity is the model's; `gravity`, shape (3,) [m/s^2], is not read.
-        """
-        data = self.state(q).data
-        force: Array = self.T.T @ (data.qfrc_smooth - data.qfrc_actuator - data.qfrc_spring)
-        return force + 0.0
-
-    def actuated_difference(self, q: ArrayLike, q_a: ArrayLike) -> Array:
-        """From q_a of q to a target, shape (n_a,)."""
-        self.actuated_units.check(np.asarray(q_a))
-        return self.difference(q, self.with_actuated(q, q_a))[: self.n_a]
-
     def _rows(self, state: MujocoState) -> Extra:
         """Limits, and equalities that take no coordinate away."""
         held = constraints.equalities(state, self._tied, self.scale, as_is=True)
@@ -365,12 +353,10 @@ class MujocoSystem(Mechanism):
         """Limits, equalities and joint friction at q."""
         return Extension(rows=self._rows(self.state(q)), rises=self.rises)
 
-    def integrate(self, q: ArrayLike, delta_q: ArrayLike) -> Array:
-        """Configuration q (+) delta_q by ``mj_integratePos``, shape (n_q,)."""
-        self.units.check(with_shape(q, "q", (self.n_q,)))
+    def moved(self, q: Array, delta_q: Array) -> Array:
+        """Configuration q (+) delta_q by ``mj_integratePos``, (n_q,), from (n_q,) and (n_v,)."""
         qpos = self.qpos(q)
-        moved_by = self.T @ with_shape(delta_q, "delta_q", (self.n_v,))
-        self._state.mujoco.mj_integratePos(self.model, qpos, moved_by, 1.0)
+        self._state.mujoco.mj_integratePos(self.model, qpos, self.T @ delta_q, 1.0)
         return np.asarray(qpos[self._entries])
 
     def difference(self, q: ArrayLike, q_next: ArrayLike) -> Array:
@@ -390,3 +376,61 @@ class MujocoSystem(Mechanism):
         places = rotated(at.R[welded], self.centres[welded]) + at.t[welded]
         centre = np.average(places, axis=0, weights=self.masses[welded])
         return np.asarray(at.R[link].T @ (centre - at.t[link]))
+
+
+class SceneState(State):
+    """A MuJoCo scene at one configuration.
+
+    Parameters
+    ----------
+    system : MujocoSystem
+    q : ndarray, shape (n_q,)
+        Checked.
+    """
+
+    def __init__(self, system: MujocoSystem, q: Array) -> None:
+        self.system = system
+        self.q = read_only(q.copy())
+
+    @cached_property
+    def kinematics(self) -> Placed:
+        """Pose and Jacobian of every body, and the closest points."""
+        system = self.system
+        state = system.state(self.q)
+        data, model = state.data, system.model
+        omega, along = data.cdof[:, :3], data.cdof[:, 3:]  # about the centre of the tree
+        centre = data.subtree_com[model.body_rootid[model.dof_bodyid]]
+        columns = np.concatenate([(along - np.cross(omega, centre)).T, omega.T])
+        R, t = data.xmat.reshape(-1, 3, 3).copy(), data.xpos.copy()
+        points = system.freed(system.places.points(state), columns)
+        return Placed(R, t, columns, system.column_map, points)
+
+    @cached_property
+    def M_u(self) -> Array:
+        """Un-actuated block of the mass matrix, with armatures, shape (n_u, n_u)."""
+        T_u = self.system.T[:, self.system.n_a :]
+        M = T_u.T @ self.system.state(self.q).M @ T_u
+        symmetric: Array = (M + M.T) / 2
+        return symmetric
+
+    def gravity(self, acceleration: ArrayLike) -> Array:
+        """All forces but those of springs and actuators, shape (n_v,) [N, N m].
+
+        Gravity is the model's; `acceleration`, shape (3,) [m/s^2], is not read.
+        """
+        data = self.system.state(self.q).data
+        smooth = data.qfrc_smooth - data.qfrc_actuator - data.qfrc_spring
+        return np.asarray(self.system.T.T @ smooth + 0.0)
+
+    def change_to(self, q_a: ArrayLike) -> Array:
+        """From q_a of q to a target, shape (n_a,)."""
+        system = self.system
+        system.actuated_units.check(np.asarray(q_a))
+        return system.difference(self.q, system.with_actuated(self.q, q_a))[: system.n_a]
+
+    def plus(self, delta_q: ArrayLike) -> SceneState:
+        """The state at q (+) delta_q by ``mj_integratePos``, of a change of shape (n_v,)."""
+        system = self.system
+        return SceneState(
+            system, system.moved(self.q, with_shape(delta_q, "delta_q", (system.n_v,)))
+        )

@@ -180,7 +180,7 @@ def test_the_data_of_a_step_are_those_of_the_plain_path_wherever_it_is(cone):
         force = rng.normal(size=system.n_v)
         kinematics = system.kinematics(q)
         points = plain.closest_points(kinematics)
-        step = plain.step_data(q, goal, force, points, kinematics)
+        step = plain.step_data(q, goal, force, points)
         fast._poses.move(q)
         fast._steps.closest()
         in_c, points_in_c = fast._steps.form(system.actuated_difference(q, goal) + 0.0, force)

@@ -112,7 +112,7 @@ def test_a_step_asks_a_system_for_the_names_of_the_protocol_and_no_others(lifted
     vars(simulator)["system"] = listening
     simulator.step(run.q[0], run.q_bar_a[0])
     assert listening.names == {name for name in vars(StepSystem) if not name.startswith("_")}
-    assert len(listening.names) == 10
+    assert len(listening.names) == 6
     assert isinstance(scene.drive.system, StepSystem)
     assert not isinstance(scene.drive.system, System)
 

@@ -84,7 +84,7 @@ def posed_case(case_input: Json) -> PosedCase:
     points = points.chosen(order)
     force = wrench_force(case_input, mine, q)
     q_bar_a = target[: system.n_q_a]
-    step = simulator.step_data(q, q_bar_a, force, points, kinematics)
+    step = simulator.step_data(q, q_bar_a, force, points)
     return PosedCase(mine, simulator, q, q_bar_a, force, points, step)
 
 
