@@ -1,23 +1,15 @@
-"""Figures of contacts and of moments of a run: ``qr.figures``, each loaded on first use."""
+"""A moment of a run, to be drawn: ``qr.figures``, loaded on first use."""
 
 from importlib import import_module
 from typing import TYPE_CHECKING
 
 from quasistatic_ref.parts import OPTIONAL, needing
 
-_HOME = {
-    "cone_with_load": "friction_cone",
-    "moment": "moments",
-    "stick_slip_map": "contact_pictures",
-}
+_HOME = {"moment": "moments"}
 
 __all__ = sorted(_HOME)
 
 if TYPE_CHECKING:
-    from quasistatic_ref.optional.show.figures.contact_pictures import (
-        stick_slip_map as stick_slip_map,
-    )
-    from quasistatic_ref.optional.show.figures.friction_cone import cone_with_load as cone_with_load
     from quasistatic_ref.optional.show.figures.moments import moment as moment
 else:
 

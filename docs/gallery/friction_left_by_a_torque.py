@@ -42,8 +42,13 @@ for axes, (cone, friction) in zip(panels, left.items(), strict=True):
     limit = friction * mu_v * m * gravity
     assert motion(0.97 * limit, cone) < 1e-12
     assert motion(1.03 * limit, cone) > 1e-6
-    qr.figures.cone_with_load(
-        axes, [0.97 * limit, 0, m * gravity, torque], mu_v, mu_omega, cone=cone
-    )
+    corners = 200 if cone == "ellipsoid" else 4
+    angle = np.linspace(0, 2 * np.pi, corners + 1)
+    edge = mu_v * m * gravity * np.array([np.cos(angle), np.sin(angle)])
+    axes.plot(*edge, "--", color="black", label="without a torque")
+    axes.fill(*(friction * edge), color="0.8", label="with it")
+    axes.plot([0, 0.97 * limit], [0, 0], color="tab:red", label="the push")
+    axes.set(aspect="equal", ylabel="$f_{d_2}$ [N]")
     axes.set_xlabel(f"$f_{{d_1}}$ [N]\n{cone}: {friction:.0%} of friction left")
+figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=3)
 plt.show()

@@ -29,6 +29,10 @@ assert abs(np.diff(paths["smooth"])[-1] / formula - 1) < 1e-6
 
 figure, (scene, states) = plt.subplots(1, 2, figsize=(8, 3.4), layout="constrained")
 qr.draw_scene(scene, qr.figures.moment(scenario, run, -1), view="xy")  # from above
-qr.figures.stick_slip_map(states, run)
+moments = [qr.figures.moment(scenario, run, k) for k in range(run.steps)]
+shades = {"apart": 0.0, "sticking": 0.4, "sliding": 1.0}
+shade = np.array([[shades[contact.state] for contact in moment.contacts] for moment in moments]).T
+states.imshow(shade, aspect="auto", cmap="Greys", vmin=0, extent=(0, run.t[-1], len(shade), 0))
+states.set(xlabel="time t [s]", ylabel="contacts: grey sticks, black slides", yticks=[])
 figure.suptitle(f"the smooth block goes {1e6 * formula:.1f} um in each step")
 plt.show()

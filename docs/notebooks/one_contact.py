@@ -40,11 +40,21 @@ def block(push, mu_v=0.5, mu_omega=0.02, torque=0.0):
 
 
 # %%
+def draw_cone(axes, wrench, mu_v):
+    """The section |f_1| + |f_2| <= mu_v f_n, and the friction in it."""
+    f_1, f_2, f_n, _ = wrench
+    corners = mu_v * f_n * np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
+    axes.fill(*corners.T, color="0.8", label="what friction can bear")
+    axes.plot([0, f_1], [0, f_2], "o-", color="tab:red", markevery=[1], label="the friction")
+    axes.set(aspect="equal", xlabel="$f_{d_1}$ [N]", ylabel="$f_{d_2}$ [N]")
+    axes.legend(loc="lower left", fontsize="small")
+
+
 def cone(mu_v, push):
     """The section of the cone at the normal force, with what the table bears."""
     solution = qr.solve_step(block(push, mu_v))
     _, axes = plt.subplots(figsize=(4, 3.4), layout="constrained")
-    qr.figures.cone_with_load(axes, solution.wrench[0], mu_v, 0.02)
+    draw_cone(axes, solution.wrench[0], mu_v)
     axes.set_title(f"slip {1e6 * solution.delta_q[0]:.1f} um")
     plt.show()
 
@@ -61,7 +71,7 @@ sliders = interact(
 figure, both = plt.subplots(1, 2, figsize=(8, 3.6), layout="constrained")
 for axes, push in zip(both, (3.0, 6.0), strict=True):
     solution = qr.solve_step(block(push))
-    qr.figures.cone_with_load(axes, solution.wrench[0], 0.5, 0.02)
+    draw_cone(axes, solution.wrench[0], 0.5)
     axes.set_title(f"push {push:g} N: slip {1e6 * solution.delta_q[0]:.0f} um")
 plt.show()
 

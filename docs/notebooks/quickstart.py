@@ -51,11 +51,3 @@ solution = qr.solve_step(step, "clarabel")
 print(solution.certificate.kind, "with", len(solution.certificate.active), "active rows")
 print(f"correct digits of Clarabel itself: {solution.statistics.digits:.1f}")
 qr.verify(solution)
-
-# %% [markdown]
-# Which contacts stick (black) and which slide (orange):
-
-# %%
-page, axes = plt.subplots(figsize=(7, 3), layout="constrained")
-qr.figures.stick_slip_map(axes, run)
-plt.show()

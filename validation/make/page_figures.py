@@ -28,6 +28,7 @@ from docs.drawings import (
     many_bodies,
     mass_of_a_free_body,
     metres,
+    opinion,
     phi_and_j_of_a_cloud,
     plan_a_push,
     sliding_block,
@@ -47,7 +48,7 @@ Record = Mapping[str, Any]
 DRAWN = (
     both_laws, cone_and_dual, cone_surfaces, contact_geometry, corner_loads, four_laws,
     free_body, friction_and_slip, grasp_map, limit_surface_and_twist, many_bodies,
-    mass_of_a_free_body, metres,
+    mass_of_a_free_body, metres, opinion,
     phi_and_j_of_a_cloud, plan_a_push, sliding_block, the_program, turn_and_step,
     two_moving_bodies, what_smoothing_does, where_no_gradient_is, wrenches_of_a_grip,
 )  # fmt: skip

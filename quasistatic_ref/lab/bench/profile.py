@@ -2,14 +2,13 @@
 
 from collections.abc import Mapping
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.fast.library import missing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.solve.backends import QPSOLVERS
 
 DAQP = "daqp"
@@ -59,14 +58,6 @@ class Profile(NamedTuple):
         """Share of the solver's own time in a step without its interface [-]."""
         solver, interface = (self.typical[part] for part in SOLVE)
         return solver / (sum(self.typical.values()) - interface)
-
-
-def step_profiles() -> dict[str, Any]:
-    """Profiles of the steps of bunny_grasp, and how many signed distances a step evaluates."""
-    scenario = grasp_scenario(DAQP)
-    shapes = [pair.beta.shape for pair in scenario.pairs]
-    distances = sum(len(shape.points) for shape in shapes if isinstance(shape, PointCloud))
-    return {"profiles": profiles(STEPS), "all": distances, "h": float(scenario.h)}
 
 
 @cache

@@ -1,10 +1,9 @@
 """What a claim is, what was measured for it, and the verdict."""
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import metadata
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -105,17 +104,14 @@ class Evidence:
     Parameters
     ----------
     comparisons : tuple of Comparison
-    picture : mapping
-        What the claim's figure draws, if it has one.
     """
 
     comparisons: tuple[Comparison, ...]
-    picture: Mapping[str, Any]
 
     @classmethod
-    def of(cls, *comparisons: Comparison, **picture: Any) -> "Evidence":
-        """Comparisons one after another, and what a figure draws by name."""
-        return cls(comparisons, picture)
+    def of(cls, *comparisons: Comparison) -> "Evidence":
+        """Comparisons one after another."""
+        return cls(comparisons)
 
 
 @dataclass(frozen=True)
@@ -125,7 +121,7 @@ class Claim:
     Parameters
     ----------
     name : str
-        That of its module, and of its figure.
+        That by which `validate` knows it.
     sentence : str
     where : str
         The paper's page or figure, a publication, or (R#) of docs/derivations.md.

@@ -1,6 +1,6 @@
 """Findings as JSON and as the page ``claims.md``."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -68,16 +68,12 @@ def _share(record: Mapping[str, Any]) -> float:
     return float("inf") if error is None else error / tolerance if tolerance else float(error > 0)
 
 
-def claims_page(
-    sections: Mapping[str, Sequence[ClaimResult]], figures: Collection[str] = ()
-) -> str:
+def claims_page(sections: Mapping[str, Sequence[ClaimResult]]) -> str:
     """The page: claim, where it stands, measured, expected, verdict.
 
     Parameters
     ----------
     sections : mapping of str to sequence of ClaimResult
-    figures : collection of str
-        Names of the claims that have a figure; it is in the folder ``figures`` next to the page.
     """
     every = [finding for findings in sections.values() for finding in findings]
     held = sum(finding.verdict == HOLDS for finding in every)
@@ -88,9 +84,6 @@ def claims_page(
         lines += [f"## {title}", ""]
         for finding in findings:
             lines += _chapter(finding)
-            if finding.claim.name in figures:
-                name = finding.claim.name
-                lines += [f"![{name}](figures/{name}.png)", ""]
     return "\n".join(lines).rstrip() + "\n"
 
 

@@ -13,7 +13,6 @@ from quasistatic_ref.lab.grasp import (
     TOP,
     grasp_report,
     grasp_scenarios,
-    rotations,
 )
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.failures import RunFailed
@@ -27,7 +26,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run both cases, print a table, write the figures and both trajectories."""
+    """Run both cases, print a table, write the figure and both trajectories."""
     scenarios = grasp_scenarios(shared.scenario_settings(options))
     writable_folder(options.out)
     runs: dict[str, Trajectory] = {}
@@ -62,14 +61,11 @@ def _figures(
     scenario: Scenario, runs: dict[str, Trajectory], options: argparse.Namespace
 ) -> list[str]:
     from quasistatic_ref.lab.figures.grasp import grasp_strip
-    from quasistatic_ref.lab.figures.validation import PICTURES
     from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 
     with figure_style():
         strip = grasp_strip(scenario, runs, INSTANTS, rotations_by_case())
-        rotation = PICTURES["grasp"](rotations(scenario, runs))
     paths = figure_written(strip, options.out, "bunny_grasp")
-    paths += figure_written(rotation, options.out, "bunny_grasp_rotation")
     return [path.name for path in paths]
 
 

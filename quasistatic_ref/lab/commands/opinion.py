@@ -10,7 +10,6 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.files import json_text, text_written
 from quasistatic_ref.parts import needing
 from quasistatic_ref.tolerances import CREEP
 
@@ -35,7 +34,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--tolerance", type=float, default=CREEP, metavar="M/S",
         help=f"speed up to which a contact holds [m/s] (default: {CREEP:g})",
     )  # fmt: skip
-    shared.add(parser, "--root", "--out", "--json")
+    shared.add(parser, "--root", "--json")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -54,13 +53,6 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json(opinion.record)
     else:
         print(opinion)
-    if options.out is not None:
-        with needing("--out"):
-            from quasistatic_ref.optional.show.figures.opinion import opinion_figure
-            from quasistatic_ref.optional.show.figures.style import figure_written
-        paths = figure_written(opinion_figure(opinion), options.out, "opinion")
-        paths += [text_written(options.out / "opinion.json", json_text(opinion.record) + "\n")]
-        shared.progress_line(options, f"wrote {', '.join(map(str, paths))}")
     return int(bool(opinion.findings))
 
 

@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
@@ -30,7 +29,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Measure, print a table, write claims.md and the figures; exit status 1 if a claim fails.
+    """Measure, print a table, write claims.md; exit status 1 if a claim fails.
 
     Raises
     ------
@@ -51,12 +50,11 @@ def run(options: argparse.Namespace) -> int:
         findings[name] = claim_result(BY_NAME[name])
         took = f"({findings[name].seconds:.1f} s)"
         shared.progress_line(options, f"{findings[name].verdict} {took}")
-    drawn = _figures(findings, options.out)
     sections = {
         title: [findings[name] for name in claims if name in findings]
         for title, claims in CLAIMS.items()
     }
-    page = text_written(options.out / "claims.md", claims_page(sections, drawn))
+    page = text_written(options.out / "claims.md", claims_page(sections))
     failed = [name for name, result in findings.items() if result.verdict == FAILS]
     if options.json:
         records = [finding_record(result) for result in findings.values()]
@@ -73,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
         print(f"quasistatic-ref: some claims need {engine}: {remedy}", file=sys.stderr)
     for name in failed:
         print(f"quasistatic-ref: {_why(findings[name])}", file=sys.stderr)
-    print(f"wrote {page} and {len(drawn)} figures")
+    print(f"wrote {page}")
     return 1 if failed else 0
 
 
@@ -85,17 +83,3 @@ def _why(result: ClaimResult) -> str:
     bad = [c for c in finding_record(result)["comparisons"] if not c["holds"]]
     differences = "; ".join(f"{c['what']} is {c['measured']}, not {c['expected']}" for c in bad)
     return f"{name} fails: {differences}"
-
-
-def _figures(findings: dict[str, ClaimResult], folder: Path) -> list[str]:
-    from quasistatic_ref.lab.figures.validation import PICTURES
-    from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
-
-    drawn = []
-    for name, result in findings.items():
-        if result.evidence is not None and name in PICTURES:
-            with figure_style():
-                figure = PICTURES[name](result.evidence.picture)
-            figure_written(figure, folder / "figures", name)
-            drawn.append(name)
-    return drawn

@@ -149,16 +149,13 @@ def test_what_rests_by_rolling_friction_alone_is_found():
     assert "rolling friction" in finding.remedy
 
 
-def test_the_command_prints_json_of_the_schema_draws_and_ends_with_1(tmp_path, cli):
+def test_the_command_prints_json_of_the_schema_and_ends_with_1(tmp_path, cli):
     (tmp_path / "block.xml").write_text(SCENES["block.xml"])
     command = "opinion", tmp_path / "block.xml", "--settle 0.5"
-    record = json.loads(cli(*command, "--json --out", tmp_path / "out", status=1).out)
+    record = json.loads(cli(*command, "--json", status=1).out)
     Draft4Validator.check_schema(opinion_schema())
     Draft4Validator(opinion_schema()).validate(record)
     assert [one["name"] for one in record["findings"]] == ["creeps"]
-    made = {path.name: path.stat().st_size for path in (tmp_path / "out").iterdir()}
-    assert {*made} == {"opinion.png", "opinion.pdf", "opinion.json"}
-    assert min(made.values()) > 1000
     assert "no finding" in cli(*command, "--tolerance 0.01").out
 
 

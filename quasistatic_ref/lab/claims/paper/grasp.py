@@ -17,8 +17,7 @@ def evidence() -> Evidence:
     """Rotation during the lift, height of the lift, and how many steps are exact; other clouds."""
     scenario, _ = grasp("with torsion")
     runs = {case: grasp(case)[1] for case in CASES}
-    picture = rotations(scenario, runs)
-    angles = picture["angles"]
+    angles = rotations(scenario, runs)["angles"]
     motion, steps = lift("with torsion")
     raised = motion.t[steps][-1, 2] - motion.t[steps][0, 2]
     exact = [np.mean(run["certificate"] == "exact") for run in runs.values()]
@@ -34,7 +33,6 @@ def evidence() -> Evidence:
         within("rotation of any cloud with a firm grip [deg]", max(firm), 0.0, HELD),
         within("share held of clouds with a weak grip [-]", float(np.mean(weak)), 0.0, 0.0),
         within("share held of clouds without torsion [-]", float(np.mean(loose)), 0.0, 0.01),
-        **picture,
     )  # fmt: skip
 
 

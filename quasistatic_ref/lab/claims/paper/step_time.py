@@ -1,6 +1,6 @@
 """Figure 4: where the time of a step goes."""
 
-from quasistatic_ref.lab.bench.profile import DAQP, Profile, step_profiles
+from quasistatic_ref.lab.bench.profile import DAQP, STEPS, profiles
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, within
 
 MAJORITY, MINORITY = (0.5, 1.0), (0.0, 0.5)
@@ -11,15 +11,14 @@ ALONE = ("clarabel", "qpsolvers:clarabel", "osqp", "qpsolvers:osqp")
 
 def evidence() -> Evidence:
     """The share of the solve in a step, by backend, and that of the solver's own time."""
-    picture = step_profiles()
-    taken: dict[str, Profile] = {profile.backend: profile for profile in picture["profiles"]}
+    taken = {profile.backend: profile for profile in profiles(STEPS)}
     through = [name for name in taken if name != DAQP]
     comparisons = [
         *(within(f"{name}: solve [-]", taken[name].solve, *MAJORITY) for name in through),
         *(within(f"{name}: solver's own time [-]", taken[name].alone, *MAJORITY) for name in ALONE),
         within("daqp: solver's own time [-]", taken[DAQP].alone, *MINORITY),
     ]
-    return Evidence.of(*comparisons, **picture)
+    return Evidence.of(*comparisons)
 
 
 CLAIM = Claim(

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
@@ -206,12 +205,6 @@ def focus(moments: list[Moment], looks: Sequence[Visual] = ()) -> Array:
         seen = [visual for visual in looks if moved[visual.link]]
         points += [v.corners @ m.R[v.link].T + m.t_links[v.link] for v in seen]
     return box_of(np.concatenate(points))
-
-
-def contact_states(run: Trajectory) -> NDArray[np.str_]:
-    """``"apart"``, ``"sticking"`` or ``"sliding"`` of each contact in each step, (steps, n_c)."""
-    states = [[contact.state for contact in _contacts(run, k)] for k in range(run.steps)]
-    return np.array(states).reshape(run.steps, -1)
 
 
 def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:
