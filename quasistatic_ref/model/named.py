@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints.joint import COSINE_SINE, QUATERNION, Joint
 from quasistatic_ref.model.rotation import quaternion
@@ -55,9 +55,11 @@ class Named:
         Raises
         ------
         ModelError
-            If there is no such name, it has two meanings, or a value is not of its kind.
+            If there is no such name, it has two meanings, two names share an entry, or a value is
+            not of its kind.
         """
         placed = q.copy()
+        check_apart({name: self.q(name) for name in values}, "{}")
         for name, value in values.items():
             joint = self._joints.get(name, self._joints.get(f"{name}/base"))
             places = self.q(name)
@@ -75,6 +77,34 @@ class Named:
                 raise ModelError(f"must be {wanted}", field=name, value=value)
             placed[places] = entries
         return placed
+
+
+def check_apart(
+    places: Mapping[str, Indices], field: str, error: type[InputError] = ModelError
+) -> None:
+    """Refuse two names of one entry, of which the later would replace what the first one says.
+
+    Parameters
+    ----------
+    places : mapping of str to ndarray of int, shape (k,)
+        The entries of each name.
+    field : str
+        What messages call a name, with ``{}`` in its place.
+    error : type
+        The :class:`~quasistatic_ref.errors.InputError` to raise.
+
+    Raises
+    ------
+    InputError
+        Naming both.
+    """
+    named_by: dict[int, str] = {}
+    for name, entries in places.items():
+        for i in entries.tolist():
+            other = named_by.setdefault(i, name)
+            if other != name:
+                problem = f"names something that {other!r} names, too; give each value once"
+                raise error(problem, field=field.format(name))
 
 
 def _pose(joint: Joint, name: str, pose: Mapping[str, ArrayLike], before: Array) -> Array:

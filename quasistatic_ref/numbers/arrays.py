@@ -1,8 +1,9 @@
 """Arrays of a step, checked: real numbers of the right shape, read-only."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
-from contextvars import copy_context
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar, copy_context
 from typing import Any, TypeVar
 
 import numpy as np
@@ -16,18 +17,39 @@ Mask = NDArray[np.bool_]
 
 Result = TypeVar("Result")
 
-_QUIET = copy_context()
-_QUIET.run(np.seterr, all="ignore")
+_WARNINGS: ContextVar[Mapping[str, Any] | None] = ContextVar("_WARNINGS", default=None)
+"""How NumPy's errors are handled around :func:`without_warnings`; None outside of it."""
 
 
 def without_warnings(function: Callable[..., Result], *arguments: object) -> Result:
     """What a function returns, called where NumPy does not warn.
 
     An overflow shows in the result, and the flags of the processor, on which NumPy's warnings
-    depend, get lost between BLAS's threads. (np.errstate instead would set a variable that every
-    call of NumPy then looks up again: 9 us a step.)
+    depend, get lost between BLAS's threads. All else is the caller's context.
     """
-    return _QUIET.copy().run(function, *arguments)
+    return copy_context().run(_quietly, function, arguments)
+
+
+def _quietly(function: Callable[..., Result], arguments: tuple[object, ...]) -> Result:
+    before = np.seterr(all="ignore")
+    if _WARNINGS.get() is None:
+        _WARNINGS.set(before)
+    return function(*arguments)
+
+
+@contextmanager
+def with_warnings() -> Iterator[None]:
+    """Around code of a user, inside of :func:`without_warnings`: NumPy warns as outside of it."""
+    before = _WARNINGS.get()
+    if before is None:
+        yield
+        return
+    inside = _WARNINGS.set(None)
+    try:
+        with np.errstate(**before):
+            yield
+    finally:
+        _WARNINGS.reset(inside)
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:

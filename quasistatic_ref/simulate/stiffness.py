@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.model.named import check_apart
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, checked_array, checked_numbers
 from quasistatic_ref.numbers.pivots import positive_definite
@@ -24,14 +25,16 @@ def stiffness_matrix(system: System, K_q: ArrayLike | Mapping[str, ArrayLike]) -
     Raises
     ------
     StepDataError
-        If it is none of these, an actuated joint has no stiffness, or the matrix is not positive
-        definite.
+        If it is none of these, an actuated joint has no stiffness or two names, or the matrix is
+        not positive definite.
     """
     if not isinstance(K_q, Mapping):
         return positive_definite("K_q", stiffness_block(K_q, "K_q", system.n_a))
+    places = {name: system.named.change(name) for name in K_q}
+    check_apart(places, "K_q[{}]", StepDataError)
     matrix = np.zeros((system.n_a, system.n_a))
     for name, block in K_q.items():
-        coordinates = system.named.change(name)
+        coordinates = places[name]
         if (coordinates >= system.n_a).any():
             raise StepDataError("is not actuated", field=f"K_q[{name}]", value=block)
         part = stiffness_block(block, f"K_q[{name}]", len(coordinates))

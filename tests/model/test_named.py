@@ -58,8 +58,9 @@ def test_a_change_of_another_length_is_called_what_it_is():
 def test_named_values_are_where_kinematics_puts_the_links():
     q = SYSTEM.placed({
         "block": {"xyz": (1, 2, 3), "rpy": RPY}, "puck": (4, 5, 0.7), "wheel/axle": 2.5,
-        "rail/slide": 0.25, "puck.y": 6.0,
+        "rail/slide": 0.25,
     })  # fmt: skip
+    q = SYSTEM.placed({"puck.y": 6.0}, q)
     R, t = SYSTEM.pose(q, "block")
     assert_within(R, rotation(RPY), 1e-15)
     assert_same(t, [1, 2, 3])
@@ -165,3 +166,28 @@ def test_a_name_that_two_things_have_is_refused_when_it_is_asked_for(names):
     arms = qr.System([qr.Body("arm", both, actuated="all")])
     with pytest.raises(ModelError, match=r"an entry of arm/wheel or the joint arm/wheel.cos"):
         arms.of(arms.q_start, "arm/wheel.cos")
+
+
+POSE = {"xyz": (1, 2, 3)}
+OVERLAPS = {
+    "a body and its joint": {"wheel": (1.0, 0.0), "wheel/axle": 0.3},
+    "a joint and its body": {"wheel/axle": 0.3, "wheel": (1.0, 0.0)},
+    "a body and its base": {"block": POSE, "block/base": POSE},
+    "a base and an entry": {"block/base": POSE, "block.z": 0.3},
+}
+
+
+@pytest.mark.parametrize("name", OVERLAPS)
+def test_two_names_of_one_entry_are_refused(name):
+    first, second = OVERLAPS[name]
+    with pytest.raises(ModelError, match=f"^{second}: names something that '{first}' names, too"):
+        SYSTEM.placed(OVERLAPS[name])
+
+
+@pytest.mark.parametrize("names", [("rail", "rail/slide"), ("rail/slide", "rail")])
+def test_two_names_of_one_spring_are_refused(names):
+    K_q = dict.fromkeys([*names, "wheel/axle"], 100.0)
+    first, second = names
+    refused = rf"^K_q\[{second}\]: names something that '{first}' names, too"
+    with pytest.raises(qr.StepDataError, match=refused):
+        qr.Simulator(SYSTEM, [], h=0.01, K_q=K_q)

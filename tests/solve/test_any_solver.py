@@ -1,5 +1,7 @@
 """Solvers that the table does not have: CVXPY's, qpsolvers', and functions of the user's."""
 
+import contextvars
+import decimal
 import json
 import pickle
 import re
@@ -151,3 +153,35 @@ def test_solvers_that_the_table_does_not_have_are_called_by_their_names(name):
     solution = qr.solve_step(STEP, name)
     assert solution.delta_q.tobytes() == EXACT.delta_q.tobytes()
     assert solution.statistics.backend == name
+
+
+MARK = contextvars.ContextVar("MARK", default="nothing")
+
+
+@pytest.mark.parametrize("more", [{}, {"extension": qr.Extension()}], ids=["alone", "extended"])
+def test_a_function_runs_in_the_context_of_who_solves_the_step(more):
+    """Its context variables, decimal precision and NumPy's errors, also within another solve."""
+    seen = []
+
+    def settings():
+        return MARK.get(), decimal.getcontext().prec, np.geterr()["invalid"]
+
+    def inner(P, q, G, h):
+        seen.append(settings())
+        return by_daqp(P, q, G, h)
+
+    def outer(P, q, G, h):
+        seen.append(settings())
+        with decimal.localcontext(prec=9), np.errstate(invalid="print"):
+            qr.solve_step(STEP, inner)
+        return by_daqp(P, q, G, h)
+
+    def of_user():
+        MARK.set("the user's")
+        with decimal.localcontext(prec=50), np.errstate(invalid="raise"):
+            return qr.solve_step(STEP, outer, **more)
+
+    answer = contextvars.copy_context().run(of_user)
+    assert seen == [("the user's", 50, "raise"), ("the user's", 9, "print")]
+    assert answer.delta_q.tobytes() == EXACT.delta_q.tobytes()
+    assert np.geterr()["invalid"] == settings()[2] != "print"

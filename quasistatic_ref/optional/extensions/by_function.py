@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.arrays import Array, Mask, with_warnings
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
@@ -115,6 +115,8 @@ def real_numbers(values: object) -> Array:
 def apart() -> Iterator[None]:
     """Around code of others: what it prints goes to standard error, and it ends no process.
 
+    It runs in the caller's context.
+
     Raises
     ------
     RuntimeError
@@ -126,7 +128,7 @@ def apart() -> Iterator[None]:
         kept = os.dup(1)
         os.dup2(2, 1)
     try:
-        with redirect_stdout(sys.stderr):
+        with with_warnings(), redirect_stdout(sys.stderr):
             yield
     except (Exception, KeyboardInterrupt):
         raise

@@ -3,11 +3,13 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.model.joints import JOINTS, AxisJoint, Revolute
-from tests.model.urdf.urdf_texts import joint, link, robot
+from quasistatic_ref.numbers.angles import cos_sin
+from tests.model.urdf.urdf_texts import joint, link, mimic, robot
 
 ARM = robot(link("base"), link("arm"), joint("turn", "base", "arm"))
 
@@ -38,3 +40,24 @@ def test_a_sum_of_its_own_is_not_that_of_compiled_code(monkeypatch, parent):
     fast = replace(scenario, fast=True).run()
     assert plain.q[-1, 0] == pytest.approx(3.3 - 2 * math.pi)
     assert (plain.q == fast.q).all()
+
+
+@pytest.mark.parametrize("followed", [False, True])
+def test_sines_are_correctly_rounded_but_of_a_joint_that_another_mimics(followed):
+    """Those are pinocchio's, of the C library, as docs/exactness.md says: within one ulp."""
+    more = mimic("turn") if followed else ""
+    text = robot(
+        link("base"), link("arm"), link("hand"),
+        joint("turn", "base", "arm"), joint("grip", "arm", "hand", more=more),
+    )  # fmt: skip
+    system = qr.System([qr.Body("r", text, actuated="all")])
+    arm = system.link("r/arm")
+    off = 0
+    for angle in np.random.default_rng(0).uniform(-3, 3, 2000):
+        q = np.zeros(system.n_q)
+        q[0] = angle
+        of_link = system.at(q).kinematics.R[arm, :2, 0]
+        rounded = np.array(cos_sin(angle))
+        off += not (of_link == rounded).all()
+        assert (np.abs(of_link - rounded) <= np.spacing(np.abs(rounded))).all()
+    assert (off > 0) == followed
