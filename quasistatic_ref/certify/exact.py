@@ -111,6 +111,22 @@ def _rounded(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
     )
 
 
+def exact_slack(form: ExactForm, working_set: Sequence[int]) -> Array:
+    """A x - b at the minimiser on a working set, each entry rounded correctly, shape (m,) [m].
+
+    Parameters
+    ----------
+    form : ExactForm
+    working_set : sequence of int
+        Independent rows.
+    """
+    minimiser = Minimiser(form, tuple(working_set))
+    inactive = minimiser.inactive
+    slack = np.zeros(form.m)
+    slack[inactive] = minimiser.rounded(lambda m: form.slacks(inactive.tolist(), m.z))
+    return slack
+
+
 def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     """The exact optimum of Eq. :eq:`eq-13`, sought and proved for each of its groups by itself.
 

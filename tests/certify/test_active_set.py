@@ -13,7 +13,7 @@ from quasistatic_ref.certify.degeneracy import form_degeneracy
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.form import MatrixForm, exact_matrix
 from quasistatic_ref.certify.minimiser import Minimiser
-from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
+from tests.oracles.forms import exact_form_of
 
 
 def program(A, b, g=None):

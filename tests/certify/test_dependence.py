@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.certify.dependence import independent_rows
-from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
+from tests.oracles.forms import exact_form_of
 
 
 def test_independent_rows_are_the_first_of_those_that_depend():

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.exact import form_optimum, step_optimum
+from quasistatic_ref.certify.exact import exact_slack, form_optimum, step_optimum
 from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.lab.vectors.exact.forms import exact_form_of, exact_slack
+from tests.oracles.forms import exact_form_of
 
 
 def resting_point(tau_x=0.0, contacts=1):

@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 from flint import arb
 
-from quasistatic_ref import StepDataError, solve_step, verify
+from quasistatic_ref import solve_step, verify
 from quasistatic_ref.certify.form import StepForm, exact_matrix, inverse, whole_numbers
 from quasistatic_ref.certify.form import fraction as exact
-from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from tests.cases import cases
 from tests.helpers import changed, random_step
 
@@ -20,22 +19,6 @@ def test_a_ball_with_a_radius_is_no_exact_number():
         whole_numbers([arb(1) / 3])
     with pytest.raises(ValueError, match="exact"):
         exact(arb(0, 1e-300))
-
-
-ULP = 2.0**-52
-NO_PROGRAM = {
-    "singular": ([[1, 1], [1, 1]], 1, "positive definite"),
-    "nearly definite": ([[1, 1 + ULP], [1 + ULP, 1 + ULP]], 1, "positive definite"),
-    "not symmetric": ([[1, 1e-17], [0, 1]], 1, "symmetric"),
-    "no number": (np.eye(2), np.nan, "finite"),
-}
-"""H, the entries of g, and what is said."""
-
-
-@cases("H, g, words", NO_PROGRAM)
-def test_a_program_without_an_exact_optimum_is_refused(H, g, words):
-    with pytest.raises(StepDataError, match=words):
-        exact_form_of(np.array(H), np.full(2, g), np.zeros((0, 2)), np.zeros(0))
 
 
 def test_the_inverse_is_zero_between_what_nothing_couples():

@@ -5,10 +5,10 @@ import pytest
 from scipy.linalg import block_diag
 
 from quasistatic_ref.certify.degeneracy import form_degeneracy
-from quasistatic_ref.certify.exact import form_optimum
+from quasistatic_ref.certify.exact import exact_slack, form_optimum
 from quasistatic_ref.lab.study.problems.answers import exact_answer
-from quasistatic_ref.lab.vectors.exact.forms import exact_form_of, exact_slack
 from quasistatic_ref.step.standard_form import StandardForm
+from tests.oracles.forms import exact_form_of
 
 SIZES = (1, 3, 4)
 """Of the parts."""

@@ -34,7 +34,7 @@ def forces(step, compliance):
         If the rows that the package names are not those of the optimum.
     """
     contacts = step.contacts
-    tables = [cone_table(step.cone, rows, 1) for rows in contacts.rows]
+    tables = [cone_table(step.cone, rows) for rows in contacts.rows]
     c = [Fraction(compliance)] * contacts.n_c
     softened = compliant_program(*program(step), tables, Fraction(step.h), c)
     working = dual_active_set(compliant_form(step, compliance)).working

@@ -14,8 +14,8 @@ import numpy as np
 
 from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.degeneracy import form_degeneracy
-from quasistatic_ref.certify.exact import form_optimum
-from quasistatic_ref.lab.vectors.exact.forms import exact_form_of, exact_slack
+from quasistatic_ref.certify.exact import exact_slack, form_optimum
+from tests.oracles.forms import exact_form_of
 from tests.oracles.rational_kkt import (
     exact,
     farkas_refutation,

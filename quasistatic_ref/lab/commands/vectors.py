@@ -12,7 +12,7 @@ from quasistatic_ref.lab.folders import vectors_folder
 ACTIONS = {
     "check": "compare a folder of answers with the vectors, layer by layer",
     "challenge": "ask a program new cases, and show those that it gets wrong",
-    "generate": "write the whole folder, expected outputs computed from the inputs or copied",
+    "generate": "write the whole folder: expected outputs are copied, those of new cases added",
     "own": "write this package's own float64 answers, as anybody else's",
 }
 OUT = {"own": "answers"}

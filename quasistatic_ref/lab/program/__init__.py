@@ -4,6 +4,6 @@ This folder imports nothing but NumPy and itself: copied alone, it answers the v
 ``python -m program VECTORS ANSWERS [LAYER ...]`` from the folder that it lies in; without
 arguments it answers a challenge, line by line.
 
-It is independent of the core, which shares no line with it. It is not independent of all expected
-answers: ``vectors/layers`` says which of them are this program in exact numbers.
+It is independent of the core, which shares no line with it. The expected answers of most committed
+cases were once its formulas in exact numbers; those of distances and optima were not.
 """

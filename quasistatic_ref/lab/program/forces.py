@@ -47,9 +47,9 @@ def forces_of(s, c, contacts):
     return wrenches
 
 
-def forces(H, g, A, b, contacts, cone, h):
+def forces(H, g, A, b, contacts, cone, h, method=optimum):
     """The forces of the contacts of a step that has a solution."""
-    tables = [cone_table(cone, contact["rows"], contact["mu_v"]) for contact in contacts]
+    tables = [cone_table(cone, contact["rows"]) for contact in contacts]
     c = compliances(contacts)
-    x, _ = optimum(*compliant_program(H, g, A, b, tables, h, c))
+    x, _ = method(*compliant_program(H, g, A, b, tables, h, c))
     return forces_of(x[len(g) :], c, contacts)

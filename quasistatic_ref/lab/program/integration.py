@@ -3,8 +3,21 @@
 import numpy as np
 
 from .mechanism import slices
-from .number import coefficients, cos_sin, root
 from .rotation import AXES, quaternion_product, rotation, skew, unit
+
+
+def coefficients(t):
+    """Sin t / t, (1 - cos t) / t^2, (t - sin t) / t^3, by series where they would cancel."""
+    if t < 0.3:
+        ratios = []
+        for first in (1, 2, 3):
+            term = total = 1 / np.prod(np.arange(1, first + 1))
+            for k in range(first + 1, first + 16, 2):
+                term *= -t * t / (k * (k + 1))
+                total += term
+            ratios.append(total)
+        return ratios
+    return [np.sin(t) / t, (1 - np.cos(t)) / t**2, (t - np.sin(t)) / t**3]
 
 
 def moved(body, q, d):
@@ -14,15 +27,15 @@ def moved(body, q, d):
         p = q[3:]
         v = d[:3]
         w = d[3:]
-        t = root(w @ w)
+        t = np.sqrt(w @ w)
         _, b, c = coefficients(t)
         shift = v + b * np.cross(w, v) + c * np.cross(w, np.cross(w, v))
-        half = np.append(coefficients(t / 2)[0] / 2 * w, cos_sin(t / 2)[0])
+        half = np.append(coefficients(t / 2)[0] / 2 * w, np.cos(t / 2))
         turned = unit(quaternion_product(p, half))
         return np.concatenate([q[:3] + rotation(p) @ shift, turned])
     if kind in ("planar", "continuous"):
         c, s = unit(q[-2:])
-        turned = unit(np.array([[c, -s], [s, c]]) @ cos_sin(d[-1]))
+        turned = unit(np.array([[c, -s], [s, c]]) @ [np.cos(d[-1]), np.sin(d[-1])])
         if kind == "continuous":
             return turned
         a, b, _ = coefficients(abs(d[2]))
@@ -39,9 +52,9 @@ def difference(body, target, q):
         back = np.append(-q[3:6], q[6])
         p = unit(quaternion_product(back, target[3:]))
         p = -p if p[3] < 0 else p
-        s = root(p[:3] @ p[:3])
+        s = np.sqrt(p[:3] @ p[:3])
         w = p[:3] * (2 * np.arctan2(s, p[3]) / s if s else 2)
-        _, b, c = coefficients(root(w @ w))
+        _, b, c = coefficients(np.sqrt(w @ w))
         W = skew(w)
         V = AXES + b * W + c * W @ W
         return np.append(cramer_solution(V, rotation(q[3:]).T @ (target[:3] - q[:3])), w)

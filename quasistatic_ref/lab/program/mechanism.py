@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from .number import cos_sin
 from .rotation import AXES, NONE, frame, rotation, skew, turn, unit
 
 ENTRIES = {  # of q, of delta_q
@@ -24,7 +23,7 @@ def joint_pose(body, q):
         c, s = unit(q[2:])
         return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]), np.append(q[:2], 0)
     if kind == "revolute":
-        return turn(body["axis"], *cos_sin(q[0])), NONE
+        return turn(body["axis"], np.cos(q[0]), np.sin(q[0])), NONE
     if kind == "continuous":
         return turn(body["axis"], *unit(q)), NONE
     if kind == "prismatic":

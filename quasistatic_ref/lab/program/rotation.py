@@ -2,8 +2,6 @@
 
 import numpy as np
 
-from .number import root
-
 AXES = np.eye(3, dtype=int)
 NONE = np.zeros(3, dtype=int)
 
@@ -11,7 +9,7 @@ NONE = np.zeros(3, dtype=int)
 def unit(v):
     """Direction v/|v|."""
     v = np.array(v)
-    return v / root(v @ v)
+    return v / np.sqrt(v @ v)
 
 
 def skew(w):

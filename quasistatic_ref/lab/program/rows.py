@@ -2,11 +2,9 @@
 
 import numpy as np
 
-from .number import part_of_turn
 
-
-def cone_table(cone, rows, mu):
-    """T of each row of a contact, in units of (mu_v, mu_v, mu_omega), for mu of any kind.
+def cone_table(cone, rows):
+    """T of each row of a contact, in units of (mu_v, mu_v, mu_omega).
 
     Raises
     ------
@@ -22,7 +20,8 @@ def cone_table(cone, rows, mu):
         return np.array(both if rows == 6 else both[:4])
     if cone.startswith("facets-"):
         K = int(cone.removeprefix("facets-"))
-        sides = [[*part_of_turn(mu, k, K), 0] for k in range(K)]
+        angles = [2 * np.pi * k / K for k in range(K)]
+        sides = [[np.cos(angle), np.sin(angle), 0] for angle in angles]
     elif cone != "pyramid":
         raise ValueError(f"the cone {cone} is none that this program knows")
     return np.array(sides + (spins if rows == 6 else []))
@@ -30,7 +29,7 @@ def cone_table(cone, rows, mu):
 
 def contact_rows(c, cone):
     """The rows of one contact."""
-    T = cone_table(cone, c["rows"], c["mu_v"])
+    T = cone_table(cone, c["rows"])
     J = np.array(c["J"])
     linear = np.array(c["n"]) + c["mu_v"] * T[:, :2] @ np.array([c["d1"], c["d2"]])
     angular = c["mu_omega"] * T[:, 2]

@@ -6,7 +6,7 @@ from .candidates import candidates, gaps, k_first, smaller, tangents
 from .forces import forces
 from .integration import integrate, way
 from .mechanism import jacobian, kinematics, point_jacobian, slices
-from .optimum import qp_answer
+from .optimum import optimum, qp_answer
 from .rotation import AXES, NONE, frame
 from .rows import cone_table, rows
 from .wrench import wrench
@@ -22,6 +22,13 @@ def pose_in_world(shape, at):
     return R @ R_shape, R @ t_shape + t
 
 
+def entry_of(case, pair):
+    """What all contacts of a pair have in common."""
+    entry = {"pair": pair["name"]}
+    entry |= {f"{side}_body": case["shapes"][pair[side]]["body"] for side in ("alpha", "beta")}
+    return entry | {k: pair[k] for k in ("mu_v", "mu_omega", "rows", "compliance") if k in pair}
+
+
 def contacts_of(case, at):
     """The contacts, pair by pair, without J."""
     contacts = []
@@ -35,11 +42,9 @@ def contacts_of(case, at):
         rank = gaps(phi, smaller(alpha["shape"], beta["shape"]))
         for i in k_first(rank, index, late, k):
             d1, d2 = tangents(n[i])
-            contact = {"pair": pair["name"], "index": int(index[i])}
+            contact = {"index": int(index[i])}
             contact |= {"phi": phi[i], "alpha": a[i], "beta": b[i], "n": n[i], "d1": d1, "d2": d2}
-            contact |= {"alpha_body": alpha["body"], "beta_body": beta["body"]}
-            contact |= {k: pair[k] for k in ("mu_v", "mu_omega", "rows", "compliance") if k in pair}
-            contacts.append(contact)
+            contacts.append({**entry_of(case, pair), **contact})
     return contacts
 
 
@@ -88,8 +93,8 @@ def step(case):
     return step_at(case, at, contacts_of(case, at))
 
 
-def step_at(case, at, contacts):
-    """The step of these bodies with these contacts."""
+def step_at(case, at, contacts, method=optimum):
+    """The step of these bodies with these contacts, solved by the optimum or another method."""
     mechanism = case["mechanism"]
     h = case["h"]
     cone = case["cone"]
@@ -102,17 +107,17 @@ def step_at(case, at, contacts):
     b = np.array(A_b["b"])
     shown = [{key: contact[key] for key in SHOWN} for contact in contacts]
     output = {"contacts": shown, "H": H, "g": g, "A": A, "b": b}
-    answer = qp_answer(H, g, A, b)
+    answer = qp_answer(H, g, A, b, method)
     if "farkas" in answer:
         return {**output, **answer}
     delta_q = answer["delta_q"]
     lam = answer["lam"]
     A_lam = answer["A_lam"]
-    counts = [len(cone_table(cone, c["rows"], c["mu_v"])) for c in contacts]
+    counts = [len(cone_table(cone, c["rows"])) for c in contacts]
     shares = np.split(lam, np.cumsum(counts)[:-1]) if counts else []
     loaded = [{**contact, "lam": part} for contact, part in zip(contacts, shares, strict=True)]
     wrenches = wrench({"h": h, "cone": cone, "contacts": loaded, "bodies": {}})["wrench"]
     q_next = integrate({"mechanism": mechanism, "q": case["q"], "delta_q": delta_q})["q"]
     output |= {"delta_q": delta_q, "lam": lam, "A_lam": A_lam}
-    output |= {"wrench": wrenches, "forces": forces(H, g, A, b, contacts, cone, h)}
+    output |= {"wrench": wrenches, "forces": forces(H, g, A, b, contacts, cone, h, method)}
     return {**output, "q_next": q_next}

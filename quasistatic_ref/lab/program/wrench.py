@@ -12,7 +12,7 @@ def contact_wrench(c, cone, h):
         f_n, f1, f2, tau = lam
     else:
         mu = np.array([c["mu_v"], c["mu_v"], c["mu_omega"]])
-        f1, f2, tau = mu * (lam @ cone_table(cone, c["rows"], c["mu_v"]))
+        f1, f2, tau = mu * (lam @ cone_table(cone, c["rows"]))
         f_n = lam.sum()
     return [f1, f2, f_n, tau]
 

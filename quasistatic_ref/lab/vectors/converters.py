@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from quasistatic_ref.lab.program.mechanism import kinematics, slices
-from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.numbers.arrays import Array
 
 UNITS = {"floating": 3, "planar": 2, "continuous": 0}

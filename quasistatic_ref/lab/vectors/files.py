@@ -14,8 +14,8 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_read, plain, text_written
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.trees import Json
 
 VERSION = 1
 INPUTS = "quasistatic-ref/vectors-inputs"

@@ -1,6 +1,6 @@
-"""The folder of vectors from its inputs, with identical bytes on any machine.
+"""The folder of vectors: what is expected of a case is copied, and of a new case agreed on.
 
-Outputs are computed, or copied where they were made once.
+What is copied was made once, and keeps its bytes.
 """
 
 import hashlib
@@ -8,38 +8,46 @@ import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, QuasistaticError
 from quasistatic_ref.formats.files import bytes_read, bytes_written, text_written, writable_folder
-from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.agreed import PROGRAM, agreed_record
 from quasistatic_ref.lab.vectors.files import (
     Case,
     answers_written,
+    expected_read,
     expected_text,
     inputs_read,
     lines,
 )
-from quasistatic_ref.lab.vectors.layers import COMPUTED, FILES, LAYERS, layer
+from quasistatic_ref.lab.vectors.layers import LAYERS, layer
+from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.lab.vectors.versions import FORMAT, FORMAT_VERSION, MANIFEST, RELEASE
 from quasistatic_ref.simulate.progress import progress_bar
 
-COPIED = (
-    "README.md", "CITATION.cff", "LICENSE*", "inputs/*.json", "schemas/*.json",
-    *(f"expected/{name}.json" for name in FILES),
-)  # fmt: skip
+COPIED = ("README.md", "CITATION.cff", "LICENSE*", "inputs/*.json", "schemas/*.json")
 """What is taken over as it is."""
 
 
-def expected_record(name: str, case: Case) -> dict[str, Json]:
-    """What a layer is expected to answer to a case, as it stands in the file."""
+def new_record(name: str, case: Case) -> dict[str, Json]:
+    """What a layer is expected to answer to a new case, as it stands in the file.
+
+    Raises
+    ------
+    InputError
+        If package and plain program do not agree on an answer, or the package refuses the case.
+    """
     try:
-        return {"id": case.id, **layer(name).expected(case.input).json()}
-    except InputError as error:
-        error.field = f"{case.id}: {error.field}" if error.field else case.id
-        raise
+        record = agreed_record(name, case.input) if name in PROGRAM else None
+    except QuasistaticError as error:
+        raise InputError(f"has no answer: {error}", field=case.id) from error
+    if record is None:
+        problem = "has no expected answer: the package and the plain program do not agree on one"
+        raise InputError(problem, field=case.id)
+    return {"id": case.id, **record}
 
 
 def generate_folder(source: Path, out: Path, progress: bool = True) -> dict[str, int]:
-    """Compute or copy every output of the inputs in a folder, and write the whole folder.
+    """Copy what is expected of the inputs in a folder, add that of new cases, write it whole.
 
     Parameters
     ----------
@@ -58,24 +66,25 @@ def generate_folder(source: Path, out: Path, progress: bool = True) -> dict[str,
     Raises
     ------
     InputError
-        If an input is bad, or answers that are copied are not there.
+        If an input is bad, or package and plain program do not agree on a new case.
     """
-    counts = {name: len(inputs_read(source, name)) for name in LAYERS}
-    for name in FILES:
-        answers = source / "expected" / f"{name}.json"
-        if not answers.exists():
-            problem = "is missing: the answers of this layer are a file, which is copied"
-            raise InputError(problem, file=answers)
-    writable_folder(out)
     files = {
         path.relative_to(source).as_posix(): bytes_read(path)
         for pattern in COPIED
         for path in sorted(source.glob(pattern))
     }
-    for name in COMPUTED:
+    counts = {}
+    for name in LAYERS:
         cases = inputs_read(source, name)
-        records = [expected_record(name, case) for case in _with_progress(cases, name, progress)]
-        files[f"expected/{name}.json"] = expected_text(name, records).encode()
+        path = f"expected/{name}.json"
+        known = expected_read(source, name) if (source / path).exists() else {}
+        records = [
+            known[case.id] if case.id in known else new_record(name, case)
+            for case in _with_progress(cases, name, progress)
+        ]
+        files[path] = expected_text(name, records).encode()
+        counts[name] = len(cases)
+    writable_folder(out)
     for path, content in files.items():
         bytes_written(out / path, content)
     text_written(out / MANIFEST, manifest_text(files))

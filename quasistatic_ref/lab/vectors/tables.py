@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import Json
 
 UPRIGHT = [0.0, 0.0, 0.0, 1.0]
 ORIGIN: Json = {"xyz": [0.0, 0.0, 0.0], "quaternion": UPRIGHT}

@@ -1,9 +1,10 @@
 """Walks over cases and outputs: lists and tables that are nested in one another."""
 
 from collections.abc import Callable, Collection, Iterator
+from typing import Any
 
-from quasistatic_ref.lab.vectors.expected import Json
-
+Json = Any
+"""What JSON holds: None, bool, int, float, str, lists and string-keyed dicts of them."""
 Path = tuple[str | int, ...]
 """Keys and indices that lead to a part."""
 

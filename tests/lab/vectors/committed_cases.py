@@ -10,7 +10,7 @@ from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
-from quasistatic_ref.lab.vectors.layers import FILES, LAYERS
+from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import mapped
 from tests.pages import ROOT
 
@@ -69,20 +69,15 @@ def inputs_file(folder, layer, chosen):
     text_written(folder / "inputs" / f"{layer}.json", text)
 
 
-def expected_files(folder, names=FILES):
-    """Copy what is expected of layers whose answers are files."""
-    for name in names:
-        path = f"expected/{name}.json"
-        text_written(folder / path, (VECTORS / path).read_text("utf-8"))
-
-
-def few_written(folder, count, names=FILES):
-    """Write the shortest inputs of each layer, and what is expected of layers that are files."""
+def few_written(folder, count, names=LAYERS):
+    """Write the shortest inputs of each layer, and what is expected of some layers."""
     for layer in LAYERS:
         # The first quadratic programs have a solution.
         every = cases("qp") if layer == "qp" else by_size(layer)
         inputs_file(folder, layer, every[:count])
-    expected_files(folder, names)
+    for name in names:
+        path = f"expected/{name}.json"
+        text_written(folder / path, (VECTORS / path).read_text("utf-8"))
 
 
 def answer_file(folder, layer, outputs, **head):

@@ -9,25 +9,25 @@ from jsonschema import Draft202012Validator
 from quasistatic_ref import InputError, verify_answer
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.vectors.files import line
-from quasistatic_ref.lab.vectors.generate import expected_record, generate_folder, manifest_text
-from quasistatic_ref.lab.vectors.layers import COMPUTED, FILES, LAYERS
+from quasistatic_ref.lab.vectors.agreed import PROGRAM
+from quasistatic_ref.lab.vectors.files import expected_read
+from quasistatic_ref.lab.vectors.generate import generate_folder, manifest_text, new_record
+from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, cone_step, step_of
 from quasistatic_ref.lab.vectors.versions import MANIFEST
+from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import (
     VECTORS,
     answer_file,
+    by_size,
     cases,
     expected_of,
     few_written,
     right_answers,
 )
-from tests.meta.test_layers import printed_text
 
 MEBIBYTES = 25
 """Promised size of the folder."""
-EVERY = {"qp": 12}
-"""Every so many cases of a layer are computed again; of the others, which take no time, all."""
 
 
 def violations(name, *values):
@@ -72,20 +72,27 @@ def test_the_manifest_names_every_file_by_its_content():
     assert sum(map(len, files.values())) < MEBIBYTES * 2**20
 
 
-@pytest.mark.parametrize("layer", COMPUTED)
-def test_what_is_computed_again_is_what_is_committed_byte_for_byte(layer):
-    committed = (VECTORS / "expected" / f"{layer}.json").read_text().splitlines()
-    records = {text.rstrip(",") for text in committed}
-    for case in cases(layer)[:: EVERY.get(layer, 1)]:
-        assert line(expected_record(layer, case)) in records, case.id
+def test_a_new_case_takes_the_packages_answer_where_the_plain_program_agrees(tmp_path, monkeypatch):
+    few_written(tmp_path / "a", 2)
+    path = tmp_path / "a" / "inputs" / "rows.json"
+    path.write_text(path.read_text().replace('"id": "rows/', '"id": "rows/new_'))
+    generate_folder(tmp_path / "a", tmp_path / "b")
+    made = expected_read(tmp_path / "b", "rows").values()
+    for record, case in zip(made, by_size("rows"), strict=False):
+        old = expected_of("rows")[case.id]
+        assert_within(record["output"]["A"], old["output"]["A"], old["tolerance"]["A"]["absolute"])
+        assert (record["digits"], record["output"]["b"]) == ({}, old["output"]["b"])
+        assert 0 < record["tolerance"]["A"]["absolute"] < 1e-8
+    assert violations("expected", json.loads((tmp_path / "b/expected/rows.json").read_text())) == []
+    monkeypatch.setitem(PROGRAM, "rows", lambda case: {"A": [[0.0]], "b": [0.0]})
+    with pytest.raises(InputError, match=r"rows/new_.*do not agree on one"):
+        generate_folder(tmp_path / "a", tmp_path / "c")
+    assert not (tmp_path / "c").exists()
 
 
-@pytest.mark.parametrize("layer", FILES)
-def test_cases_without_the_answers_that_are_copied_are_refused(layer, tmp_path):
-    few_written(tmp_path / "a", 1, {*FILES} - {layer})
-    with pytest.raises(InputError, match=rf"expected/{layer}\.json.*is missing"):
-        generate_folder(tmp_path / "a", tmp_path / "b")
-    assert not (tmp_path / "b").exists()
+def test_derivatives_have_no_new_cases():
+    with pytest.raises(InputError, match="has no expected answer"):
+        new_record("derivative", cases("derivative")[0])
 
 
 def test_every_quadratic_program_is_verified_again_without_a_solver():
@@ -104,6 +111,12 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
     assert {name: reason for name, reason in refused.items() if reason} == {}
 
 
+@pytest.mark.long
+def test_what_is_committed_is_copied_byte_for_byte(tmp_path):
+    generate_folder(VECTORS, tmp_path)
+    assert contents(tmp_path) == contents(VECTORS)
+
+
 def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
     few_written(tmp_path / "a", 3)
     for path in ("README.md", "LICENSE.md", "schemas/rows.schema.json"):
@@ -115,23 +128,3 @@ def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
     assert contents(tmp_path / "a") == files
     assert len(files) == 1 + 3 + 2 * len(LAYERS)
     assert files.pop(MANIFEST).decode() == manifest_text(files)
-
-
-def test_outputs_are_computed_without_robotics_stack_backends_and_blas(tmp_path):
-    few = {layer: cases(layer)[0].id for layer in COMPUTED}
-    source = f"""
-import sys
-for name in ("pinocchio", "coal", "cvxpy", "qpsolvers", "scipy"): sys.modules[name] = None
-import numpy as np
-def refused(*_, **__): raise AssertionError("linear algebra or libm in float64")
-for name in ("solve", "inv", "qr", "svd", "eigh", "lstsq", "cholesky"):
-    setattr(np.linalg, name, refused)
-for name in ("sin", "cos", "exp", "log", "arctan2", "sqrt", "hypot"): setattr(np, name, refused)
-from quasistatic_ref.lab.vectors.files import inputs_read
-from quasistatic_ref.lab.vectors.generate import expected_record
-for layer, wanted in {few!r}.items():
-    (case,) = (c for c in inputs_read({str(VECTORS)!r}, layer) if c.id == wanted)
-    assert expected_record(layer, case)["output"]
-print("done")
-"""
-    assert printed_text(source) == "done"

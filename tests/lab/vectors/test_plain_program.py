@@ -22,7 +22,7 @@ from tests.processes import python
 from tests.tolerances import CLOSED_FORM
 
 PROGRAM = Path(program.__file__).parent
-LIBRARIES = {"functools", "json", "numpy", "pathlib", "sys"}
+LIBRARIES = {"json", "numpy", "pathlib", "sys"}
 FOUND = Path(__file__).with_name("found_by_challenges.json")
 """Quadratic programs that this one or another once got wrong: rows that all but repeat or
 contradict each other, cones at their tips."""
@@ -30,7 +30,7 @@ contradict each other, cones at their tips."""
 
 def test_a_cone_that_it_does_not_know_is_refused():
     with pytest.raises(ValueError, match="the cone pyramid-45 is none that this program knows"):
-        cone_table("pyramid-45", 4, 0.5)
+        cone_table("pyramid-45", 4)
 
 
 def test_the_plain_program_passes_layers_1_to_8(tmp_path):

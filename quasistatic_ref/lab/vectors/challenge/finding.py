@@ -9,8 +9,7 @@ from pathlib import Path
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.lab.vectors.check.side_by_side import side_by_side
-from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.trees import mapped
+from quasistatic_ref.lab.vectors.trees import Json, mapped
 
 RECORD = "counterexample.json"
 FORMAT = "quasistatic-ref/counterexample"

@@ -14,8 +14,8 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import plain
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.vectors.check.answers import QUATERNIONS, TANGENTS, Answers
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.trees import Json
 
 START = 6.0
 """The first answer may take so many times longer [-]: a program starts, perhaps compiles itself."""

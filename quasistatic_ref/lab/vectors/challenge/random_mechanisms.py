@@ -9,10 +9,12 @@ import numpy as np
 
 from quasistatic_ref.lab.program.mechanism import slices
 from quasistatic_ref.lab.scenes.at_random import Rng
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.tables import at, follower, link
+from quasistatic_ref.lab.vectors.trees import Json
 
 KINDS = ("revolute", "prismatic", "continuous", "fixed")
+BASES = ("floating", "planar")
+"""Joints that hang in the world alone."""
 
 
 def few_digits(values: Any, digits: int = 3) -> list[float]:
@@ -48,7 +50,7 @@ def mass(rng: Rng) -> Json:
     }
 
 
-def random_tree(rng: Rng, count: int, base: str = "fixed", masses: bool = False) -> Json:
+def random_tree(rng: Rng, count: int, base: str) -> Json:
     """A tree of bodies: each hangs on one of the two before it."""
     bodies = []
     for k in range(count):
@@ -64,7 +66,7 @@ def random_tree(rng: Rng, count: int, base: str = "fixed", masses: bool = False)
             body["placement"] = at(0.0, 0.0, few_digits(rng.uniform(0, 1, 1))[0])
         elif joint != "floating":
             body["placement"] = random_pose(rng, 0.5)
-        bodies.append(body | (mass(rng) if masses else {}))
+        bodies.append(body | mass(rng))
     return {"bodies": bodies}
 
 

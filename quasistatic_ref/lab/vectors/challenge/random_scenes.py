@@ -1,53 +1,71 @@
 """Random scenes of the layer `step`: mechanisms of every kind that nearly touch something.
 
-A ball on a body and a plane, or another ball, are put where the gap between them is small; centres
-of mass are not at origins, wrenches act on any body, gravity is along any direction, and targets
-are near or far. Of a brick
-on a box or a ball, and of a box or a cloud on a plane, several points nearly touch.
+A shape of any kind on a body, and another in the world or on another body, are put where the gap
+between them is small; centres of mass are not at origins, wrenches act on any body, gravity is
+along any direction, and targets are near or far. Of bricks and clouds several points nearly touch.
 """
 
 import numpy as np
 
+from quasistatic_ref.lab.program.distance import closest_points
 from quasistatic_ref.lab.program.mechanism import kinematics, slices
-from quasistatic_ref.lab.program.rotation import quaternion_product, rotation
+from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.program.step import pose_in_world
 from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
+    BASES,
     KINDS,
     few_digits,
     mass,
     random_follower,
+    random_pose,
     random_q,
     random_quaternion,
     random_tree,
 )
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.tables import GRAVITY, free_body, link, on, scene
+from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.numbers.arrays import Array
 
-CONES = ("pyramid", "pyramid", "pyramid", "product", "facets-6", "facets-8", "frictionless")
+EASY, PLAIN, HARD = 0, 1, 2
+"""How hard cases are: a ball on a plane; as the vectors have them; more bodies, or corners."""
+CONES = ("pyramid", "pyramid", "product", "facets-4", "facets-6", "facets-8", "frictionless")
 GAPS = (0.0005, 0.0, -0.0005, 0.01)
 """[m]"""
+FAR_GAPS = (*GAPS, -0.0005, 0.3, -0.02)
+SHAPES: dict[str, Json] = {
+    "sphere": {"radius": 0.06},
+    "box": {"size": [0.09, 0.15, 0.12]},
+    "halfspace": {"normal": [0.1, 0.2, 0.97], "offset": 0.1},
+    "capsule": {"radius": 0.03, "length": 0.15},
+    "convex": {
+        "vertices": [
+            [0.09, 0.03, 0.0],
+            [-0.06, 0.09, 0.03],
+            [-0.03, -0.09, 0.0],
+            [0.02, 0.0, 0.12],
+            [0.0, 0.03, -0.06],
+            [0.06, -0.06, 0.05],
+        ]
+    },
+    "cloud": {
+        "points": [[0.0, 0.0, 0.0], [0.05, 0.0, 0.05], [-0.05, 0.0, 0.04], [0.0, 0.08, 0.01]]
+    },
+    "cylinder": {"radius": 0.05, "length": 0.12},
+    "cone": {"radius": 0.06, "length": 0.15},
+    "ellipsoid": {"half_axes": [0.03, 0.06, 0.09]},
+}
+"""One shape of each kind, of the size of things that a robot holds [m]."""
+WITH_CORNERS = ("sphere", "box", "halfspace")
+"""Several points of a box are kept where it meets one of these."""
 
 
-def random_scene(rng: Rng, hard: bool) -> Json:
-    """The input of a case; a hard one has more bodies, or too little room."""
-    kind = rng.integers(5)
-    match kind:
-        case 0:
-            tree = [{**free_body("body0"), **mass(rng)}]
-        case 1:
-            stand = link("stand", None, "fixed")
-            tree = [stand, *(b | mass(rng) for b in random_follower(rng, "stand"))]
-        case 2:
-            return _many_points(rng)
-        case _:
-            base = str(rng.choice(["fixed", "floating", "planar", *KINDS[:3]]))
-            count = int(rng.integers(2, 5 if hard else 4))
-            tree = random_tree(rng, count, base, masses=True)["bodies"]
-            tree[-1]["joint"] = "revolute" if tree[-1]["joint"] == "fixed" else tree[-1]["joint"]
-    if kind != 0 and hard and rng.integers(2):
-        tree.append({**free_body("other"), **mass(rng)})
+def random_scene(rng: Rng, level: int) -> Json:
+    """The input of a case."""
+    kind = int(rng.integers(6))
+    if level != EASY and kind == 0:
+        return _brick_beside(rng) if rng.integers(2) else _brick_on_solid(rng)
+    tree = _bodies(rng, level, kind)
     bodies = {"bodies": tree}
     q = random_q(rng, bodies)
     places, n_a, _ = slices(bodies)
@@ -61,8 +79,9 @@ def random_scene(rng: Rng, hard: bool) -> Json:
         q_bar_a=_target(rng, bodies, np.array(q[:n_q_a])),
         cone=str(rng.choice(CONES)),
         gravity=GRAVITY if rng.integers(2) else few_digits(rng.uniform(-10, 10, 3), 1),
+        h=float(rng.choice([0.01, 0.01, 0.02, 0.1])),
     )
-    pushed = [body["name"] for body in tree if "com" in body and rng.integers(3) == 0]
+    pushed = [body["name"] for body in tree if rng.integers(3) == 0]
     if pushed:
         case["wrenches"] = [
             {
@@ -72,8 +91,27 @@ def random_scene(rng: Rng, hard: bool) -> Json:
             }
             for name in pushed
         ]
-    _touch(rng, case, tree[-1]["name"], hard)
+    _touch(rng, case, tree[-1]["name"], level)
     return case
+
+
+def _bodies(rng: Rng, level: int, kind: int) -> list[Json]:
+    """The bodies of a mechanism; the last one moves."""
+    if level == EASY:
+        joint = str(rng.choice([*BASES, *KINDS[:3]]))
+        return [link("body0", None, joint, actuated=bool(rng.integers(2))) | mass(rng)]
+    if kind == 1:
+        tree = [{**free_body("body0"), **mass(rng)}]
+    elif kind == 2:
+        stand = link("stand", None, "fixed")
+        tree = [stand, *(body | mass(rng) for body in random_follower(rng, "stand"))]
+    else:
+        base = str(rng.choice(["fixed", *BASES, *KINDS[:3]]))
+        tree = random_tree(rng, int(rng.integers(2, 3 + level)), base)["bodies"]
+        tree[-1]["joint"] = "revolute" if tree[-1]["joint"] == "fixed" else tree[-1]["joint"]
+    if level == HARD and rng.integers(2):
+        tree.append({**free_body("other"), **mass(rng)})
+    return tree
 
 
 def _target(rng: Rng, bodies: Json, q_a: Array) -> list[float]:
@@ -99,91 +137,116 @@ def _stiffness(rng: Rng, n_a: int) -> Json:
     return stiff.tolist()
 
 
-def _pair(rng: Rng, name: str, alpha: str, beta: str, k: int = 1) -> Json:
+def _add_pair(rng: Rng, case: Json, alpha: str, beta: str, k: int) -> None:
+    """Let two shapes of a scene touch, either of them being alpha."""
     friction = few_digits([rng.uniform(0.1, 1), rng.uniform(0.001, 0.02)], 3)
     friction = [0.0, 0.0] if rng.integers(10) == 0 else friction
-    rows = int(rng.choice([4, 6, 6]))
-    pair = {"name": name, "alpha": alpha, "beta": beta, "mu_v": friction[0], "rows": rows, "k": k}
-    return {**pair, "mu_omega": friction[1]}
+    sides = (alpha, beta) if rng.integers(3) else (beta, alpha)
+    pair = {"name": f"{alpha}_{len(case['pairs'])}", "alpha": sides[0], "beta": sides[1], "k": k}
+    pair |= {"mu_v": friction[0], "mu_omega": friction[1], "rows": int(rng.choice([4, 6, 6]))}
+    case["pairs"].append(pair)
 
 
-def _plane(rng: Rng, through: list[float] | Array, depth: float) -> Json:
-    """A half-space whose surface is `depth` [m] below a point; its normal has any length."""
-    normal = np.array(few_digits(rng.uniform([-1.0, -1.0, -0.5], [1.0, 1.0, 1.5]), 2))
-    if rng.integers(4) == 0:  # d1 is the first of equal axes
-        normal = rng.permutation([normal[0], normal[0], 2 * abs(normal[0]) + 0.25])
-    length = float(np.linalg.norm(normal))
-    offset = few_digits([normal @ np.array(through) - length * depth], 5)[0]
-    return {"kind": "halfspace", "normal": normal.tolist(), "offset": offset}
+def _shape(rng: Rng, kind: str) -> Json:
+    """A shape of other lengths; one in four is a thousand times thinner than it is long."""
+    factor = float(rng.choice([0.5, 1.0, 1.5]))
+    scaled = {key: np.multiply(factor, value) for key, value in SHAPES[kind].items()}
+    if kind == "halfspace":
+        normal = np.array(few_digits(rng.uniform([-1.0, -1.0, -0.5], [1.0, 1.0, 1.5]), 2))
+        if rng.integers(4) == 0:  # d1 is the first of equal axes
+            normal = rng.permutation([normal[0], normal[0], 2 * abs(normal[0]) + 0.25])
+        scaled["normal"] = normal
+    if kind == "box" and rng.integers(8) == 0:
+        scaled["size"][int(rng.integers(3))] /= 1000
+    if kind == "cloud" and rng.integers(2):
+        scaled["points"] = np.round(rng.uniform(-0.1, 0.1, (12, 3)), 3)
+    return {"kind": kind, **{key: value.tolist() for key, value in scaled.items()}}
 
 
-def _touch(rng: Rng, case: Json, body: str, hard: bool) -> None:
-    """Put a ball on a body, and a plane or another ball where it nearly touches."""
-    radius = few_digits(rng.uniform(0.02, 0.08, 1), 3)[0]
-    ball = on(body, {"kind": "sphere", "radius": radius}, few_digits(rng.uniform(0, 0.1, 1))[0])
-    case["shapes"]["ball"] = ball
-    _, centre = pose_in_world(ball, kinematics(case["mechanism"], np.array(case["q"])))
-    gap = float(rng.choice(GAPS))
-    if rng.integers(3):
-        case["shapes"]["floor"] = on(None, _plane(rng, centre, radius + gap))
-    else:
-        away = rng.uniform(-1, 1, 3)
-        away *= (radius + 0.05 + gap) / np.linalg.norm(away)
-        place = {"xyz": few_digits(centre - away, 5), "quaternion": random_quaternion(rng)}
-        case["shapes"]["floor"] = on(None, {"kind": "sphere", "radius": 0.05}) | {"pose": place}
-    alpha, beta = ("floor", "ball") if rng.integers(3) else ("ball", "floor")
-    case["pairs"].append(_pair(rng, "floor", alpha, beta))
-    if hard and rng.integers(3) == 0:
-        case["shapes"]["lid"] = on(None, _plane(rng, centre, radius + float(rng.choice(GAPS))))
-        case["pairs"].append(_pair(rng, "lid", "lid", "ball"))
-    if hard and rng.integers(6) == 0:  # the same plane from the other side, 2 mm too near
-        floor = case["shapes"]["floor"]["shape"]
-        if floor["kind"] == "halfspace":
-            length = float(np.linalg.norm(floor["normal"]))
-            normal = [-x for x in floor["normal"]]
-            shift = length * (2 * radius + gap - 0.002)
-            lid = {"kind": "halfspace", "normal": normal, "offset": -floor["offset"] - shift}
-            case["shapes"]["lid"] = on(None, lid)
-            case["pairs"] = [*case["pairs"][:1], _pair(rng, "lid", "lid", "ball")]
+def _touch(rng: Rng, case: Json, body: str, level: int) -> None:
+    """Put a shape on a body, and others where they nearly touch it."""
+    kinds = ["sphere"] if level == EASY else [kind for kind in SHAPES if kind != "halfspace"]
+    kind = str(rng.choice(kinds))
+    shape = on(body, _shape(rng, kind), few_digits(rng.uniform(0, 0.1, 1))[0])
+    if level != EASY:
+        shape["pose"]["quaternion"] = random_quaternion(rng)
+    case["shapes"]["body"] = shape
+    solids = ["halfspace"] if level == EASY else [other for other in SHAPES if other != "cloud"]
+    bodies = [one["name"] for one in case["mechanism"]["bodies"] if one["name"] != body]
+    gap = 0.0
+    for name in ("floor", "lid")[: 1 + (level == HARD and rng.integers(3) == 0)]:
+        other = "halfspace" if rng.integers(3) == 0 else str(rng.choice(solids))
+        under = str(rng.choice(bodies)) if bodies and rng.integers(3) == 0 else None
+        gap = float(rng.choice(GAPS if level == EASY else FAR_GAPS))
+        entry = {"body": under, "pose": random_pose(rng), "shape": _shape(rng, other)}
+        _put_against(case, name, entry, gap, 0.6 * _direction(rng))
+        corners = "box" in (kind, other) and {kind, other} <= {*WITH_CORNERS}
+        k = int(rng.integers(2, 6)) if kind == "cloud" or corners else 1
+        _add_pair(rng, case, name, "body", k)
+    if level == HARD and entry["shape"]["kind"] == "halfspace" and rng.integers(4) == 0:
+        # The same plane from the other side, 2 mm too near.
+        normal = [-x for x in entry["shape"]["normal"]]
+        lid = {**entry, "shape": {"kind": "halfspace", "normal": normal, "offset": 0.0}}
+        _put_against(case, "above", lid, -gap - 0.002, np.zeros(3))
+        _add_pair(rng, case, "above", "body", 1)
 
 
-def _many_points(rng: Rng) -> Json:
-    """A brick on a box or a ball, or a box or a cloud on a plane: the nearest points are kept."""
-    if rng.integers(2):
-        return _brick_on_solid(rng)
+def _put_against(case: Json, name: str, entry: Json, gap: float, away: Array) -> None:
+    """Add a shape to a scene, moved so that the gap [m] between it and `body` is this.
+
+    It is moved along the normal of their closest points, from the place that is `away` [m] from
+    the shape on the body.
+    """
+    places = kinematics(case["mechanism"], np.array(case["q"]))
+    body = case["shapes"]["body"]
+    pose = pose_in_world(body, places)
+    R_under, t_under, _ = places[entry["body"]]
+    turn, _ = frame(entry["pose"])
+    start = pose[1] + away
+    there = R_under @ turn, start
+    phi, _, _, n = closest_points(entry["shape"], there, body["shape"], pose)
+    nearest = int(np.argmin(phi))
+    shift = (np.atleast_1d(phi)[nearest] - gap) * np.atleast_2d(n)[nearest]
+    place = few_digits(R_under.T @ (start + shift - t_under), 6)
+    case["shapes"][name] = {**entry, "pose": {**entry["pose"], "xyz": place}}
+
+
+def _direction(rng: Rng) -> Array:
+    way = rng.uniform(-1, 1, 3)
+    return np.asarray(way / np.linalg.norm(way))
+
+
+def _free_brick(rng: Rng, size: list[float], q: list[float]) -> Json:
+    """A scene of one brick, that is free."""
     body = {**free_body("body0"), **mass(rng)}
-    q = random_q(rng, {"bodies": [body]})
-    shape: Json = {"kind": "box", "size": few_digits(rng.uniform(0.05, 0.2, 3), 2)}
-    if rng.integers(2):
-        count = int(rng.choice([2, 12]))  # also fewer than are asked for
-        points = [few_digits(point) for point in rng.uniform(-0.1, 0.1, (count, 3))]
-        shape = {"kind": "cloud", "points": points}
-    shapes = {"body": on("body0", shape), "floor": on(None, _plane(rng, q[:3], 0.08))}
-    pairs = [_pair(rng, "floor", "floor", "body", int(rng.integers(2, 5)))]
-    return scene([body], shapes, q, pairs=pairs)
+    return scene([body], {"body": on("body0", {"kind": "box", "size": size})}, q, pairs=[])
 
 
 def _brick_on_solid(rng: Rng) -> Json:
-    """A brick that is turned by more or less than 0.25 rad, on a box or a ball."""
-    size = few_digits(rng.uniform(0.05, 0.2, 3), 2)
-    shape: Json = {"kind": "box", "size": few_digits(rng.uniform(0.05, 0.2, 3), 2)}
-    top = shape["size"][2] / 2
-    if rng.integers(4) == 0:
-        shape = {"kind": "sphere", "radius": 0.08}
-        top = 0.08
-    axis = rng.permutation([1.0, *rng.uniform(-0.9, 0.9, 2)])
-    axis /= np.linalg.norm(axis)
-    half_angle = float(rng.choice([0.02, 0.05, 0.1, 0.2, 0.3])) * rng.uniform(0.9, 1.1)
-    turn = few_digits([*np.sin(half_angle) * axis, np.cos(half_angle)], 4)
-    lowest = float(np.abs(rotation(np.array(turn))[2]) @ np.array(size)) / 2
-    aside = few_digits(rng.uniform(-0.08, 0.08, 2), 3)
-    height = few_digits([top + lowest + float(rng.choice(GAPS[:3]))], 5)
-    body = {**free_body("body0"), **mass(rng)}
+    """A brick that is turned by more or less than 0.25 rad on a box, or on a ball."""
     world = random_quaternion(rng)
-    place = few_digits(rotation(np.array(world)) @ [*aside, *height], 6)
-    q = [*place, *few_digits(quaternion_product(np.array(world), np.array(turn)), 6)]
-    under = on(None, shape) | {"pose": {"xyz": [0.0, 0.0, 0.0], "quaternion": world}}
-    shapes = {"body": on("body0", {"kind": "box", "size": size}), "under": under}
-    alpha, beta = ("under", "body") if rng.integers(3) else ("body", "under")
-    pairs = [_pair(rng, "stack", alpha, beta, int(rng.integers(2, 9)))]
-    return scene([body], shapes, q, pairs=pairs)
+    place = few_digits(rng.uniform(-1, 1, 3))
+    case = _free_brick(rng, few_digits(rng.uniform(0.05, 0.2, 3), 2), [*place, *world])
+    half_angle = float(rng.choice([0.02, 0.05, 0.1, 0.2, 0.3])) * rng.uniform(0.9, 1.1)
+    turn = [*np.sin(half_angle) * _direction(rng), np.cos(half_angle)]
+    case["shapes"]["body"]["pose"]["quaternion"] = few_digits(turn, 4)
+    shape = _shape(rng, "sphere" if rng.integers(4) == 0 else "box")
+    under = {"body": None, "pose": {"xyz": place, "quaternion": world}, "shape": shape}
+    R, _ = frame(under["pose"])
+    away = R @ [*rng.uniform(-0.08, 0.08, 2), -0.5]
+    _put_against(case, "under", under, float(rng.choice(GAPS[:3])), away)
+    _add_pair(rng, case, "under", "body", int(rng.integers(2, 9)))
+    return case
+
+
+def _brick_beside(rng: Rng) -> Json:
+    """Bricks along the same axes, of equal widths: corners on edges, and corners on corners."""
+    top = rng.choice([0.125, 0.25, 0.5], 3)
+    under = np.where(rng.integers(2, size=3), top, rng.choice([0.125, 0.25, 0.5], 3))
+    along = int(rng.integers(3))
+    place = (top - under) / 2 * rng.integers(-1, 2, 3)  # flush faces, or middles that meet
+    place[along] = (top + under)[along] / 2 + float(rng.choice([0.0, -1 / 64, 1 / 1024]))
+    case = _free_brick(rng, top.tolist(), [*place.tolist(), 0.0, 0.0, 0.0, 1.0])
+    case["shapes"]["under"] = on(None, {"kind": "box", "size": under.tolist()})
+    _add_pair(rng, case, "under", "body", int(rng.integers(2, 9)))
+    return case

@@ -15,20 +15,14 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.challenge.finding import Failure
-from quasistatic_ref.lab.vectors.challenge.fresh import (
-    CHALLENGED,
-    EASY,
-    HARD,
-    PLAIN,
-    fresh_case,
-    record_of,
-)
+from quasistatic_ref.lab.vectors.challenge.fresh import CHALLENGED, fresh_case, record_of
 from quasistatic_ref.lab.vectors.challenge.program import Function, Program, Simulator
+from quasistatic_ref.lab.vectors.challenge.random_scenes import EASY, HARD, PLAIN
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
 from quasistatic_ref.lab.vectors.check.usual import usual_sentence
 from quasistatic_ref.lab.vectors.check.verdict import FAILED, PASSED
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import Case, check_layer
+from quasistatic_ref.lab.vectors.trees import Json
 
 EASY_CASES = 5
 """The first cases of a layer; plain ones and hard ones take turns after them."""

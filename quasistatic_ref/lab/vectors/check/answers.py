@@ -5,8 +5,8 @@ from pathlib import Path
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import ANSWERS, fields_after_head
+from quasistatic_ref.lab.vectors.trees import Json
 
 TANGENTS = ("body", "world", "mujoco")
 QUATERNIONS = ("xyzw", "wxyz")

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from quasistatic_ref.lab.vectors.check.verdict import Difference, correct_digits
-from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import Json
 
 OPTIONAL = {
     "qp": ("A_lam", "slack", "certificate"),

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptance, failure
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.derivative import FIELDS
+from quasistatic_ref.lab.vectors.trees import Json
 
 
 def existence_verdict(record: Json, answer: Json) -> Verdict | None:

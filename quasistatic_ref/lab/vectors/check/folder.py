@@ -17,9 +17,9 @@ from quasistatic_ref.lab.vectors.check.verdict import (
     failure,
 )
 from quasistatic_ref.lab.vectors.converters import converted
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import Case, check_layer, expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.trees import Json
 
 
 def check_answers(

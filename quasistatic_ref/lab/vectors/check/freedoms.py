@@ -16,15 +16,14 @@ from quasistatic_ref.lab.vectors.check.multipliers import (
     program_rows,
     wrench_problem,
 )
-from quasistatic_ref.lab.vectors.check.other_contacts import contacts_problem, record_from
+from quasistatic_ref.lab.vectors.check.own_contacts import contacts_problem, record_from
 from quasistatic_ref.lab.vectors.check.valid_witness import each_solid, witness_problem
 from quasistatic_ref.lab.vectors.check.verdict import Difference, Verdict, acceptance, failure
 from quasistatic_ref.lab.vectors.converters import quaternion_places
-from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import Json
 
 Failing = Mapping[str, Difference]
 WITNESS = ("alpha", "beta", "n")
-CHOSEN = tuple(f"contacts.{name}" for name in ("index", *WITNESS, "d1", "d2"))
 ANOTHER = 1e3
 """An error of more tolerances than that is another answer, and may be right."""
 
@@ -112,66 +111,48 @@ def other_multipliers(case: Json, record: Json, answer: Json, failing: Failing) 
         return plain_failure(failing)
     rows = program_rows(case, record["output"])
     conic = "second_order" in case
-    problem = multipliers_problem(rows, record, answer["lam"], conic=conic)
-    if problem:
+    if problem := multipliers_problem(rows, record, answer["lam"], conic=conic):
         return failure("lam", f"lam is another one, and {problem}")
     return acceptance("other multipliers with the same A'lam")
 
 
-def other_step(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
-    """Other multipliers of a step, and the wrenches that belong to them."""
-    if next(iter(failing)).startswith("contacts."):
-        return _other_contacts(case, record, answer, failing)
-    rest = {name: d for name, d in failing.items() if name not in ("lam", "wrench")}
-    if rest or record["flags"].get("unique_multipliers", True):
-        return plain_failure(rest or failing)
-    if "lam" not in answer:
-        return failure("wrench", "wrench is another one, and the lam that it is of is not given")
-    if problem := multipliers_problem(record["output"]["A"], record, answer["lam"]):
-        return failure("lam", f"lam is another one, and {problem}")
-    if "wrench" in answer and (problem := wrench_problem(case, record, answer)):
-        return failure("wrench", problem)
-    return acceptance("other multipliers with the same A'lam")
+def step_by_definition(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
+    """Other contacts that are as good as the nearest, and what follows from them; any optimal lam.
 
-
-def _other_contacts(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
-    """Other contacts where rounding decides which ones: the rest has to follow from them."""
+    A and b follow from the answer's own contacts, delta_q is the optimum that they have, lam does
+    what multipliers do, and the wrench is that of lam.
+    """
     first = next(iter(failing.values()))
-    chosen = {name: failing[name] for name in CHOSEN if name in failing}
-    loose = "negligible" in record  # its tolerances reach as far as another point of a face
-    if not (loose or _far(chosen)) or set(record["output"]["contacts"][0]) < set(CONTACT):
-        return plain_failure(failing)
-    if problem := contacts_problem(case, record, answer["contacts"]):
-        sentence = f"{first.sentence}; nor are these other valid contacts: {problem}"
-        return failure(first.field, sentence, first.digits)
-    theirs = record_from(case, record, answer["contacts"])
-    failing = {
-        name: d
-        for name, d in differences(theirs["output"], answer, theirs["tolerance"]).items()
-        if not d.holds
-    }
-    if any(name.startswith("contacts.") for name in failing):
-        return plain_failure(failing)
-    if failing:
-        verdict = other_step(case, theirs, answer, failing)
-        if verdict.field:
-            return verdict
-    return acceptance("other contacts where rounding decides, and what follows from them")
+    if first.field.startswith("contacts."):
+        contacts = answer["contacts"]
+        wide = "negligible" in record  # tolerances that reach as far as another point of a face
+        if not (wide or _far(failing)) or not {*CONTACT} - {"J"} <= {*contacts[0]}:
+            return plain_failure(failing)
+        if problem := contacts_problem(case, record, contacts):
+            sentence = f"{first.sentence}; nor are these other valid contacts: {problem}"
+            return failure(first.field, sentence, first.digits)
+        record = record_from(case, record, contacts)
+    made = record["output"]
+    if "farkas" in made and "delta_q" in answer:
+        return failure("farkas", "of these contacts the case has no solution; farkas is missing")
+    compared = differences(made, answer, record["tolerance"])
+    loads = ("lam", "wrench")
+    other = {name: d for name, d in compared.items() if not (d.holds or name in loads)}
+    if other:
+        return plain_failure(other)
+    if "lam" in answer:
+        if problem := multipliers_problem(made["A"], record, answer["lam"]):
+            return failure("lam", f"lam is another one, and {problem}")
+        if "wrench" in answer and (problem := wrench_problem(case, record, answer)):
+            return failure("wrench", problem)
+    elif "wrench" in failing:
+        return failure("wrench", "wrench is another one, and the lam that it is of is not given")
+    return acceptance("right by what follows from its own contacts and multipliers")
 
 
 FREEDOMS: dict[str, Callable[[Json, Json, Json, Failing], Verdict]] = {
     "distance": another_witness,
     "selection": other_choice,
     "qp": other_multipliers,
-    "step": other_step,
+    "step": step_by_definition,
 }
-
-
-def dependent_fields(layer: str, record: Json) -> tuple[str, ...]:
-    """Fields whose numbers are not comparable one by one in this case."""
-    flags = record["flags"]
-    if layer == "distance" and not flags.get("unique", True):
-        return WITNESS
-    if layer in ("qp", "step") and not flags.get("unique_multipliers", True):
-        return ("lam", "wrench")
-    return ()

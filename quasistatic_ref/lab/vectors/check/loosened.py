@@ -2,9 +2,9 @@
 
 from quasistatic_ref.lab.vectors.check.compare import leaves, parts, tolerance_of
 from quasistatic_ref.lab.vectors.check.multipliers import NEGLIGIBLE
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.derivative import SHARE
 from quasistatic_ref.lab.vectors.layers.qp import UNIQUE
+from quasistatic_ref.lab.vectors.trees import Json
 
 
 def loosened(record: Json, digits: float) -> Json:

@@ -11,8 +11,8 @@ import numpy as np
 from quasistatic_ref.lab.program.wrench import contact_wrench
 from quasistatic_ref.lab.vectors.check.compare import number_problem, tolerance_of
 from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptance, failure
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
+from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.numbers.arrays import Array
 
 EPS = float(np.finfo(np.float64).eps)
@@ -95,8 +95,7 @@ def _conic_problem(lam: Array, z: Array, small: float, share: float, work: float
 def wrench_problem(case: Json, record: Json, answer: Json) -> str | None:
     """Whether the wrenches of a step belong to its own multipliers."""
     by_name = {pair["name"]: pair for pair in case["pairs"]}
-    contacts = record.get("contacts", record["output"].get("contacts"))  # of a partial answer: all
-    pairs = [by_name[contact["pair"]] for contact in contacts]
+    pairs = [by_name[contact["pair"]] for contact in record["output"]["contacts"]]
     parts = by_contact(answer["lam"], case["cone"], pairs)
     for j, (pair, lam) in enumerate(zip(pairs, parts, strict=True)):
         wrench = np.array(contact_wrench({**pair, "lam": lam}, case["cone"], case["h"]))

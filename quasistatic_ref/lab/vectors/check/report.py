@@ -11,7 +11,7 @@ from quasistatic_ref.lab.vectors.check.verdict import (
     UNSUPPORTED,
     Verdict,
 )
-from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import Json
 
 KINDS = (PASSED, ACCEPTABLE, FAILED, MISSING, UNSUPPORTED)
 HEADER = ("layer", *KINDS, "worst digits", "first failure")

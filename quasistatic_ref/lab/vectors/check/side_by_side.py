@@ -1,7 +1,7 @@
 """What is expected and what is given, side by side."""
 
 from quasistatic_ref.lab.vectors.check.compare import leaves
-from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import Json
 
 LINES = 60
 """At most so many numbers of one case are shown."""

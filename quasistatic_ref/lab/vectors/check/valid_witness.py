@@ -11,8 +11,8 @@ import numpy as np
 
 from quasistatic_ref.lab.program.distance import on_halfspace, points_on
 from quasistatic_ref.lab.program.rotation import frame
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.tables import ORIGIN
+from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.numbers.arrays import Array
 
 Sides: TypeAlias = dict[str, tuple[Json, tuple[Array, Array]]]

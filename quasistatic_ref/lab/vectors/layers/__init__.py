@@ -1,21 +1,14 @@
-"""The layers of the model, each one module with `expected` and `own`, loaded when it is used.
+"""The layers of the model, each one module with `own`, the package's answer, loaded when used.
 
-`expected` is the oracle, with the tolerance of each field, and `own` one of the programs that are
-held against it. The oracle is
-
-- in ``selection``, ``jacobian``, ``rows``, ``wrench`` and ``integrate``: the plain program
-  (``lab/program``) over exact numbers. Against it, the plain program in float64 tests rounding
-  alone. Its formulas are tested by `own` and by the ports of ``validation/ports``, which share no
-  line with it;
-- for optima: the core's exact method. The plain program checks the conditions of each optimum;
-- for distances, steps and derivatives: the files, which were made once. The package, the plain
-  program and the port are held to them.
+What is expected of the committed cases are files. They were made once: with 30 digits, in exact
+numbers and balls. The package, the plain program (``lab/program``) and the ports are held to them.
+A new case takes the package's answer where the plain program agrees (``agreed``).
 """
 
 from importlib import import_module
 from typing import Protocol, cast
 
-from quasistatic_ref.lab.vectors.expected import Expected, Json
+from quasistatic_ref.lab.vectors.trees import Json
 
 LAYERS = (
     "distance",
@@ -31,17 +24,8 @@ LAYERS = (
 """In the order in which a step goes through them; `step` is all of them at once."""
 
 
-FILES = ("distance", "step", "derivative")
-"""Those whose answers are files."""
-COMPUTED = tuple(name for name in LAYERS if name not in FILES)
-"""Those whose answers are computed."""
-
-
 class Layer(Protocol):
-    """What each module of this package offers; those of FILES have no `expected`."""
-
-    def expected(self, case_input: Json, /) -> Expected:
-        """The answer, exact or in high precision and rounded correctly."""
+    """What each module of this package offers."""
 
     def own(self, case_input: Json, /) -> Json:
         """The package's own float64 answer, of the same shape as the output."""

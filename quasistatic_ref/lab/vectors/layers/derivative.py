@@ -4,7 +4,7 @@ Its 337 cases are files. They were made once, as differences of steps without an
 mechanism to q+, each proved to 15 digits by a second difference.
 """
 
-from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import Json
 
 FIELDS = {
     "q": "dq_dq",

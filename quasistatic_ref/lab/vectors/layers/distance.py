@@ -4,7 +4,7 @@ Its 457 cases are files. They were made once, in exact numbers; a case's toleran
 own rounding comes to.
 """
 
-from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import Json
 
 
 def own(case_input: Json) -> Json:

@@ -4,35 +4,11 @@ from itertools import islice
 
 import numpy as np
 
-from quasistatic_ref.lab.program import rows as program
 from quasistatic_ref.lab.scenes.contacts import NUMBERS
-from quasistatic_ref.lab.vectors.exact.entered import exact_case
-from quasistatic_ref.lab.vectors.exact.precision import rounded_results, short
-from quasistatic_ref.lab.vectors.exact.rational import UNIT, tolerance
-from quasistatic_ref.lab.vectors.exact.sizes import largest, sizes
-from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
+from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Contacts
 from quasistatic_ref.step.friction import friction_rows, row_constants
-
-ROUNDINGS = 16
-"""Of an entry of A: a dot product of three terms, its product with mu, and the sum of four such,
-each counted twice."""
-
-
-def expected(case_input: Json) -> Expected:
-    """A and b of all contacts, contact-major, without rounding until the end."""
-    case = exact_case(case_input)
-    output, digits = rounded_results(lambda: program.rows(case))
-    size = largest(program.rows(sizes(case))["A"])
-    return Expected(
-        output=output,
-        digits=short(digits),
-        tolerance={
-            "A": tolerance(ROUNDINGS * UNIT * size, "rounding of the sums that make an entry"),
-            "b": Tolerance(0.0, "b is -phi of the contact, which is not rounded"),
-        },
-    )
 
 
 def row_count(name: str, rows: int) -> int:

@@ -4,7 +4,7 @@ Its 173 cases are files. They were made once: each layer's correctly rounded ans
 one's input, and tolerances and ties came from distances in exact numbers.
 """
 
-from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import Json
 
 
 def own(case_input: Json) -> Json:

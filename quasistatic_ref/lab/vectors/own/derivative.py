@@ -3,8 +3,8 @@
 import numpy as np
 
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.own.step import posed_case
+from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.step.reason import ZERO_FRICTION
 

@@ -16,9 +16,9 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.forces import COMPLIANCE
 from quasistatic_ref.lab.program.rotation import rotation
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.own.shapes import own_shape
 from quasistatic_ref.lab.vectors.own.system import OwnSystem, own_system
+from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.forces.forces import contact_forces
 from quasistatic_ref.optional.forces.of_group import group_compliance
@@ -154,13 +154,16 @@ def _pair(pair: Json, shapes: Json, mine: OwnSystem) -> ContactPair:
 
 
 def wrench_force(case: Json, mine: OwnSystem, q: Array) -> Array:
-    """Generalised force of the wrenches, each at its body's own centre of mass, shape (n_v,)."""
+    """Generalised force of the wrenches, shape (n_v,).
+
+    Each acts at its body's centre of mass, or at the origin of a body that has none.
+    """
     bodies = {body["name"]: body for body in case["mechanism"]["bodies"]}
     kinematics = mine.system.kinematics(q)
     force = np.zeros(mine.system.n_v)
     for wrench in case.get("wrenches", []):
         link = mine.links[wrench["body"]]
-        arm = kinematics.R[link] @ np.array(bodies[wrench["body"]]["com"])
+        arm = kinematics.R[link] @ np.array(bodies[wrench["body"]].get("com", (0, 0, 0)))
         torque = np.array(wrench["torque"]) + np.cross(arm, wrench["force"])
         force += kinematics.J[link].T @ np.concatenate([wrench["force"], torque])
     return force

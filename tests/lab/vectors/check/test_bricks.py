@@ -9,7 +9,7 @@ import pytest
 from quasistatic_ref.lab.program import step as program
 from quasistatic_ref.lab.vectors.challenge.fresh import record_of
 from quasistatic_ref.lab.vectors.check.case import case_verdict
-from quasistatic_ref.lab.vectors.check.other_contacts import contacts_problem
+from quasistatic_ref.lab.vectors.check.own_contacts import contacts_problem
 from quasistatic_ref.lab.vectors.own.step import own_step
 from quasistatic_ref.lab.vectors.tables import free_body, on, scene
 from quasistatic_ref.lab.vectors.trees import mapped

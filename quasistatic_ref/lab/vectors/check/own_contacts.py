@@ -1,9 +1,9 @@
-"""Contacts of a step that are not the expected ones, but as good, and the step that they make.
+"""The contacts of an answer: whether they are as good as the nearest, and the step that they make.
 
 Which of several points at the same distance are kept, where the closest points of parallel faces
 lie, and along which axis d1 points where two of them are as far from n, is decided by rounding
-in float64. Such contacts are checked by what they have to be, the candidates being the plain
-program's; J, A, b and the answer are then computed from them without rounding.
+in float64. So contacts are checked by what they have to be, the candidates being the plain
+program's. J, A and b of these contacts are the plain program's, too; the optimum is exact.
 """
 
 from dataclasses import dataclass
@@ -13,15 +13,13 @@ import numpy as np
 
 from quasistatic_ref.lab.program.candidates import candidates
 from quasistatic_ref.lab.program.distance import closest_points, corners
+from quasistatic_ref.lab.program.layers import plain
 from quasistatic_ref.lab.program.mechanism import kinematics
-from quasistatic_ref.lab.program.step import SHOWN, pose_in_world
+from quasistatic_ref.lab.program.step import entry_of, pose_in_world, step_at
 from quasistatic_ref.lab.vectors.check.compare import tolerance_of
 from quasistatic_ref.lab.vectors.check.valid_witness import Sides, each_solid, witness_problem
-from quasistatic_ref.lab.vectors.exact.compliant import compliant_forces
-from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.lab.vectors.layers.qp import matrices
-from quasistatic_ref.lab.vectors.layers.rows import by_contact
+from quasistatic_ref.lab.vectors.layers.qp import exact_optimum
+from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.numbers.arrays import Array
 
 FIELDS = ("phi", "alpha", "beta", "n")
@@ -146,35 +144,9 @@ def _tangent_along_axis(axis: int, n: Array) -> Array:
 
 def record_from(case: Json, record: Json, contacts: Json) -> Json:
     """What is expected of a step with these contacts: H, g and all tolerances stay."""
+    at = kinematics(case["mechanism"], np.array(case["q"]))
     pairs = {pair["name"]: pair for pair in case["pairs"]}
-    entries = [{**_of_pair(case, pairs[contact["pair"]]), **contact} for contact in contacts]
-    place = {key: case[key] for key in ("mechanism", "q")}
-    blocks = layer("jacobian").expected({**place, "contacts": entries}).output["J"]
-    entries = [{**entry, "J": J} for entry, J in zip(entries, blocks, strict=True)]
-    rows = layer("rows").expected({"cone": case["cone"], "contacts": entries}).output
-    qp_case = {key: record["output"][key] for key in ("H", "g")} | rows
-    solved = layer("qp").expected(qp_case)
-    output = {**qp_case, "contacts": [{key: entry[key] for key in SHOWN} for entry in entries]}
-    unique = record["flags"]["unique_multipliers"] and solved.flags["unique_multipliers"]
-    flags = {**record["flags"], "unique_multipliers": unique}
-    if "farkas" in solved.output:
-        farkas = solved.output["farkas"]
-        return {**record, "output": {**output, "farkas": farkas}, "flags": flags}
-    output |= {name: solved.output[name] for name in ("delta_q", "lam", "A_lam")}
-    shares = by_contact(output["lam"], case["cone"], entries)
-    loaded = [{**entry, "lam": lam} for entry, lam in zip(entries, shares, strict=True)]
-    loads = {"h": case["h"], "cone": case["cone"], "contacts": loaded, "bodies": {}}
-    output["wrench"] = layer("wrench").expected(loads).output["wrench"]
-    moved = {**place, "delta_q": output["delta_q"]}
-    output["q_next"] = layer("integrate").expected(moved).output["q"]
-    if "forces" in record["output"]:
-        forces, _ = compliant_forces(matrices(qp_case), case, entries, output["lam"])
-        output["forces"] = forces
-    return {**record, "output": output, "flags": flags}
-
-
-def _of_pair(case: Json, pair: Json) -> Json:
-    """What all contacts of a pair have in common."""
-    bodies = {f"{side}_body": case["shapes"][pair[side]]["body"] for side in ("alpha", "beta")}
-    friction = {k: pair[k] for k in ("mu_v", "mu_omega", "rows", "compliance") if k in pair}
-    return {"pair": pair["name"], **bodies, **friction}
+    entries = [{**entry_of(case, pairs[contact["pair"]]), **contact} for contact in contacts]
+    made = plain(step_at(case, at, entries, exact_optimum))
+    kept = {key: record["output"][key] for key in ("H", "g")}
+    return {**record, "output": {**made, **kept}}
