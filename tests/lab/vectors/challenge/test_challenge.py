@@ -126,7 +126,7 @@ def test_the_package_itself_is_right():
 
 
 @pytest.mark.parametrize("level", [EASY, PLAIN, HARD])
-def test_the_package_and_the_plain_program_agree_on_what_is_cut_out_of_a_scene(level):
+def test_the_package_and_the_plain_program_agree_on_new_cases(level):
     """But on curved solids that overlap or touch a solid, which the plain program does not do."""
     for seed in range(12):
         cases = cut_scene((seed, 0), level)
