@@ -48,3 +48,9 @@ class Reply:
         assert self.x is not None
         assert self.lam is not None
         return self.x, self.lam
+
+
+def check_not_interrupted(status: str) -> None:
+    """KeyboardInterrupt if a solver says that Ctrl-C, which it took for itself, has ended it."""
+    if status.lower().startswith("interrupted"):
+        raise KeyboardInterrupt

@@ -12,6 +12,7 @@ import cvxpy.settings as words
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import DEFAULT, Options
+from quasistatic_ref.solve.interruptible import INTERRUPTIBLE
 from quasistatic_ref.solve.problem_data import CANON, is_large
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver
@@ -94,7 +95,7 @@ def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options) -> Reply
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the status says so, too
         problem.solve(
-            solver=name.upper(),
+            solver=INTERRUPTIBLE.get(name, name.upper()),
             warm_start=False,
             canon_backend=CANON,
             ignore_dpp=is_large(problem),

@@ -9,7 +9,7 @@ import qpsolvers
 
 from quasistatic_ref.numbers.arrays import Mask
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
-from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.reply import Reply, check_not_interrupted
 from quasistatic_ref.solve.solver import BackendSolver
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.standard_form import StandardForm
@@ -70,6 +70,7 @@ def qpsolvers_reply(form: StandardForm, name: str, options: Options, equations: 
         solution = qpsolvers.solve_problem(program, name, **options)
     seconds = perf_counter() - begin
     status, iterations = _status(solution)
+    check_not_interrupted(status)
     solve_time, setup = _account(solution)
     z = solution.z
     if z is not None and e:
