@@ -110,10 +110,18 @@ def of_study():
     page = (ROOT / "validation" / "studies" / "default" / "summary.md").read_text("utf-8")
     shown = {"study-problems": re.search(r"^(\d+) problems", page, re.M)[1]}
     table = page.partition("## What solvers say")[2].partition("## Who")[0]
-    for solver, *counts in re.findall(r"^\| (\w+) \|" + r" ([\d,]+) \|" * 4, table, re.M):
-        whose = "" if solver == "all" else f"-{solver}"
-        names = ("reached", "not-reached", "without", "infeasible")
-        shown |= {f"study-{name}{whose}": n for name, n in zip(names, counts, strict=True)}
+    head, _, *lines = [line.strip("| ").split(" | ") for line in re.findall(r"^\|.*", table, re.M)]
+    names = {
+        "solved, reached, a solution": "reached",
+        "solved, not reached, a solution": "not-reached",
+        "solved, reached, no solution": "reached-none",
+        "solved, not reached, no solution": "not-reached-none",
+        "infeasible, a solution": "infeasible",
+    }
+    for line in lines:
+        counts = dict(zip(head, line, strict=True))
+        whose = "" if counts["solver"] == "all" else f"-{counts['solver']}"
+        shown |= {f"study-{name}{whose}": counts[said] for said, name in names.items()}
     return shown
 
 

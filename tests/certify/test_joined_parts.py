@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag
 
-from quasistatic_ref.certify.degeneracy import form_degeneracy
+from quasistatic_ref.certify.degeneracy import form_degeneracy, step_degeneracy
 from quasistatic_ref.certify.exact import exact_slack, form_optimum
+from quasistatic_ref.lab.scenes.rigid import program_step
 from quasistatic_ref.lab.study.problems.answers import exact_answer
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.oracles.forms import exact_form_of
@@ -36,8 +37,8 @@ def test_parts_that_nothing_couples_have_the_bits_of_the_whole(seed):
     for name, of_whole in (("x", whole.delta_q), ("net", whole.net), ("slack", slack)):
         assert getattr(answer, name).tobytes() == of_whole.tobytes()
     unique, smooth, _ = form_degeneracy(without_parts, whole.working_set)
-    assert answer.unique == unique
-    assert answer.differentiable == smooth
+    facts = step_degeneracy(program_step(*form), whole.working_set)
+    assert (facts.multipliers_unique, facts.differentiable) == (unique, smooth)
 
 
 def test_a_part_without_a_solution_is_proof_that_the_whole_has_none():

@@ -1,15 +1,11 @@
-"""Quadratic programs that CVXPY compiles once, as studies need them."""
+"""A quadratic program that CVXPY compiles once, as studies need it."""
 
 import cvxpy as cp
 import numpy as np
 
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.problem_data import CANON
-from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.through_cvxpy import cvxpy_reply
 
 
 class CompiledProblem:
@@ -45,31 +41,3 @@ class CompiledProblem:
         if any(part is None for part in parts):
             return None
         return np.concatenate([np.ravel(part) for part in parts]).astype(np.float64)
-
-
-class CompiledProblems:
-    """A backend through CVXPY with the last program compiled, as a study needs it.
-
-    Parameters
-    ----------
-    name : str
-        Of the backend.
-    """
-
-    def __init__(self, name: str) -> None:
-        self.name = name
-        self._last: CompiledProblem | None = None
-
-    def reply(self, program: Program, options: Options) -> Reply:
-        """The reply to a program, from a cold start.
-
-        Parameters
-        ----------
-        program : Program
-        options : dict
-            In the backend's own names.
-        """
-        last = self._last
-        if last is None or bits(last.program) != bits(program):
-            last = self._last = CompiledProblem(program, self.name)
-        return cvxpy_reply(last, self.name, options)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.lab.study.saying import INFEASIBLE, SOLVED, saying
 from quasistatic_ref.lab.study.solvers import CVXPY, FUNCTION, QPSOLVERS, Solver
@@ -58,9 +59,18 @@ def call_of(solver: Solver) -> Call:
 
 
 def _by_cvxpy(name: str) -> Call:
-    from quasistatic_ref.lab.study.compiled_problems import CompiledProblems  # heavy: CVXPY
+    from quasistatic_ref.lab.study.compiled_problems import CompiledProblem  # heavy: CVXPY
+    from quasistatic_ref.solve.through_cvxpy import cvxpy_reply
 
-    return CompiledProblems(name).reply
+    last: CompiledProblem | None = None
+
+    def call(program: Program, options: Options) -> Reply:
+        nonlocal last
+        if last is None or bits(last.program) != bits(program):
+            last = CompiledProblem(program, name)
+        return cvxpy_reply(last, name, options)
+
+    return call
 
 
 def _by_qpsolvers(name: str) -> Call:

@@ -111,23 +111,14 @@ def _natural(table: Any) -> Any:
 def _sayings(table: Any) -> list[str]:
     """How many calls of each solver said what, a line a solver and one for all."""
     asked = _natural(table)[lambda rows: rows["accuracy"].notna()]
-    solved, infeasible, other = (asked["says"] == says for says in (SOLVED, INFEASIBLE, OTHER))
-    feasible = asked["feasible"]
-    arrived = asked["reached"].eq(True)
-    kinds = {
-        "solved, reached": solved & feasible & arrived,
-        "solved, not reached": solved & feasible & ~arrived,
-        "solved, without a solution": solved & ~feasible,
-        "infeasible, with a solution": infeasible & feasible,
-        "infeasible, without one": infeasible & ~feasible,
-        "other": other,
-    }
-    counts = [asked[kind].groupby("solver").size().rename(name) for name, kind in kinds.items()]
-    names = sorted(set(asked["solver"]))
-    lines = [[name, *(int(count.get(name, 0)) for count in counts)] for name in names]
-    lines.append(["all", *(int(count.sum()) for count in counts)])
-    rows = [[name, *(f"{count:,}" for count in line)] for name, *line in lines]
-    return markdown_table(["solver", *kinds], rows, 1)
+    truth = asked["feasible"].map({True: ", a solution", False: ", no solution"})
+    arrived = asked["reached"].map({True: ", reached", False: ", not reached"})
+    words = asked["says"] + arrived.where(asked["says"] == SOLVED, "") + truth
+    kinds = words.where(asked["says"] != OTHER, OTHER)
+    counts = asked.pivot_table("n", "solver", kinds.rename("said"), aggfunc="size", fill_value=0)
+    counts.loc["all"] = counts.sum()
+    rows = [[name, *(f"{n:,}" for n in line)] for name, *line in counts.itertuples()]
+    return markdown_table(["solver", *counts.columns], rows, 1)
 
 
 def _by_setting(table: Any) -> Any:

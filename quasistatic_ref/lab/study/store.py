@@ -1,4 +1,4 @@
-"""The rows of a study: one Parquet file, written as a whole, that pandas and DuckDB ask."""
+"""The rows of a study: one Parquet file, written as a whole, that pandas reads."""
 
 from collections.abc import Iterable
 from dataclasses import asdict

@@ -1,5 +1,7 @@
 """The committed study: its summary is what the rows beside it give, by plain loops, too."""
 
+from collections import Counter
+from itertools import product
 from statistics import median
 
 import pytest
@@ -47,18 +49,14 @@ def test_lines_of_the_tables_by_loops_over_the_rows(committed, table):
     shares = [f"{100 * sum(d >= most for d in digits) / len(digits):.1f}" for most in (6, 3)]
     assert line[1:6] == ["high", str(len(high)), *shares, f"{median(digits):.1f}"]
     assert float(line[6]) == pytest.approx(1e3 * median(row.seconds for row in high), 1e-2)
-    asked = [row for row in natural if row.accuracy]
-    counts = {
-        1: [r for r in asked if r.says == "solved" and r.feasible and r.reached],
-        2: [r for r in asked if r.says == "solved" and r.feasible and not r.reached],
-        3: [r for r in asked if r.says == "solved" and not r.feasible],
-        4: [r for r in asked if r.says == "infeasible" and r.feasible],
-    }
-    for name in ("all", "highs"):
-        (line,) = cells(text, name)
-        for place, rows in counts.items():
-            count = sum(name in ("all", row.solver) for row in rows)
-            assert line[place] == f"{count:,}"
+    said = Counter(
+        (row.says, row.reached, row.feasible) for row in natural if row.accuracy is not None
+    )
+    ((*counts,),) = cells(text, "all")
+    wanted = [said["infeasible", False, one] for one in (True, False)]
+    wanted.append(sum(count for key, count in said.items() if key[0] == "other"))
+    wanted += [said["solved", *one] for one in product((False, True), (False, True))]
+    assert sorted(counts[1:]) == sorted(f"{count:,}" for count in wanted)
 
 
 def test_the_page_is_written_with_its_figures(committed, tmp_path):

@@ -1,14 +1,13 @@
 """What a solver returns through each door, and what its row says of it."""
 
 import importlib
-import math
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.lab.study.compiled_problems import CompiledProblems
+from quasistatic_ref.lab.study.doors import call_of
 from quasistatic_ref.lab.study.limits import Limits
 from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.lab.study.run import study
@@ -61,49 +60,37 @@ def test_an_option_that_a_solver_refuses_is_its_row(tmp_path, three):
 def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():
     program = Program(np.array([[3.0, 1.0], [1.0, 2.0]]), np.array([0.0, 4.0]), np.eye(2),
                       np.array([1.0, -9.0]))  # fmt: skip
-    programs = CompiledProblems("osqp")
+    call = call_of(Solver("osqp", "cvxpy", "osqp"))
     options = BACKENDS["osqp"].attempts(1e-10)[0][1]
-    first, again = (programs.reply(program, options) for _ in range(2))
+    first, again = (call(program, options) for _ in range(2))
     assert first.iterations == again.iterations > 1
 
 
-def nearest():
-    """The point of x_1 + x_2 = 1, x_1 >= 0.75 that is nearest to the origin: (0.75, 0.25)."""
-    rows = np.array([[1.0, 1.0], [1.0, 0.0]])
-    return SimpleNamespace(
-        id="nearest",
-        family="mine",
-        dial=None,
-        feasible=True,
-        program=Program(np.eye(2), np.zeros(2), rows, np.array([1.0, 0.75]), equations=1),
-        units=Units(np.array([0.5, 2.0]), 4.0, 0.25),
-        digits=digits,
-    )
-
-
-def digits(x):
-    """Of the x of this problem."""
-    return -math.log10(abs(x - [0.75, 0.25]).max() + 1e-16)
+X = np.array([0.75, 0.25])
+"""The point of x_1 + x_2 = 1, x_1 >= 0.75 that is nearest to the origin."""
+NEAREST = SimpleNamespace(
+    id="nearest",
+    family="mine",
+    dial=None,
+    feasible=True,
+    program=Program(np.eye(2), np.zeros(2), np.array([[1.0, 1], [1, 0]]), np.array([1, 0.75]), 1),
+    units=Units(np.array([0.5, 2.0]), 4.0, 0.25),
+    digits=lambda x: -np.log10(abs(x - X).max() + 1e-16),
+)
 
 
 def by_substitution(P, q, G, h, A, b):
     """It knows where x_2 = 1 - x_1."""
-    assert (A.tolist(), b.tolist(), G.tolist(), h.tolist()) == (
-        [[1.0, 1.0]],
-        [1.0],
-        [[-1.0, 0.0]],
-        [-0.75],
-    )
-    return np.array([0.75, 0.25]), np.array([0.5]), np.array([-0.25]), "optimal"
+    assert [part.tolist() for part in (A, b, G, h)] == [[[1, 1]], [1], [[-1, 0]], [-0.75]]
+    return X, np.array([0.5]), np.array([-0.25]), "optimal"
 
 
-def test_a_problem_of_others_with_an_equation_goes_through_each_door(tmp_path):
+@pytest.mark.parametrize("units", ["raw", "natural"])
+def test_a_problem_of_others_with_an_equation_goes_through_each_door(tmp_path, units):
     """Residuals see the signs of multipliers, of which an equation's may be any."""
     mine = function_solver(by_substitution, options={"tuned": {}})
-    solvers = ["qpsolvers:daqp", "cvxpy:clarabel", mine]
-    rows = study([nearest()], solvers, ["tuned"], tmp_path, units=["raw"])
-    natural = study([nearest()], solvers[:2], ["tuned"], tmp_path)[3:]
-    assert [(row.family, row.dial, row.n, row.m) for row in rows] == [("mine", None, 2, 2)] * 3
-    assert [row.says for row in rows + natural] == ["solved"] * 5
-    assert all(max(row.primal, row.dual, row.gap) < 1e-8 for row in rows + natural)
-    assert all(row.digits > 7 for row in rows + natural)
+    solvers = ["qpsolvers:daqp", "cvxpy:clarabel", *([mine] if units == "raw" else [])]
+    for row in study([NEAREST], solvers, ["tuned"], tmp_path, units=[units]):
+        assert (row.family, row.dial, row.n, row.m, row.says) == ("mine", None, 2, 2, "solved")
+        assert max(row.primal, row.dual, row.gap) < 1e-8
+        assert row.digits > 7

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.certify.degeneracy import step_degeneracy
 from quasistatic_ref.certify.exact import exact_slack, optimum_by_groups
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.form import StepForm
@@ -39,6 +38,4 @@ def exact_answer(form: StandardForm, warm: Sequence[int] = ()) -> Answer:
     slack = np.zeros(step.m)
     for group, part in parts:
         slack[group.rows] = exact_slack(StepForm(part), group.within(optimum.working_set))
-    facts = step_degeneracy(step, optimum.working_set)
-    return Answer(EXACT, 0.0, optimum.delta_q, optimum.net, slack, optimum.lam, {},
-                  optimum.walks, facts.multipliers_unique, facts.differentiable)  # fmt: skip
+    return Answer(EXACT, 0.0, optimum.delta_q, optimum.net, slack, optimum.lam, {})

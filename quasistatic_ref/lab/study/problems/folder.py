@@ -162,9 +162,7 @@ def _problems(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> 
             for name, size in (("x", n), ("net", n), ("slack", m), ("lam", m))
         )
         farkas = {int(i): y for i, y in (line["farkas"] or {}).items()}
-        answer = Answer(record["kind"], record["error"], x, net, slack, lam, farkas,
-                        record["walks"], record["unique_multipliers"],
-                        record["differentiable"])  # fmt: skip
+        answer = Answer(record["kind"], record["error"], x, net, slack, lam, farkas)
         facts = {key: v for key, v in line.items() if key not in ("log2_units", "farkas")}
         return Problem(facts, H, g, A, b, units, answer)
 

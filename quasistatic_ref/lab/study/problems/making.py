@@ -47,13 +47,12 @@ def problems_of_runs(scenarios: Sequence[str], total: int, progress: bool = True
         for i, name in enumerate(scenarios[:total]):
             scenario = load_scenario(name, record="full", fast=True)
             run = _run(scenario)
-            k = max(pair.k for pair in scenario.pairs)
             share = total // len(scenarios) + (i < total % len(scenarios))
             for s in evenly(run.steps, share):
                 one = f"{SCENARIOS}/{Path(name).stem}/{s}"
                 lam = run["lam"][s]
                 pressed = np.flatnonzero(lam[np.isfinite(lam)])
-                problems.append(problem_of(run.step_data(s), one, k, pressed.tolist()))
+                problems.append(problem_of(run.step_data(s), one, pressed.tolist()))
                 bar.update()
     return problems
 
@@ -68,7 +67,7 @@ def _run(scenario: Scenario) -> Trajectory:
         raise
 
 
-def problem_of(step: StepData, name: str, k: int, warm: Sequence[int]) -> Problem:
+def problem_of(step: StepData, name: str, warm: Sequence[int]) -> Problem:
     """A problem from a step: what it is, and its exact answer.
 
     Parameters
@@ -76,8 +75,6 @@ def problem_of(step: StepData, name: str, k: int, warm: Sequence[int]) -> Proble
     step : StepData
     name : str
         Of the problem; its first part is the family.
-    k : int
-        Closest points per pair.
     warm : sequence of int
         Rows that the exact method starts from, such as those that bear load in the exact step: in
         its float64 numbers, of which the problem is, they are nearly the same.
@@ -90,22 +87,9 @@ def problem_of(step: StepData, name: str, k: int, warm: Sequence[int]) -> Proble
         "id": name,
         "family": name.partition("/")[0],
         "kind": QP,
-        "n": len(g),
-        "m": len(b),
-        "contacts": step.contacts.n_c,
-        "h": step.h,
-        "k": k,
         "dial": None,
         "sequence": None,
         "length": error_length(H, g, x, single_loads(step)),
-        "status": answer.status,
-        "answer": {
-            "kind": answer.kind,
-            "error": answer.error,
-            "walks": answer.walks,
-            "unique_multipliers": answer.unique,
-            "differentiable": answer.differentiable,
-        },
         "tags": [],
     }
     units = units_of(form)

@@ -1,19 +1,18 @@
 """One quadratic program of contact: its numbers without zeros, its answer, what is known of it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-import numpy as np
 from scipy.sparse import csr_matrix
 
-from quasistatic_ref.certify.norm import digits_of_error, energy_norm, error_length
+from quasistatic_ref.certify.norm import digits_of_error, energy_norm
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.standard_form import StandardForm
-from quasistatic_ref.step.units import Units
+from quasistatic_ref.step.units import Units, si_units
 
 QP, SOCP = "qp", "socp"
 """Rows A x >= b; or blocks of four, (A x - b)_0 >= |(A x - b)_1:3|."""
@@ -42,10 +41,6 @@ class Answer:
     farkas : mapping of int to str
         Of an infeasible problem, in place of the rest: y_i > 0 by row as ``"p/q"``, with A'y = 0
         and b'y > 0 without rounding.
-    walks : int
-        Rows that the exact method added to those it began with; 0 where it was not used.
-    unique, differentiable : bool or None
-        Whether lam is the only one, and x is differentiable with respect to g; None: not known.
     """
 
     kind: str
@@ -55,9 +50,6 @@ class Answer:
     slack: Array
     lam: Array
     farkas: Mapping[int, str]
-    walks: int = 0
-    unique: bool | None = None
-    differentiable: bool | None = None
 
     @property
     def status(self) -> str:
@@ -112,45 +104,39 @@ class Problem:
 
     @property
     def error_length(self) -> float:
-        """The length that errors are divided by, in the norm of H [(N m s)^0.5].
+        """The length that errors are divided by, in the norm of H [(N m s)^0.5]."""
+        return float(self.facts["length"])
 
-        It is ``length`` in the line of the problem, which was made of a step. Where that is
-        missing, it is formed without what each load asks for alone.
-        """
-        if "length" in self.facts:
-            return float(self.facts["length"])
-        x = self.answer.x if self.feasible else np.zeros(len(self.g))
-        return error_length(self.H.toarray(), self.g, x)
-
-    @property
+    @cached_property
     def natural(self) -> "Problem":
         """The same in natural units, without rounding; Farkas vectors are those of SI units."""
-        S = self.units.coordinate
-        ell = self.units.length
-        rho = self.units.size
-        a = self.answer
-        one = Units(np.ones(len(S)), 1.0, 1.0)
-        lam_unit = ell / rho
-        if a.farkas:
-            answer = a
-        else:
-            slack = a.slack / (rho * ell)
-            lam = a.lam * lam_unit
-            answer = Answer(a.kind, a.error, a.x / (rho * S), a.net * S / rho, slack, lam, {},
-                            a.walks, a.unique, a.differentiable)  # fmt: skip
-        H = csr_matrix(self.H.multiply(S).multiply(S[:, None]))
-        A = csr_matrix(self.A.multiply(S / ell))
-        g = self.g * (S / rho)
-        b = self.b / (rho * ell)
-        facts = dict(self.facts) | {"length": self.error_length / rho}
-        return Problem(facts, H, g, A, b, one, answer)
+        S, ell, rho = self.units
+        answer = self.answer
+        if self.feasible:
+            answer = replace(
+                answer,
+                x=answer.x / (rho * S),
+                net=answer.net * S / rho,
+                slack=answer.slack / (rho * ell),
+                lam=answer.lam * (ell / rho),
+            )
+        return replace(
+            self,
+            facts={**self.facts, "length": self.error_length / rho},
+            H=csr_matrix(self.H.multiply(S).multiply(S[:, None])),
+            g=self.g * (S / rho),
+            A=csr_matrix(self.A.multiply(S / ell)),
+            b=self.b / (rho * ell),
+            units=si_units(len(S)),
+            answer=answer,
+        )
 
-    @property
+    @cached_property
     def form(self) -> StandardForm:
         """H, g, A, b as arrays."""
         return StandardForm(self.H.toarray(), self.g, self.A.toarray(), self.b)
 
-    @cached_property
+    @property
     def program(self) -> Program:
         """H, g, A, b as arrays; InputError if its rows are cones."""
         if self.facts["kind"] != QP:
@@ -159,7 +145,7 @@ class Problem:
 
     def digits(self, x: Array) -> float:
         """Correct digits of an x, shape (n,), in SI units [-]; if there is a solution."""
-        S = self.units.coordinate
-        H = csr_matrix(self.H.multiply(S).multiply(S[:, None]))
-        error = energy_norm(H.toarray()).of_displacement((x - self.answer.x) / S)
-        return digits_of_error(error / self.error_length)
+        natural = self.natural
+        off = x / (self.units.size * self.units.coordinate) - natural.answer.x
+        error = energy_norm(natural.form.H).of_displacement(off)
+        return digits_of_error(error / natural.error_length)
