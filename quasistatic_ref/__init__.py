@@ -57,6 +57,9 @@ _HOMES = {
     "certify.verdict": "Verdict",
     "certify.contact_forces": "ContactForces",
     "optional.forces.forces": "contact_forces",
+    # Any quadratic program.
+    "optional.qp.exact": "exact_qp",
+    "optional.qp.answer": "ExactQP QPInfeasible",
     # A run in pictures and numbers.
     "optional.show.figures.animation": "animate",
     "optional.show.figures.draw": "draw_scene draw_scenes",
@@ -137,6 +140,8 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.optional.guests.mujoco import mujoco_step as mujoco_step
     from quasistatic_ref.optional.guests.mujoco_opinion import mujoco_opinion as mujoco_opinion
     from quasistatic_ref.optional.guests.scene import mujoco_scenario as mujoco_scenario
+    from quasistatic_ref.optional.qp.answer import ExactQP as ExactQP, QPInfeasible as QPInfeasible
+    from quasistatic_ref.optional.qp.exact import exact_qp as exact_qp
     from quasistatic_ref.optional.scans.body import scanned_body as scanned_body
     from quasistatic_ref.optional.show.figures.animation import animate as animate
     from quasistatic_ref.optional.show.figures.draw import (

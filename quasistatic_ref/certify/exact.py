@@ -92,10 +92,10 @@ def form_optimum(
 
     """
     end = dual_active_set(form, warm, entering_row)
-    return end if isinstance(end, Combination) else _rounded(form, end)
+    return end if isinstance(end, Combination) else rounded_optimum(form, end)
 
 
-def _rounded(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
+def rounded_optimum(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
     """The optimum that the method ended with, its numbers rounded."""
     working = minimiser.working
     lam = np.zeros(form.m)

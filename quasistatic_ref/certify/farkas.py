@@ -104,10 +104,8 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
     form = StepForm(step)
     if len(exact) != form.m:
         return f"the Farkas vector has {len(exact)} entries, the step {form.m} rows"
-    # By pattern first: Fraction would read "1e999999999", and never return.
-    parts = [_FRACTION.fullmatch(text) for text in exact]
-    y = [fmpq(fmpz(part[1]), fmpz(part[2] or "1")) for part in parts if part]
-    if len(y) < len(exact):
+    y = fractions_read(exact)
+    if y is None:
         return "the Farkas vector has entries that are no fractions"
     if any(y_i < 0 for y_i in y):
         return "the Farkas vector has a negative entry"
@@ -121,3 +119,11 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
     if not sums[-1] < 0:
         return "b'y is not positive"
     return None
+
+
+def fractions_read(texts: Sequence[str]) -> list[fmpq] | None:
+    """The fractions ``"p/q"`` or ``"p"``; None if a text is none."""
+    # By pattern first: Fraction would read "1e999999999", and never return.
+    parts = [_FRACTION.fullmatch(text) for text in texts]
+    read = [fmpq(fmpz(part[1]), fmpz(part[2] or "1")) for part in parts if part]
+    return read if len(read) == len(parts) else None

@@ -32,6 +32,7 @@ from flint import arb, arb_mat, fmpq, fmpz
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.dependence import implied
+from quasistatic_ref.certify.groups import labels
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.step.cones import cone
@@ -416,19 +417,28 @@ def _implied_kinds(cone_name: str, held: tuple[int, ...]) -> list[bool]:
 def inverse(H: arb_mat) -> arb_mat:
     """The inverse, in balls, of an exact matrix that is positive definite.
 
-    Between coordinates that H does not couple it is zero without a radius, so that a coordinate
-    without a load and a contact is seen to stay where it is.
+    By its blocks. Between coordinates that H does not couple it is zero without a radius, so that a
+    coordinate without a load and a contact is seen to stay where it is.
     """
     n = H.nrows()
-    coupled = np.array([not v.is_zero() for v in H.entries()]).reshape(n, n)
-    for _ in range(n.bit_length()):  # paths of 1, 2, 4, ... couplings
-        coupled = coupled @ coupled
+    entries = H.entries()
+    coupled = np.array([not v.is_zero() for v in entries], dtype=bool).reshape(n, n)
+    block_of, _ = labels(coupled)
+    full = [arb(0)] * (n * n)
+    for first in np.unique(block_of):
+        at = np.flatnonzero(block_of == first)
+        places = (at[:, None] * n + at).ravel().tolist()
+        block = _block_inverse(arb_mat(len(at), len(at), [entries[k] for k in places]))
+        for k, v in zip(places, block.entries(), strict=True):
+            full[k] = v
+    return arb_mat(n, n, full)
+
+
+def _block_inverse(H: arb_mat) -> arb_mat:
     precision = PRECISION
     while True:  # ends: H is regular, so some precision resolves it
         with working_precision(precision):
             try:
-                dense = H.inv().entries()
+                return H.inv()
             except ZeroDivisionError:
                 precision *= 2
-                continue
-        return arb_mat(n, n, [v if c else 0 for v, c in zip(dense, coupled.flat, strict=True)])

@@ -13,6 +13,7 @@ positive definite, and the decisions on degeneracy; it does not search for a wor
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 from flint import arb
@@ -33,7 +34,14 @@ from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.step.data import StepData
 
 
-def verify(solution: StepSolution) -> Verdict:
+class HasVerdict(Protocol):
+    """An answer of another kind that can check itself, such as that of ``exact_qp``."""
+
+    def verdict(self) -> Verdict:
+        """Whether all that it claims is so."""
+
+
+def verify(solution: StepSolution | HasVerdict) -> Verdict:
     """Whether all that a solution claims is so, checked without a solver.
 
     Its delta_q and multipliers, and all fields of its certificate, but its residuals. The kinds
@@ -41,7 +49,7 @@ def verify(solution: StepSolution) -> Verdict:
 
     Parameters
     ----------
-    solution : StepSolution
+    solution : StepSolution, ExactQP or QPInfeasible
 
     Returns
     -------
@@ -58,6 +66,8 @@ def verify(solution: StepSolution) -> Verdict:
     >>> bool(qr.verify(qr.solve_step(step)))
     True
     """
+    if not isinstance(solution, StepSolution):
+        return solution.verdict()
     claims = solution.certificate
     return verify_answer(solution.step, solution.delta_q, claims.active, solution.lam, claims)
 

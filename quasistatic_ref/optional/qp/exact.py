@@ -1,0 +1,150 @@
+"""``exact_qp``: the exact answer of a strictly convex quadratic program, or the proof of none."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol, TypeAlias
+
+import numpy as np
+from flint import arb, fmpq
+from numpy.typing import ArrayLike
+
+from quasistatic_ref.certify.active_set import Combination, dual_active_set
+from quasistatic_ref.certify.arithmetic import check_arithmetic
+from quasistatic_ref.certify.degeneracy import degeneracy
+from quasistatic_ref.certify.exact import ExactOptimum, rounded_optimum
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
+from quasistatic_ref.optional.qp.answer import ExactQP, QPInfeasible, objective, objective_sum
+from quasistatic_ref.optional.qp.form import Block
+from quasistatic_ref.optional.qp.guess import guessed
+from quasistatic_ref.optional.qp.program import HasProgram, QuadraticProgram, program_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+class Sparse(Protocol):
+    """A sparse array of SciPy's, or one like it."""
+
+    def toarray(self) -> NDArray[np.float64]:
+        """All of its entries, of the same shape."""
+
+
+class HasAnswer(Protocol):
+    """An answer with an x, such as a ``qpsolvers.Solution``; its multipliers are read, too."""
+
+    @property
+    def x(self) -> ArrayLike | None:
+        """Where it is."""
+
+
+Matrix: TypeAlias = "ArrayLike | Sparse | None"
+
+
+def exact_qp(
+    P: ArrayLike | Sparse | HasProgram,
+    q: ArrayLike | None = None,
+    G: Matrix = None,
+    h: ArrayLike | None = None,
+    A: Matrix = None,
+    b: ArrayLike | None = None,
+    lb: ArrayLike | None = None,
+    ub: ArrayLike | None = None,
+    *,
+    initvals: ArrayLike | HasAnswer | None = None,
+) -> ExactQP:
+    """The exact optimum of a strictly convex quadratic program, each number rounded correctly.
+
+    Minimise 1/2 x'Px + q'x subject to G x <= h, A x = b, lb <= x <= ub: the words of qpsolvers.
+
+    Parameters
+    ----------
+    P : array_like or sparse, shape (n, n), or ``qpsolvers.Problem``
+        Its symmetric part counts, and must be positive definite. A problem has all of the arrays.
+    q : array_like, shape (n,)
+    G, h : array_like, shapes (k, n) and (k,), optional
+        An infinite h is no inequality.
+    A, b : array_like, shapes (e, n) and (e,), optional
+    lb, ub : array_like, shape (n,), optional
+        Infinite where there is no bound.
+    initvals : array_like, shape (n,), or an answer such as ``qpsolvers.Solution``, optional
+        A guess, from which the exact method starts; by default that of DAQP or Clarabel, if one is
+        installed. A wrong guess costs time, and changes nothing that is unique.
+
+    Returns
+    -------
+    ExactQP
+
+    Raises
+    ------
+    QPInfeasible
+        If no x satisfies the rows, with the proof.
+    InputError
+        If P is not positive definite, without rounding; if an array is not what it should be; if
+        the answer is beyond the range of float64; or if nothing can be proved in this thread.
+
+    Examples
+    --------
+    >>> answer = qr.exact_qp([[1.0, 1.0], [1.0, 1.0 + 2.0**-50]], [1.0, 1.0], lb=[-0.5, -3.0])
+    >>> answer.x.tolist(), answer.active, round(answer.digits([-0.500001, -0.5]))
+    ([-0.5, -0.49999999999999956], ('lb[0]',), 6)
+    """
+    program = program_of(P, q, G, h, A, b, lb, ub)
+    check_arithmetic()
+    rows = program.rows
+    x = np.zeros(len(program.q))
+    of_rows = np.zeros(len(rows.names))
+    objectives = []
+    active = []
+    unique = True
+    for block in program.blocks:
+        guess = guessed(program, block, initvals)
+        optimum, value, is_unique = without_warnings(_of_block, program, block, guess)
+        x[block.coordinates] = optimum.delta_q
+        of_rows[block.rows] = optimum.lam
+        objectives += value.tolist()
+        active += block.rows[[*optimum.working_set]].tolist()
+        unique = unique and is_unique
+    obj, obj_error = objective_sum(objectives)
+    multipliers = rows.multipliers(of_rows, program)
+    for name, values in ({"x": x, "obj": np.array([obj])} | multipliers).items():
+        if not np.isfinite(values).all():
+            problem = f"{name} of the optimum is beyond the range of float64; choose other units"
+            raise InputError(problem)
+    return ExactQP(
+        problem=program,
+        x=read_only(x),
+        z=read_only(multipliers["z"]),
+        y=read_only(multipliers["y"]),
+        z_box=read_only(multipliers["z_box"]),
+        obj=obj,
+        obj_error=obj_error,
+        active=tuple(rows.names[i] for i in sorted(active)),
+        multipliers_unique=unique,
+    )
+
+
+def _of_block(
+    program: QuadraticProgram, block: Block, guess: list[int]
+) -> tuple[ExactOptimum, Array, bool]:
+    """The optimum of a block, its objective, and whether its multipliers are unique."""
+    form = block.form
+    end = dual_active_set(form, guess)
+    if isinstance(end, Combination):
+        raise QPInfeasible(program, _proof(program, block, end))
+    value = end.rounded(lambda point: objective(form, end.working, point), arb(2))
+    unique, _ = degeneracy(form, end.working, end.implied_rows, end.tight_rows)
+    return rounded_optimum(form, end), value, unique
+
+
+def _proof(program: QuadraticProgram, block: Block, end: Combination) -> dict[str, list[str]]:
+    """A contradiction of rows of a block in the words of qpsolvers, its largest entry one."""
+    largest = max(abs(v) for v in end.y.values())
+    sizes = {"z": len(program.h), "y": len(program.b), "z_box": len(program.q)}
+    proof = {name: [fmpq(0)] * size for name, size in sizes.items()}
+    rows = program.rows
+    for j, v in end.y.items():
+        i = int(block.rows[j])
+        name = {"G": "z", "A": "y"}.get(rows.field[i], "z_box")
+        proof[name][int(rows.place[i])] += int(rows.sign[i]) * v / largest
+    return {name: [str(v) for v in values] for name, values in proof.items()}

@@ -1,0 +1,251 @@
+"""``exact_qp`` against another method in fractions; what a step would refuse; bad input."""
+
+import pickle
+from fractions import Fraction
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import scipy.sparse
+
+import quasistatic_ref as qr
+from tests.oracles.lemke import only_multipliers, optimum
+from tests.oracles.random_programs import random_program
+from tests.oracles.rational_kkt import exact, on_rows
+
+PARTS = 20
+
+
+class InRows:
+    """A program as a_i x <= h_i, equations first as rows of either sign, each with a name."""
+
+    def __init__(self, program):
+        n = len(program["q"])
+        eye = np.eye(n)
+        limits = {
+            "A": (program["A"], program["b"]),
+            "G": (program["G"], program["h"]),
+            "lb": (-eye, -program["lb"]),
+            "ub": (eye, program["ub"]),
+        }
+        self.rows = {
+            f"{name}[{i}]": (a_i, h_i)
+            for name, (a, h) in limits.items()
+            for i, (a_i, h_i) in enumerate(zip(a, h, strict=True))
+            if np.isfinite(h_i)
+        }
+        fixed = [f"lb[{i}]" for i in np.flatnonzero(program["lb"] == program["ub"])]
+        self.equations = [name for name in self.rows if name[0] == "A" or name in fixed]
+        for name in fixed:
+            del self.rows[name.replace("l", "u")]
+        self.P = exact(program["P"])
+        self.q = exact(program["q"])
+
+    def of(self, names):
+        """The a and h of some rows, in fractions."""
+        a = exact(np.reshape([self.rows[name][0] for name in names], (-1, len(self.q))))
+        return a, exact([self.rows[name][1] for name in names])
+
+    def optimum(self):
+        """The x of the other method; None if there is none."""
+        a, h = self.of(self.rows)
+        of_equations, b = self.of(self.equations)
+        answer = optimum(self.P, self.q, np.concatenate([a, -of_equations]), np.append(h, -b))
+        return None if answer is None else answer[0]
+
+    def only(self, x, multipliers):
+        """Whether the multipliers, by row, are the only ones at x."""
+        a, h = self.of(self.rows)
+        names = [name for name, slack in zip(self.rows, h - a @ x, strict=True) if not slack]
+        free = {i for i, name in enumerate(names) if name in self.equations}
+        y = exact([multipliers.get(name, Fraction(0)) for name in names])
+        return only_multipliers(self.of(names)[0], free, y)
+
+
+def in_words(program, by_row):
+    """Multipliers of rows a_i x <= h_i as z, y and z_box."""
+    z, y, z_box = (exact(np.zeros(len(program[name]))) for name in ("h", "b", "q"))
+    for name, value in by_row.items():
+        field, i = name[:-1].split("[")
+        {"G": z, "A": y, "lb": z_box, "ub": z_box}[field][int(i)] += (
+            -value if field == "lb" else value
+        )
+    return {"z": z, "y": y, "z_box": z_box}
+
+
+def floats(values):
+    """Each number rounded correctly, as Python does it."""
+    return [float(v) for v in values]
+
+
+def check_optimum(program, rows, x, answer):
+    """Every field of an answer, from an x that is known to be the optimum."""
+    assert floats(x) == answer.x.tolist()
+    a, h = rows.of(answer.active)
+    of_set = rows.P, -rows.q, -a, -h
+    on_active, lam = on_rows(of_set, range(len(h)))
+    assert list(on_active) == list(x)
+    by_row = dict(zip(answer.active, lam, strict=True))
+    assert all(v > 0 for name, v in by_row.items() if name not in rows.equations)
+    for name, values in in_words(program, by_row).items():
+        assert floats(values) == getattr(answer, name).tolist()
+    objective = x @ rows.P @ x / 2 + rows.q @ x
+    assert abs(Fraction(answer.obj) - objective) <= Fraction(answer.obj_error)
+    if len(answer.problem.blocks) == 1:
+        assert answer.obj == float(objective)
+    assert answer.multipliers_unique == rows.only(x, by_row)
+    assert answer.digits(answer.x) == 16
+
+
+def check_proof(rows, program, proof):
+    """The proof that there is no solution, in fractions."""
+    z, y, z_box = ([Fraction(v) for v in proof.exact[name]] for name in ("z", "y", "z_box"))
+    assert min(z, default=0) >= 0
+    by_row = {f"G[{i}]": v for i, v in enumerate(z)} | {f"A[{i}]": v for i, v in enumerate(y)}
+    for i, v in enumerate(z_box):
+        by_row[f"ub[{i}]" if v > 0 else f"lb[{i}]"] = abs(v)
+    used = {name: v for name, v in by_row.items() if v}
+    assert {*used} == {*proof.rows}
+    limits = rows.rows | {
+        name.replace("l", "u"): (-a, -h)
+        for name, (a, h) in rows.rows.items()
+        if name in rows.equations and name[0] == "l"
+    }
+    force = sum(v * exact(limits[name][0]) for name, v in used.items())
+    assert not any(force)
+    assert sum(v * Fraction(limits[name][1]) for name, v in used.items()) < 0
+
+
+@pytest.mark.parametrize("part", range(PARTS))
+def test_2000_random_programs_have_the_bits_of_another_method_in_fractions(part):
+    proofs = 0
+    for seed in range(100 * part, 100 * (part + 1)):
+        program = random_program(seed)
+        rows = InRows(program)
+        x = rows.optimum()
+        try:
+            answer = qr.exact_qp(**program)
+        except qr.QPInfeasible as error:
+            assert x is None
+            proofs += 1
+            answer = error
+            check_proof(rows, program, error)
+        else:
+            check_optimum(program, rows, x, answer)
+        assert qr.verify(answer), (seed, qr.verify(answer).reason)
+    assert 10 < proofs < 60
+
+
+NEAR = [[1.0, 1.0], [1.0, 1.0 + 2.0**-50]]
+
+
+def test_what_a_step_would_refuse_is_an_answer():
+    answer = qr.exact_qp(NEAR, [-1.0, 0.0])  # 2^50 [1 + 2^-50, -1]
+    assert answer.x.tolist() == [2.0**50 + 1, -(2.0**50)]
+    walls = qr.exact_qp(np.eye(2), [0.0, 0.0], [[1.0, 0.0], [-1.0, 1e-12]], [-1.0, -1.0])
+    assert walls.x[1] < -1e12
+    assert qr.verify(answer)
+    assert qr.verify(walls)
+
+
+@pytest.mark.parametrize(
+    ("P", "sentence"),
+    [
+        (np.diag([1.0, 0.0]), "P is singular: x_1 costs nothing"),
+        ([[1.0, -1.0], [-1.0, 1.0]], "P is singular: x_0 + x_1 costs nothing"),
+        ([[4.0, 2.0], [2.0, 1.0]], "P is singular: x_0 - 2 x_1 costs nothing"),
+        ([[0.0, 1.0], [1.0, 0.0]], "P is indefinite: x_0 costs nothing"),
+        ([[1.0, 1.0], [1.0, 1.0 - 2.0**-50]], "P is indefinite: x_0 - x_1 costs less than nothing"),
+        ([[1.0, 4.0], [-2.0, 1.0]], "P is singular: x_0 - x_1 costs nothing"),  # its symmetric part
+    ],
+)
+def test_a_p_that_is_not_positive_definite_is_refused_with_a_direction(P, sentence):
+    with pytest.raises(qr.InputError, match=f"^{sentence.replace('+', '[+]')};"):
+        qr.exact_qp(P, [1.0, 1.0])
+
+
+def test_the_symmetric_part_of_p_counts_without_rounding():
+    P = np.array([[1.0, 2.0**-60], [1.0, 4.0]])
+    answer = qr.exact_qp(P, [-1.0, 0.0])
+    half = (Fraction(1) + Fraction(2) ** -60) / 2
+    assert answer.x.tolist() == floats([4 / (4 - half**2), -half / (4 - half**2)])
+
+
+P, Q, G, H = np.eye(2), [-3.0, -1.0], [[1.0, 1.0]], [1.0]
+
+
+def test_arrays_are_dense_or_sparse_and_a_problem_has_all_of_them():
+    answer = qr.exact_qp(P, Q, G, H)
+    sparse = scipy.sparse.csc_matrix
+    assert qr.exact_qp(sparse(P), Q, sparse(G), H) == answer
+    assert qr.exact_qp(P, np.reshape(Q, (2, 1)), G[0], H, lb=[-np.inf, -np.inf]) == answer
+    arrays = {"P": P, "q": Q, "G": G, "h": H, "A": None, "b": None, "lb": None, "ub": None}
+    assert qr.exact_qp(SimpleNamespace(**arrays)) == answer
+    assert pickle.loads(pickle.dumps(answer)) == answer
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"q": [0.0, np.nan]}, r"q\[1\]: must be a finite number \(got nan\)"),
+        ({"h": [-np.inf]}, r"h\[0\]: must be a finite number \(got -inf\)"),
+        ({"b": [np.inf], "A": G}, r"b\[0\]: must be a finite number"),
+        ({"q": [1.0, 2.0, 3.0]}, "P: must be 3 x 3 numbers"),
+        ({"G": [[1.0, 2.0, 3.0]]}, "G: must be 1 x 2 numbers"),
+        ({"lb": [0.0]}, "lb: must be 2 numbers"),
+        ({"lb": [2.0, 0.0], "ub": [1.0, 0.0]}, r"lb\[0\]: is above ub\[0\] = 1 \(got 2.0\)"),
+        ({"h": None}, "G and h are given together"),
+        ({"P": "eye"}, "P: must be numbers"),
+        ({"q": None}, "q: is missing"),
+        ({"P": np.zeros((0, 0)), "q": [], "G": None, "h": None}, "q: must have an entry"),
+        ({"initvals": [1.0]}, "initvals: must be 2 finite numbers"),
+        ({"P": np.eye(2) * 1e-300, "q": [1e300, 0.0]}, "x of the optimum is beyond"),
+    ],
+)
+def test_bad_input_gets_one_sentence(changes, sentence):
+    with pytest.raises(qr.InputError, match=f"^{sentence}"):
+        qr.exact_qp(**{"P": P, "q": Q, "G": G, "h": H} | changes)
+
+
+def test_no_solution_names_the_rows_and_a_row_without_entries_says_what_it_asks_for():
+    with pytest.raises(qr.QPInfeasible, match=r"G\[0\] asks for 0 <= -2.8e-17 \(proved"):
+        qr.exact_qp(P, Q, [[0.0, 0.0]], [-2.8e-17])
+    with pytest.raises(qr.QPInfeasible, match=r"A\[0\] asks for 0 = 1 \(proved"):
+        qr.exact_qp(P, Q, A=[[0.0, 0.0]], b=[1.0])
+    with pytest.raises(qr.QPInfeasible, match=r"G\[0\], lb\[0\] and lb\[1\] contradict each other"):
+        qr.exact_qp(P, Q, G, H, lb=[0.5, 0.6])
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_guess_may_be_anything(seed):
+    program = random_program(seed)
+    rng = np.random.default_rng(seed)
+    sizes = {"x": len(program["q"]), "z": len(program["h"]), "y": len(program["b"])}
+    guess = SimpleNamespace(**{name: rng.normal(size=k) for name, k in sizes.items()})
+
+    def said(initvals):
+        try:
+            answer = qr.exact_qp(**program, initvals=initvals)
+        except qr.QPInfeasible as proof:
+            return bool(qr.verify(proof))
+        return answer.x.tolist(), answer.obj, answer.multipliers_unique
+
+    assert said(None) == said(guess) == said(guess.x)
+
+
+def test_the_digits_of_an_x_and_of_multipliers():
+    twice = {"G": np.array([[1.0, 1.0]] * 2), "h": [1.0, 1.0]}
+    answer = qr.exact_qp(np.diag([1.0, 4.0]), [-3.0, -4.0], **twice)
+    assert answer.x.tolist() == [0.6, 0.4]
+    assert not answer.multipliers_unique
+    longer = np.sqrt(3.0**2 + 4.0 * 1.0**2)  # the optimum without rows is [3, 1]
+    assert answer.digits([0.6 + 1e-6, 0.4]) == pytest.approx(-np.log10(1e-6 / longer), abs=1e-6)
+    assert answer.digits([7.0, 0.0]) == answer.digits([np.nan, 0.0]) == 0
+    assert answer.digits_of_multipliers([1.2, 1.2]) > 15  # as any two whose sum is 2.4
+    off = np.sqrt(1.0 + 1 / 4) * 1e-6
+    of_sum = answer.digits_of_multipliers([2.4 + 1e-6, 0.0])
+    assert of_sum == pytest.approx(-np.log10(off / longer), abs=1e-6)
+    still = qr.exact_qp(P, [0.0, 0.0])
+    assert (still.digits([0.0, 0.0]), still.digits([1e-9, 0.0])) == (16, 0)
+    with pytest.raises(qr.InputError, match=r"^x: must be 2 numbers"):
+        answer.digits([1.0])

@@ -1,0 +1,102 @@
+"""Strictly convex quadratic programs by Lemke's complementary pivoting, in whole numbers.
+
+Another method than the active set: minimise 1/2 x'Px + q'x subject to a_i x <= h_i has the optimum
+x = -P^-1 (q + a'z), where w = M z + r, w >= 0, z >= 0, w'z = 0 with M = a P^-1 a' and
+r = h + a P^-1 q. M is positive semidefinite, so the method ends with such a z, or in a ray if there
+is none (Cottle, Pang, Stone, The Linear Complementarity Problem, section 4.4). Ties are broken by
+the lexicographic rule, and pivots keep whole numbers whole (Edmonds).
+"""
+
+from fractions import Fraction
+from functools import cmp_to_key
+
+import numpy as np
+
+from tests.oracles.rational_kkt import exact, solution, whole
+
+
+def columns_solved(P, right):
+    """The P^-1 R of a matrix R in fractions."""
+    return np.array([solution(P, column) for column in right.T], dtype=object).T.reshape(
+        right.shape
+    )
+
+
+def optimum(P, q, a, h):
+    """The x and z of a program in fractions; None if no x satisfies its rows."""
+    by_q = solution(P, q)
+    if not len(h):
+        return -by_q, exact([])
+    by_a = columns_solved(P, a.T)
+    z = complementary(a @ by_a, h + a @ by_q)
+    return None if z is None else (-by_q - by_a @ z, z)
+
+
+def complementary(M, r):
+    """A z >= 0 with w = M z + r >= 0 and w'z = 0; None if there is none."""
+    m = len(r)
+    zero = exact(np.zeros(m))
+    if all(v >= 0 for v in r):
+        return zero
+    rows = [whole([*-M_i, r_i]) for M_i, r_i in zip(M, r, strict=True)]  # w_i in a unit of its own
+    one = np.array([[int(i == j) for j in range(m)] for i in range(m)], dtype=object)
+    rows = np.array(rows, dtype=object)
+    cover = np.array([[-1]] * m, dtype=object)
+    table = np.column_stack([one, rows[:, :-1], cover, rows[:, -1]])
+    basis = [*range(m)]
+    last = 1
+    z0 = 2 * m
+    entering = z0
+    pivot = least(table, range(m), [1] * m)
+    while True:
+        leaving = basis[pivot]
+        row = table[pivot].copy()
+        column = table[:, entering].copy()
+        sign = -1 if row[entering] < 0 else 1
+        table = sign * ((table * row[entering] - np.outer(column, row)) // last)
+        table[pivot] = sign * row
+        last = abs(row[entering])
+        basis[pivot] = entering
+        if leaving == z0:
+            z = zero.copy()
+            for i, variable in enumerate(basis):
+                if m <= variable < z0:
+                    z[variable - m] = Fraction(table[i, -1], last)
+            return z
+        entering = leaving + m if leaving < m else leaving - m
+        rows = [i for i in range(m) if table[i, entering] > 0]
+        if not rows:
+            return None  # a ray
+        pivot = least(table, rows, table[:, entering])
+
+
+def least(table, rows, shares):
+    """The row that is first by the lexicographic rule: its last entry, then the others, shared."""
+
+    def compared(i, j):
+        for k in (-1, *range(len(table))):
+            difference = table[i, k] * shares[j] - table[j, k] * shares[i]
+            if difference:
+                return -1 if difference < 0 else 1
+        return 0
+
+    return min(rows, key=cmp_to_key(compared))
+
+
+def only_multipliers(rows, free, y):
+    """Whether y is the only y with this rows'y and y_i >= 0 outside of `free`.
+
+    Both y + s and y - s, for an s at random, have y as the nearest point of that convex set: if
+    another point were in it, s would have to be at right angles to the way to it.
+    """
+    k = len(y)
+    if not k:
+        return True
+    rng = np.random.default_rng(0)
+    s = exact(rng.integers(1, 10**6, k) * rng.choice([-1, 1], k))
+    signed = [i for i in range(k) if i not in free]
+    eye = exact(np.eye(k))
+    a = np.concatenate([rows.T, -rows.T, -eye[signed]])
+    side = rows.T @ y
+    h = np.concatenate([side, -side, exact(np.zeros(len(signed)))])
+    return all(list(optimum(eye, -(y + way * s), a, h)[0]) == list(y) for way in (1, -1))
