@@ -226,6 +226,13 @@ def others_installed() -> tuple[str, ...]:
     return tuple(name for name in names if name.removeprefix(QPSOLVERS) not in BACKENDS)
 
 
+def known_to_cvxpy() -> set[str]:
+    """Names of all solvers that CVXPY has an interface to, installed or not."""
+    from cvxpy.settings import SOLVERS  # takes longer to import than a short run
+
+    return {solver.lower() for solver in SOLVERS}
+
+
 def is_function(name: str) -> bool:
     """Whether a backend's name is that of a function, ``MODULE:FUNCTION``."""
     return ":" in name and not name.startswith(QPSOLVERS)
@@ -267,8 +274,11 @@ def backend(name: str) -> Backend:
         problem = f"is not a backend of steps: {entry.no_steps}; studies call it"
         raise BackendError(problem, field="backend", value=name)
     if entry is None:
-        hint = suggestion(name, known)
-        raise BackendError(f"is not a backend{hint}", field="backend", value=name)
+        if name in known_to_cvxpy():
+            problem = f"is not installed; installed here: {', '.join(known)}"
+        else:
+            problem = f"is not a backend{suggestion(name, known)}"
+        raise BackendError(problem, field="backend", value=name)
     if name not in known:
         other = QPSOLVERS + name
         if other in known:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import cvxpy as cp
 
 from quasistatic_ref.solve.backends import Options
+from quasistatic_ref.solve.interruptible import INTERRUPTIBLE
 
 if TYPE_CHECKING:
     from cvxpy.reductions.solvers.solving_chain import SolvingChain
@@ -50,7 +51,10 @@ def problem_data(problem: cp.Problem, name: str, options: Options) -> ProblemDat
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         data = problem.get_problem_data(
-            name.upper(), ignore_dpp=is_large(problem), canon_backend=CANON, solver_opts=options
+            INTERRUPTIBLE.get(name, name.upper()),
+            ignore_dpp=is_large(problem),
+            canon_backend=CANON,
+            solver_opts=options,
         )
     if any("not DPP" in str(one.message) for one in warned):
         words = f"{name} takes no quadratic cost: CVXPY compiles each step anew, which takes longer"

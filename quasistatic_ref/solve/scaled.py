@@ -81,6 +81,7 @@ class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
 
     def __init__(self, data: ProblemData) -> None:
         super().__init__()
+        self.solver = data.chain.solver.name()
         inverse = data.inverse[-1]
         constraints = [*inverse[ConicSolver.EQ_CONSTR], *inverse[ConicSolver.NEQ_CONSTR]]
         heights = [sum(part.size for part in constraint.args) for constraint in constraints]
@@ -90,9 +91,7 @@ class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
         q = words.Q if quadratic else words.C
         known = {*ends, *ends.values(), q} <= numbers.keys() and words.H not in numbers
         if not known or sum(numbers[end].size for end in ends.values()) != sum(heights):
-            name = data.chain.solver.name()
-            problem = "takes data of a form that is not known here; choose clarabel or osqp"
-            raise BackendError(problem, field="backend", value=name.lower())
+            raise unknown_form(self.solver)
         A = sp.csr_array(sp.vstack([numbers[block] for block in ends]))
         b = np.concatenate([numbers[end] for end in ends.values()])
         of = np.repeat(np.arange(len(heights)), heights)  # the constraint of each row
@@ -140,10 +139,24 @@ class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
         raise NotImplementedError("data are scaled when they are formed")
 
     def invert(self, solution: Solution, inverse_data: None) -> Solution:
-        """The solution of the program whose data were scaled."""
+        """The solution of the program whose data were scaled.
+
+        Raises
+        ------
+        BackendError
+            If it has other unknowns than the data, as that of a solver that adds some.
+        """
+        if any(np.size(x) != len(self.columns) for x in solution.primal_vars.values()):
+            raise unknown_form(self.solver)
         primal = {key: np.asarray(x) * self.columns for key, x in solution.primal_vars.items()}
         dual = {key: np.asarray(y) * self.rows[key] for key, y in solution.dual_vars.items()}
         return Solution(solution.status, solution.opt_val, primal, dual, solution.attr)
+
+
+def unknown_form(solver: str) -> BackendError:
+    """The error that says that a solver's data or answers, by CVXPY's name of it, are not known."""
+    problem = "takes data of a form that is not known here; choose clarabel or osqp"
+    return BackendError(problem, field="backend", value=solver.lower())
 
 
 def _scaled(matrix: sp.csr_array, of_rows: Array, of_columns: Array) -> sp.csr_array:

@@ -180,7 +180,8 @@ class BackendSolver(Solver):
                 continue
             cause = None
             if reply.x is None or reply.lam is None:
-                status = "an answer without multipliers" if reply.solved else reply.status
+                without = f"{self.name} gives no multipliers through {self.interface}"
+                status = without if reply.solved else reply.status
             elif all_finite(reply.x) and all_finite(reply.lam):
                 if out_of_reach is not None:
                     # Residuals are those of the true gap.

@@ -193,8 +193,16 @@ class StepProblem:
         """delta_q of the last solve, shape (n_v,)."""
         return np.concatenate([x.value for x in (self.delta_q_a, self.delta_q_u) if x.size])
 
-    def dual(self) -> Array:
-        """Multipliers of the last solve, contact-major, the user's own rows last; shape (m,)."""
+    def dual(self) -> Array | None:
+        """Multipliers of the last solve, contact-major, the user's own rows last; shape (m,).
+
+        None if its solver gave none, as SCIP does, or HiGHS where an unknown is a whole number.
+        CVXPY would keep those of the solve before.
+        """
+        solution = self.problem.solution
+        rows = [*self.contact_rows, *self.extra]
+        if solution is None or any(row.id not in solution.dual_vars for row in rows):
+            return None
         template = self.template
         curved = curved_cone(template)
         if curved is not None:

@@ -145,3 +145,24 @@ def test_a_solver_that_cvxpy_does_not_call_and_whole_numbers_are_refused():
     page.problem = cp.Problem(page.problem.objective, [switch <= page.delta_q[0]])
     with pytest.raises(qr.InputError, match="unknowns that are whole numbers"):
         page.solve("highs")
+
+
+def test_multipliers_of_a_solve_that_gave_none_are_not_those_of_the_solve_before():
+    """HiGHS gives none where an unknown is a whole number; CVXPY keeps the earlier ones."""
+    pytest.importorskip("highspy", reason="needs the extra study")
+    page = qr.StepProblem(pinch())
+    assert page.dual() is None
+    page.solve()
+    assert page.dual().any()
+    switch = cp.Variable(boolean=True)
+    linear = cp.Minimize(cp.sum(page.delta_q_a) + switch)
+    bounded = [page.delta_q_a <= 1.0, page.delta_q_a >= -1.0]
+    page.problem = cp.Problem(linear, [*page.problem.constraints, *bounded])
+    page.problem.solve(solver="HIGHS")
+    assert page.contact_rows[0].dual_value is not None
+    assert page.dual() is None
+
+
+def test_a_solver_that_cvxpy_knows_and_that_is_not_here_is_said_to_be_missing():
+    with pytest.raises(qr.BackendError, match=r"is not installed; .*\(got .mosek"):
+        qr.solve_step(pinch(), "mosek")

@@ -130,7 +130,10 @@ def extended_solution(
         except StepNotSolved as failed:
             failure = failed
             continue
-        delta_q, lam = in_si(problem.primal(), problem.dual(), units)
+        multipliers = problem.dual()
+        if multipliers is None:
+            raise StepNotSolved(name, f"{name} gives no multipliers through CVXPY", step, tried)
+        delta_q, lam = in_si(problem.primal(), multipliers, units)
         claimed = Certificate("none") if certify == "off" else certificate
         return StepSolution(delta_q, lam, step, claimed, statistics, alone=False)
     assert failure is not None  # a backend has at least one set of options
