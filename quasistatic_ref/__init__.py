@@ -29,8 +29,7 @@ _HOMES = {
     "simulate.simulator": "Simulator",
     "optional.fast.simulator": "FastSimulator",
     "optional.derivatives.derivatives": "derivatives",
-    "optional.derivatives.smoothed": "smoothed",
-    "optional.derivatives.step_jax": "step_jax smoothed_jax",
+    "optional.derivatives.step_jax": "step_jax",
     "simulate.rollout": "rollout",
     "simulate.recorder": "Recorder",
     "simulate.observer": "Observer",
@@ -68,7 +67,7 @@ _HOMES = {
     # What can go wrong.
     "errors": "QuasistaticError InputError MissingKey StepDataError ModelError ContactError "
     "ScenarioError BackendError",
-    "optional.derivatives.step.reason": "NotDifferentiable",
+    "optional.derivatives.reason": "NotDifferentiable",
     "certify.failures": "StepNotSolved StepInfeasible StepIllPosed",
     "simulate.failures": "LimitExceeded RunFailed",
 }
@@ -123,12 +122,10 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         coulomb_step as coulomb_step,
     )
     from quasistatic_ref.optional.derivatives.derivatives import derivatives as derivatives
-    from quasistatic_ref.optional.derivatives.smoothed import smoothed as smoothed
-    from quasistatic_ref.optional.derivatives.step.reason import (
+    from quasistatic_ref.optional.derivatives.reason import (
         NotDifferentiable as NotDifferentiable,
     )
     from quasistatic_ref.optional.derivatives.step_jax import (
-        smoothed_jax as smoothed_jax,
         step_jax as step_jax,
     )
     from quasistatic_ref.optional.extensions.extension import (

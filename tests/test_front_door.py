@@ -19,9 +19,8 @@ from tests.processes import python
 
 NAMES = [name for name in qr.__all__ if name not in {"__version__", "figures"}]
 FIGURES = [f"figures.{name}" for name in figures.__all__]
-JAX = "smoothed_jax", "step_jax"
-"""What takes steps in JAX, their examples too."""
-VIEW = {"save_view": "view"}
+EXTRAS = {"step_jax": "jax", "save_view": "view"}
+"""Names whose examples need an extra."""
 ASKED = (
     "System Body Sphere Box Capsule Cylinder HalfSpace PointCloud ContactPair PlacedShape "
     "Simulator rollout solve_step verify standard_form StepProblem StepData Contacts Extra "
@@ -153,9 +152,7 @@ def test_a_user_s_file_has_types(tmp_path):
     python("-m", "mypy", "--strict", "--config-file=", "readme.py", "users.py", cwd=tmp_path)
 
 
-@pytest.mark.parametrize(
-    "name", marked_parameters([*NAMES, *FIGURES], dict.fromkeys(JAX, "jax") | VIEW)
-)
+@pytest.mark.parametrize("name", marked_parameters([*NAMES, *FIGURES], EXTRAS))
 def test_every_name_says_what_it_is_with_an_example_that_runs(name, tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))  # some examples write a file
     said = attrgetter(name)(qr).__doc__
@@ -164,12 +161,11 @@ def test_every_name_says_what_it_is_with_an_example_that_runs(name, tmp_path, mo
     assert doctest.DocTestRunner().run(example).failed == 0
 
 
-@pytest.mark.parametrize("name", JAX)
-def test_without_jax_one_sentence_names_the_extra(name, monkeypatch):
+def test_without_jax_one_sentence_names_the_extra(monkeypatch):
     simulator = qr.load_scenario("block_push").simulator()
     monkeypatch.setitem(sys.modules, "jax", None)
     with pytest.raises(qr.InputError, match=r"pip install 'quasistatic-ref\[jax\]'"):
-        getattr(qr, name)(simulator)
+        qr.step_jax(simulator)
 
 
 def test_what_takes_steps_says_what_it_is():

@@ -10,7 +10,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import quasistatic_ref as qr
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.extensions.extension import Extension
@@ -112,7 +111,6 @@ def test_a_word_is_refused_in_a_sentence_that_names_its_part(without, word, ever
 
 STEP = random_step(0)
 NAMES = {
-    "smoothed": ("derivatives", lambda: qr.smoothed),
     "forces": ("forces", lambda: solve_step(STEP).forces),
     "a .stl mesh": ("readers", lambda: file_mesh(Path("m.stl"), ".stl")),
     "a function as backend": ("extensions", lambda: solve_step(STEP, max)),

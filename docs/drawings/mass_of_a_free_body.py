@@ -7,13 +7,13 @@ would turn, (R3).
 """
 
 import numpy as np
+import pinocchio as pin
 
 from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 
@@ -60,7 +60,7 @@ def mass_matrix(m: float, r_m: Array, inertia: Array) -> Array:
     ndarray, shape (6, 6)
         [kg, kg m, kg m^2].
     """
-    C = -cross_matrix(r_m)  # omega x r_m = C omega
+    C = -pin.skew(r_m)  # omega x r_m = C omega
     return np.block([[m * np.eye(3), m * C], [m * C.T, inertia + m * C.T @ C]])
 
 

@@ -9,6 +9,7 @@ phi w x n, because they are two points.
 from typing import Any
 
 import numpy as np
+import pinocchio as pin
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
@@ -17,7 +18,6 @@ from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -65,7 +65,7 @@ def point_jacobian(R: Array, r: Array, n: Array) -> Array:
         The point, in the body's frame [m].
     n : ndarray, shape (3,)
     """
-    return np.block([[R, -R @ cross_matrix(r)], [np.zeros((1, 3)), n[None] @ R]])
+    return np.block([[R, -R @ pin.skew(r)], [np.zeros((1, 3)), n[None] @ R]])
 
 
 def by_hand(at: Kinematics, points: ClosestPoints) -> tuple[Array, Array]:

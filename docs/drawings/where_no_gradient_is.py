@@ -38,7 +38,7 @@ def fall_curve(moves: Array) -> tuple[Array, Array]:
     simulator, q = body_at_rest(Sphere(RADIUS), RADIUS + H**2 * G)
     system = simulator.system
     ends = [simulator.step(system.integrate(q, move * UP), NONE).q[2] for move in moves]
-    found = derivatives(simulator, q, NONE)
+    found = derivatives(simulator, q, NONE, by=())
     return np.array(ends), np.array([-found.along(q=-UP)[2], found.along(q=UP)[2]])
 
 
@@ -53,12 +53,12 @@ def push_curve(forces: Array) -> tuple[Array, Array]:
     simulator, q = body_at_rest(POINT, 0.0)
     limit = LIMIT * ACROSS
     ends = [simulator.step(q, NONE, limit + force * ACROSS).q[0] for force in forces]
-    found = derivatives(simulator, q, NONE, limit)
+    found = derivatives(simulator, q, NONE, limit, by=())
     return np.array(ends), np.array([-found.along(tau=-ACROSS)[0], found.along(tau=ACROSS)[0]])
 
 
-def tilt_curve(angles: Array) -> tuple[Array, tuple[str, ...]]:
-    """Tilt of a body of two points after a step [rad], (N,), and why it has no derivative.
+def tilt_curve(angles: Array) -> Array:
+    """Tilt of a body of two points after a step, shape (N,) [rad].
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def tilt_curve(angles: Array) -> tuple[Array, tuple[str, ...]]:
     for angle in angles:
         end = simulator.step(simulator.system.integrate(q, angle * TURN), NONE).q
         ends.append(2 * np.arctan2(end[4], end[6]))
-    return np.array(ends), tuple(why.kind for why in derivatives(simulator, q, NONE).reasons)
+    return np.array(ends)
 
 
 def figure(*, reach: float = 1.0) -> Figure:
@@ -91,7 +91,7 @@ def figure(*, reach: float = 1.0) -> Figure:
     _sides(grid[1], forces, 1e3 * ends, 1e3 * slopes)
     label_axes(grid[1], "push beyond the limit [N]", "place after [mm]", "just holds", key=False)
     angles = reach * np.linspace(-0.01, 0.01, 21)
-    ends, _ = tilt_curve(angles)
+    ends = tilt_curve(angles)
     grid[2].plot(1e3 * angles, 1e3 * ends, "o", color="C0", markersize=scaled(3))
     label_axes(grid[2], "tilt before [mrad]", "tilt after [mrad]", "a tie of points")
     legend_below(list(grid), grid[0].get_legend_handles_labels()[0], caption(H))

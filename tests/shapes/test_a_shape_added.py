@@ -17,7 +17,6 @@ from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.formats.declared import Field
 from quasistatic_ref.optional.curved.faces import kinks
-from quasistatic_ref.optional.derivatives.contact.features import feature
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.draw import draw_scene
 from quasistatic_ref.optional.show.figures.moments import moment
@@ -102,8 +101,6 @@ def test_what_it_has_not_said_is_refused_in_a_sentence():
         solid_pair("pad", in_world(PAD), in_world(Box(np.full(3, 0.05))))
     with pytest.raises(ContactError, match="shape: has no known faces"):
         kinks(PAD)
-    with pytest.raises(ContactError, match="shape: has no derivatives"):
-        feature(PAD, HALF, np.eye(3)[0])
 
 
 def test_a_ball_comes_to_rest_on_it_in_a_scenario(scene):

@@ -30,12 +30,10 @@ from docs.drawings import (
     metres,
     opinion,
     phi_and_j_of_a_cloud,
-    plan_a_push,
     sliding_block,
     the_program,
     turn_and_step,
     two_moving_bodies,
-    what_smoothing_does,
     where_no_gradient_is,
     which_cone_is_real,
     wrenches_of_a_grip,
@@ -49,8 +47,8 @@ DRAWN = (
     both_laws, cone_and_dual, cone_surfaces, contact_geometry, corner_loads, four_laws,
     free_body, friction_and_slip, grasp_map, limit_surface_and_twist, many_bodies,
     mass_of_a_free_body, metres, opinion,
-    phi_and_j_of_a_cloud, plan_a_push, sliding_block, the_program, turn_and_step,
-    two_moving_bodies, what_smoothing_does, where_no_gradient_is, wrenches_of_a_grip,
+    phi_and_j_of_a_cloud, sliding_block, the_program, turn_and_step,
+    two_moving_bodies, where_no_gradient_is, wrenches_of_a_grip,
 )  # fmt: skip
 """Each is the figure of its name."""
 

@@ -107,7 +107,7 @@ def coal_witness(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     ContactError
         If coal has no answer that proves itself.
     """
-    best, _, scale = _answers(a, b)
+    best, scale = _answer(a, b)
     if not best.proves_its_normal:
         raise ContactError(
             "the contact normal is not reliable at this pose: move the bodies apart, or use a box, "
@@ -120,22 +120,8 @@ def coal_witness(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     return Witness(phi, alpha, alpha + phi * best.n, best.n)
 
 
-def other_ways_out(a: ShapeInWorld, b: ShapeInWorld, within: float) -> list[Array]:
-    """Normals, (3,) [-], along which the search for closest points found the same gap or less.
-
-    Parameters
-    ----------
-    a, b : ShapeInWorld
-    within : float
-        Largest difference of gaps that are equal [m].
-    """
-    best, every, scale = _answers(a, b)
-    proved = [way for way in every if way.defect <= WITNESS]
-    return [way.n for way in proved if way.phi >= best.phi - scale * within]
-
-
-def _answers(a: ShapeInWorld, b: ShapeInWorld) -> tuple[Judged, list[Judged], float]:
-    """The best answer, all ways out that were followed, and the factor of their lengths."""
+def _answer(a: ShapeInWorld, b: ShapeInWorld) -> tuple[Judged, float]:
+    """The best answer, and the factor of its lengths."""
     size = a.shape.extent + b.shape.extent + float(np.abs(b.t - a.t).max())
     scale = float(2.0 ** -np.round(np.log2(size)))
     here = ShapeInWorld(_resized(a.shape, scale), a.R, np.zeros(3))
@@ -144,8 +130,8 @@ def _answers(a: ShapeInWorld, b: ShapeInWorld) -> tuple[Judged, list[Judged], fl
     # Where they just touch, what is proved is right: no gap is wider than that of a contact.
     touching = best.phi >= -ENOUGH and best.defect <= WITNESS
     if best.phi > 0 or touching:
-        return best, [], scale
-    return *_shallowest(here, there, best), scale
+        return best, scale
+    return _shallowest(here, there, best), scale
 
 
 @lru_cache(maxsize=256)
@@ -295,8 +281,8 @@ def _gap(a: ShapeInWorld, b: ShapeInWorld, n: Array) -> float:
     return float(n @ (b.farthest(-n) - a.farthest(n)))
 
 
-def _shallowest(a: ShapeInWorld, b: ShapeInWorld, first: Judged) -> tuple[Judged, list[Judged]]:
-    """The least depth: coal's way out made exact, and every other that may be shorter; and all."""
+def _shallowest(a: ShapeInWorld, b: ShapeInWorld, first: Judged) -> Judged:
+    """The least depth: coal's way out made exact, and every other that may be shorter."""
     n = first.n if np.isfinite(first.n).all() and first.n.any() else np.array([1.0, 0.0, 0.0])
     n = n / np.sqrt(n @ n)
     size = float(sum(solid.reach(np.stack([n, -n])).sum() for solid in (a, b)))
@@ -309,12 +295,12 @@ def _shallowest(a: ShapeInWorld, b: ShapeInWorld, first: Judged) -> tuple[Judged
             best = answer
     # No gap exceeds the signed distance: where one does, the way out was not found.
     if rivals and gaps(a, b, np.array(rivals)).max() > best.phi + WITNESS:
-        return best._replace(defect=np.inf), answers
+        return best._replace(defect=np.inf)
     # A way out that was not followed to its end, but may be the shorter one, decides nothing.
     open_ends = [way for way in answers[1:] if way.phi + way.defect > best.phi + WITNESS]
     if any(way.n @ best.n < SAME for way in open_ends):
-        return best._replace(defect=np.inf), answers
-    return best, answers
+        return best._replace(defect=np.inf)
+    return best
 
 
 def _refined(a: ShapeInWorld, b: ShapeInWorld, n: Array, size: float) -> Judged:

@@ -1,1 +1,1 @@
-"""Derivatives of a step through contact, smoothed steps, and steps in JAX."""
+"""Derivatives of a step through contact by differences of exact steps, and steps in JAX."""

@@ -1,42 +1,156 @@
 """The derivatives of a step: of the map q+ = F(q, q_bar_a, tau, parameters).
 
 In tangent coordinates on both sides: column j of dq_dq is the derivative at eps = 0 of
-F(q (+) eps e_j) (-) F(q). The formula is exact, and evaluated in float64 from the exact optimum and
-its working set. docs/derivatives.md says what the numbers mean, how right they are, and where
-there are none.
+F(q (+) eps e_j) (-) F(q). They are differences of exact steps; docs/derivatives.md says how right
+they are, and where there are none.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
-from quasistatic_ref.optional.derivatives.gradient import (
-    Derivatives,
-    combined,
-    directed,
-    gradient,
-)
-from quasistatic_ref.optional.derivatives.kink_reasons import geometry_obstacles, out_of_reach
-from quasistatic_ref.optional.derivatives.program_reasons import row_obstacles, target_obstacles
-from quasistatic_ref.optional.derivatives.step.nearly import nearly_weak
-from quasistatic_ref.optional.derivatives.step.optimum_rates import Equations
-from quasistatic_ref.optional.derivatives.step.touching import touching_rows
-from quasistatic_ref.optional.derivatives.step_rates import StepRates
-from quasistatic_ref.optional.derivatives.tolerances import NEARLY
+from quasistatic_ref.optional.derivatives.column import Column, column
+from quasistatic_ref.optional.derivatives.nearby import Nearby
+from quasistatic_ref.optional.derivatives.reason import Reason
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.simulate.simulator import Simulator, by_one_thread
 from quasistatic_ref.step.cones import cone
 
-__all__ = ["Derivatives", "derivatives"]
+EVERY_STEP = ("q", "q_bar_a", "tau")
+"""What changes from step to step."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Sides(Plain, Shown):
+    """The derivatives of q+ by one parameter, from both sides; NaN where they do not exist.
+
+    Parameters
+    ----------
+    rate : ndarray, shape (n_v, P)
+        The derivatives [m or rad, per unit of the parameter].
+    below, above : ndarray, shape (n_v, P)
+        The one-sided derivatives, the parameter falling and rising [m or rad, per unit of it].
+    holds : ndarray, shape (P,)
+        How far each column was compared with steps on either side [of the parameter]: there may be
+        a kink beyond.
+    """
+
+    rate: Array
+    below: Array
+    above: Array
+    holds: Array
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Derivatives(Plain, Shown):
+    """Derivatives of the configuration after a step, in tangent coordinates on both sides.
+
+    Columns without a derivative are NaN, and `reasons` says why.
+
+    Parameters
+    ----------
+    by : dict of str to Sides
+        By each parameter that was asked for, from both sides.
+    reasons : tuple of Reason
+        Why those that are NaN do not exist; empty if all exist.
+    result : StepResult
+        The step.
+    """
+
+    by: dict[str, Sides]
+    reasons: tuple[Reason, ...]
+    result: StepResult
+    _near: Nearby = field(compare=False, repr=False)
+
+    @property
+    def differentiable(self) -> bool:
+        """Whether all derivatives that were asked for exist."""
+        return not self.reasons
+
+    @property
+    def dq_dq(self) -> Array:
+        """By q, shape (n_v, n_v) [per m or rad]."""
+        return self._rate("q")
+
+    @property
+    def dq_dq_bar_a(self) -> Array:
+        """By the target of the actuated coordinates, shape (n_v, n_a) [per m or rad]."""
+        return self._rate("q_bar_a")
+
+    @property
+    def dq_dtau(self) -> Array:
+        """By the external generalised force, shape (n_v, n_v) [per N or N m]."""
+        return self._rate("tau")
+
+    @property
+    def dq_dmu_v(self) -> Array:
+        """By each pair's coefficient of friction, shape (n_v, pairs) [per 1]."""
+        return self._rate("mu_v")
+
+    @property
+    def dq_dmu_omega(self) -> Array:
+        """By each pair's torsional coefficient, shape (n_v, pairs) [per m]."""
+        return self._rate("mu_omega")
+
+    @property
+    def dq_dK_q(self) -> Array:
+        """By the diagonal of K_q, shape (n_v, n_a) [per N/m or N m/rad]."""
+        return self._rate("K_q")
+
+    @property
+    def dq_dh(self) -> Array:
+        """By the time step, shape (n_v,) [per s]."""
+        return np.asarray(self._rate("h")[:, 0])
+
+    @property
+    def dq_dmasses(self) -> Array:
+        """By each link's mass, its inertia about its centre staying, shape (n_v, L) [per kg]."""
+        return self._rate("masses")
+
+    def along(self, **directions: ArrayLike) -> Array:
+        """The one-sided derivative of q+ along a direction, shape (n_v,).
+
+        It is one column, whatever was asked for.
+
+        Parameters
+        ----------
+        directions : ndarray or float
+            By the names of parameters, what each changes by: ``along(q=e)``, or
+            ``along(q_bar_a=e, mu_v=[0.1, 0])``; shapes (n_v,), (n_a,), ... as the fields have
+            columns, in their units [of the parameter].
+
+        Returns
+        -------
+        ndarray, shape (n_v,)
+
+        Raises
+        ------
+        InputError
+            If a name or a shape is wrong, a number is not finite, or a step on that side is
+            refused.
+        """
+        found, size = directed(self._near, directions)
+        slope = found.above if found.problem else found.rate
+        if np.isnan(slope).any():
+            problem = f"has no one-sided derivative here: {found.problem}"
+            raise InputError(problem, field="along")
+        return size * slope
+
+    def _rate(self, name: str) -> Array:
+        if name not in self.by:
+            problem = f"was not asked for; pass by=({name!r}, ...) to derivatives"
+            raise InputError(problem, field=f"dq_d{name}")
+        return self.by[name].rate
 
 
 def derivatives(
@@ -44,10 +158,11 @@ def derivatives(
     q: ArrayLike,
     q_bar_a: ArrayLike,
     force: ArrayLike | None = 0.0,
-    towards: Mapping[str, ArrayLike] | None = None,
-    nearly: float = NEARLY,
+    by: Iterable[str] = EVERY_STEP,
 ) -> Derivatives:
     """The derivatives of the step that a simulator would take.
+
+    Each column takes four exact steps, and up to sixteen at a kink.
 
     Parameters
     ----------
@@ -57,13 +172,9 @@ def derivatives(
     q_bar_a : array_like, shape (n_q_a,)
     force : array_like, shape (n_v,), optional
         External generalised force in addition to gravity, which does not depend on q [N, N m].
-    towards : mapping, optional
-        A direction of the parameters, with names, shapes (n_v,), (n_a,), ... and units
-        [of the parameter] as in ``Derivatives.along``. Where rows touch without load, the
-        derivatives are then those next to the kink, on the side to which it points.
-    nearly : float
-        Distance to a kink, in natural units [-], below which the state counts as at it: rows that
-        nearly touch, or nearly bear no load, are then as rows that touch without load.
+    by : iterable of str
+        The parameters: ``q``, ``q_bar_a``, ``tau``, ``mu_v``, ``mu_omega``, ``K_q``, ``h``,
+        ``masses``.
 
     Returns
     -------
@@ -72,8 +183,7 @@ def derivatives(
     Raises
     ------
     InputError
-        If the cone is no polyhedron, the simulator has an extension, a name or a shape of the
-        direction is wrong, or `nearly` or the direction is not finite.
+        If the cone is no polyhedron, the simulator has an extension, or a parameter is unknown.
     StepNotSolved
         As :meth:`~quasistatic_ref.simulate.simulator.Simulator.step` does.
 
@@ -86,43 +196,62 @@ def derivatives(
     True
     """
     check_derivable(simulator)
-    check_nearly(nearly)
-    q = np.asarray(q, dtype=np.float64)
-    result = _certified(simulator, q, q_bar_a, force)
-    rates = StepRates(simulator, q, result)
-    equations = Equations(touching_rows(result.solution, rates.far))
-    near = nearly_weak(equations, equations.rates(rates.data), rates.data, nearly * rates.units)
-    if len(near):
-        equations = Equations(equations.of.unloaded(near))
-    if towards is not None:
-        one = combined(rates.data, directed(rates.places, towards, "towards"))
-        equations = Equations(equations.beyond(one))
-    touching = equations.of
-    x_rates = equations.rates(rates.data)
-    obstacles = [
-        *geometry_obstacles(simulator, rates, touching, out_of_reach(simulator, rates)),
-        *target_obstacles(simulator, rates),
-        *row_obstacles(simulator, rates, touching, x_rates, {*map(tuple, near)}),
-    ]
-    return gradient(rates, x_rates.x, obstacles, equations.along)
+    near = Nearby(simulator, q, q_bar_a, force)
+    by = (by,) if isinstance(by, str) else tuple(by)
+    for name in by:
+        check_name(near, name, "by")
+    with by_one_thread(simulator.system):
+        columns = {name: _columns(near, name) for name in by}
+    sides = {name: _sides(near, name, each) for name, each in columns.items()}
+    return Derivatives(sides, reasons_of(columns), near.result, near)
 
 
-def check_nearly(nearly: float) -> None:
-    """Refuse a `nearly` that is no distance [-]: InputError."""
-    number = checked_numbers(nearly, "nearly", InputError)
-    if number.shape or not 0 <= number < np.inf:
-        raise InputError("must be a finite distance, 0 or more", field="nearly", value=nearly)
+def reasons_of(columns: Mapping[str, Sequence[Column]]) -> tuple[Reason, ...]:
+    """Why some columns do not exist, by their parameters: each reason once."""
+    fields: dict[tuple[tuple[str, ...], tuple[str, ...], str], dict[str, None]] = {}
+    for name, each in columns.items():
+        for one in each:
+            if one.problem:
+                why = one.rows, one.points, one.problem
+                fields.setdefault(why, {})[f"dq_d{name}"] = None
+    return tuple(Reason(tuple(names), *why) for why, names in fields.items())
 
 
-def check_derivable(simulator: Simulator) -> None:
-    """Refuse what has no derivatives.
+def directed(near: Nearby, directions: Mapping[str, ArrayLike]) -> tuple[Column, float]:
+    """The column of a direction that is scaled to the parameters' sizes, and that scale.
 
     Raises
     ------
     InputError
-        If the cone is no polyhedron, the law not convex, the simulator has an extension, or its
-        scene is MuJoCo's.
+        If a name or a shape is wrong, or a number is not finite.
     """
+    changes = {}
+    for name, value in directions.items():
+        check_name(near, name, "along")
+        sizes = near.sizes[name]
+        where = f"along.{name}"
+        change = checked_numbers(value, where, InputError)
+        if change.shape != sizes.shape and not (len(sizes) == 1 and change.shape == ()):
+            raise InputError(f"must have shape {sizes.shape}", field=where, value=change.shape)
+        if not np.isfinite(change).all():
+            raise InputError("must contain finite numbers only", field=where)
+        if change.any():
+            changes[name] = np.broadcast_to(change, sizes.shape)
+    scale = max(
+        [np.abs(change / near.sizes[name]).max() for name, change in changes.items()] or [1.0]
+    )
+    with by_one_thread(near.simulator.system):
+        return column(near, {name: change / scale for name, change in changes.items()}), scale
+
+
+def check_name(near: Nearby, name: str, where: str) -> None:
+    """Refuse what is no parameter of a step: InputError."""
+    if name not in near.sizes:
+        raise InputError(f"must be one of {', '.join(near.sizes)}", field=where, value=name)
+
+
+def check_derivable(simulator: Simulator) -> None:
+    """Refuse what has no derivatives; InputError as of :func:`derivatives`."""
     if not isinstance(simulator.system, System):
         problem = "has no derivatives where MuJoCo moves it; write its bodies as URDFs"
         raise InputError(problem, field="system", value=type(simulator.system).__name__)
@@ -140,13 +269,15 @@ def check_derivable(simulator: Simulator) -> None:
         raise InputError(f"has no derivative: {why}", field=field)
 
 
-def _certified(
-    simulator: Simulator, q: Array, q_bar_a: ArrayLike, force: ArrayLike | None
-) -> StepResult:
-    """The step with its exact optimum, whatever the simulator certifies."""
-    result = simulator.step(q, q_bar_a, force)
-    if result.solution.certificate.kind == "exact":
-        return result
-    solution = solve_step(result.step.replace(), "none")
-    q_next = simulator.system.integrate(q, solution.delta_q)
-    return replace(result, q=q_next, step=solution.step, solution=solution)
+def _columns(near: Nearby, name: str) -> list[Column]:
+    """The columns of a parameter, each of a change by its size."""
+    return [column(near, {name: change}) for change in np.diag(near.sizes[name])]
+
+
+def _sides(near: Nearby, name: str, columns: Sequence[Column]) -> Sides:
+    """The columns of a parameter as matrices, per unit of it."""
+    sizes = near.sizes[name]
+    shape = (len(sizes), 3, near.result.step.n_v)
+    each = np.reshape([one[:3] for one in columns], shape)
+    rate, below, above = each.transpose(1, 2, 0) / sizes
+    return Sides(rate, below, above, sizes * [one.holds for one in columns])

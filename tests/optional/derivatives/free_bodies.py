@@ -14,7 +14,6 @@ from quasistatic_ref import (
     Simulator,
     Sphere,
     System,
-    derivatives,
 )
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from tests.contact.still import placed_shape
@@ -28,26 +27,13 @@ BOX = Box((0.1, 0.1, 0.05))
 POINT = PointCloud(np.zeros((1, 3)))
 
 
-def one_sided_derivative(function, step=1e-6):
-    """Derivative at 0 from above of a function of one number, extrapolated once."""
-    start = function(0.0)
-    near, far = ((function(h) - start) / h for h in (step, 2 * step))
-    return 2 * near - far
-
-
-def touching(system, fixed, own, k=1, mu=(0.5, 0.01)):
-    """(simulator, q) of a system, one shape of which is on one that is fixed."""
-    pair = ContactPair("c0", fixed, own, *mu, 6, k)
-    return Simulator(system, [pair], h=H, K_q=1.0), system.q_start
-
-
 def free(shape, xyz, fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="floating"):
     """(simulator, q) of one free body on a shape that is fixed at the world's origin."""
     solid = shape if isinstance(shape, Box | Sphere | Cylinder | Capsule) else Sphere(0.05)
     system = System([Body.of_shape("body", solid, 0.3, xyz=xyz, rpy=rpy, base=base)])
     own = placed_shape(shape, system.link("body"))
-    simulator, q = touching(system, placed_shape(fixed), own, k, mu)
-    return FastSimulator(simulator), q
+    pair = ContactPair("c0", placed_shape(fixed), own, *mu, 6, k)
+    return FastSimulator(Simulator(system, [pair], h=H, K_q=1.0)), system.q_start
 
 
 def vector_scene(name, **settings):
@@ -60,8 +46,3 @@ def vector_scene(name, **settings):
 def falling_ball(gap=0.0):
     """(simulator, q) of a ball that falls as far as the floor in a step, but for a gap [m]."""
     return free(Sphere(0.05), (0, 0, 0.05 + H**2 * G + gap), FLOOR)
-
-
-def verdict(simulator, q, force=0.0):
-    found = derivatives(simulator, q, NONE, force)
-    return found, {why.kind for why in found.reasons}

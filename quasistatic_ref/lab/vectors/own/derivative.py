@@ -1,4 +1,4 @@
-"""Derivatives of a step by the package itself: closed forms in float64, from the working set."""
+"""Derivatives of a step by the package itself: differences of its exact steps."""
 
 import numpy as np
 
@@ -6,21 +6,22 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
-from quasistatic_ref.optional.derivatives.step.reason import ZERO_FRICTION
+
+PARAMETERS = ("q", "q_bar_a", "tau", "mu_v", "mu_omega", "K_q", "h", "masses")
 
 
 def own_derivative(case_input: Json) -> Json:
-    """The answer of the layer `derivative`; reasons, which have other names here, are left out."""
+    """The answer of the layer `derivative`; reasons, which have other names here, are left out.
+
+    So is a derivative by friction of zero, which cannot be smaller.
+    """
     try:
         posed = posed_case(case_input)
     except ContactError:  # a step is refused whose normal is one of several
         return {"differentiable": False}
     mine = posed.mine
     n_a = posed.step.n_a
-    rates = derivatives(posed.simulator, posed.q, posed.q_bar_a, posed.force)
-    # With mu = 0 the layer leaves that derivative out: mu cannot be smaller.
-    if any(reason.kind != ZERO_FRICTION for reason in rates.reasons):
-        return {"differentiable": False}
+    rates = derivatives(posed.simulator, posed.q, posed.q_bar_a, posed.force, PARAMETERS)
     v = mine.v
     a = mine.v[:n_a]
     bodies = case_input["mechanism"]["bodies"]
@@ -39,4 +40,6 @@ def own_derivative(case_input: Json) -> Json:
         "dq_dh": rates.dq_dh[v],
         "dq_dm": rates.dq_dmasses[np.ix_(v, massive)],
     }
+    if any(np.isnan(value).any() for value in answer.values()):
+        return {"differentiable": False}
     return {"differentiable": True, **{name: value.tolist() for name, value in answer.items()}}

@@ -1,0 +1,171 @@
+"""A derivative of a step along one direction: one-sided differences of exact steps.
+
+A step is smooth piece by piece, and an exact one has no noise but rounding. A one-sided difference
+of second order is therefore right to some ten digits while no piece ends within it. Differences
+become smaller until both sides agree; where they never do, there is a kink or a jump.
+"""
+
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.certify.rows import row_owners
+from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.derivatives.nearby import Changes, End, Nearby
+from quasistatic_ref.step.standard_form import standard_form
+
+SHARES: Final = (1e-3, 1e-4, 1e-5, 1e-6)
+"""Sizes of the differences, of a parameter's own size [-]."""
+
+EQUAL: Final = 1e-6
+"""Difference of two slopes that is none, relative to the larger one [-]: what is left of the third
+derivative, of bodies of a millimetre and more."""
+
+OPEN: Final = 1e-4
+"""Slack beyond which a row is open [-], relative to what q+ changes by."""
+
+
+class Side(NamedTuple):
+    """The steps on one side.
+
+    Parameters
+    ----------
+    eps : float
+        Share of the direction at which the nearest one is, with its sign [-].
+    ends : list of End
+        That, and the one twice as far; fewer where they are refused, or not taken.
+    problem : str
+        Why one is refused.
+    """
+
+    eps: float
+    ends: list[End]
+    problem: str = ""
+
+    @property
+    def slope(self) -> Array:
+        """The one-sided derivative of q+, shape (n_v,) [m or rad, per direction]."""
+        near, far = self.ends
+        return (4 * near.change - far.change) / (2 * self.eps)
+
+
+class Column(NamedTuple):
+    """The derivative along one direction, from both sides.
+
+    Parameters
+    ----------
+    rate, below, above : ndarray, shape (n_v,)
+        The derivative and the one-sided ones [m or rad, per direction]; NaN where there is none.
+    holds : float
+        How far from here steps were compared, on both sides [of directions].
+    rows, points : tuple of str
+        At a kink: the rows without slack on one side only, and the closest points on one side only.
+    problem : str
+        Why there is no derivative; empty if there is one.
+    """
+
+    rate: Array
+    below: Array
+    above: Array
+    holds: float
+    rows: tuple[str, ...] = ()
+    points: tuple[str, ...] = ()
+    problem: str = ""
+
+
+def column(near: Nearby, direction: Changes) -> Column:
+    """The derivative along a direction, of about the parameters' own sizes.
+
+    Parameters
+    ----------
+    near : Nearby
+    direction : mapping
+        What each of some parameters changes by.
+    """
+    rounding = near.rounding(direction)
+    aboves, belows = [], []
+    for eps in SHARES:
+        above = _side(near, direction, eps, 2)
+        below = _side(near, direction, -eps, 1)
+        if len(above.ends) + len(below.ends) == 3:
+            far, up, down = above.ends[1].change, above.ends[0].change, below.ends[0].change
+            if _equal(above.slope, (up - down) / (2 * eps), rounding / eps):
+                rate = (6 * up - far - 2 * down) / (6 * eps)  # of third order
+                return Column(rate, rate, rate, eps)
+        aboves.append(above)
+        belows.append(below)
+    belows = [_side(near, direction, side.eps, 2, side.ends) for side in belows]
+    nowhere = np.full(near.result.step.n_v, np.nan)
+    return Column(
+        nowhere,
+        _slope(belows, rounding, nowhere),
+        _slope(aboves, rounding, nowhere),
+        SHARES[-1],
+        *_difference(belows[-1], aboves[-1]),
+    )
+
+
+def _side(
+    near: Nearby, direction: Changes, eps: float, steps: int, first: Sequence[End] = ()
+) -> Side:
+    """The steps at eps and, if there are two, at 2 eps along a direction; the `first` are known."""
+    ends = [*first]
+    for times in range(len(ends) + 1, steps + 1):
+        changes = {name: times * eps * change for name, change in direction.items()}
+        try:
+            ends.append(near.end(changes))
+        except QuasistaticError as error:
+            return Side(eps, ends, str(error))
+    return Side(eps, ends)
+
+
+def _equal(one: Array, other: Array, rounding: float) -> bool:
+    """Whether two slopes are the same, but for a `rounding` of theirs."""
+    slopes = np.array([one, other])
+    most = EQUAL * np.abs(slopes).max(initial=0.0) + rounding
+    return bool(np.abs(one - other).max(initial=0.0) <= most)
+
+
+def _slope(sides: list[Side], rounding: float, nowhere: Array) -> Array:
+    """Of the slopes by smaller and smaller differences the first that the next one confirms."""
+    slopes = [side.slope if len(side.ends) == 2 else nowhere for side in sides]
+    for slope, (smaller, side) in zip(slopes, [*zip(slopes, sides, strict=True)][1:], strict=False):
+        if _equal(slope, smaller, rounding / abs(side.eps)):
+            return slope
+    return slopes[-1]
+
+
+def _difference(below: Side, above: Side) -> tuple[tuple[str, ...], tuple[str, ...], str]:
+    """The rows and the points in which two sides differ, and that in words."""
+    problem = below.problem or above.problem
+    if problem:
+        return (), (), f"a step nearby is refused: {problem}"
+    moved = max(np.abs(side.ends[0].change).max() for side in (below, above))
+    here, there = (_closed(side.ends[0].solution, OPEN * moved) for side in (below, above))
+    rows = []
+    points = []
+    for name in sorted(here.keys() | there.keys()):
+        if name in here and name in there:
+            rows += [f"{row} of {name}" for row in sorted(here[name] ^ there[name])]
+        elif here.get(name, there.get(name)):
+            points.append(name)
+    words = []
+    if rows:
+        words.append(f"rows without slack on one side only: {', '.join(rows)}")
+    if points:
+        words.append(f"closest points on one side only: {', '.join(points)}")
+    if not words:
+        words.append("both sides have the same rows and points, which change differently")
+    return tuple(rows), tuple(points), "; ".join(words)
+
+
+def _closed(solution: StepSolution, slack: float) -> dict[str, set[str]]:
+    """The rows of each contact that have no more slack than this [m], by names."""
+    step = solution.step
+    form = standard_form(step)
+    closed = np.flatnonzero(form.A @ solution.delta_q - form.b <= slack)
+    owners = row_owners(step, closed)
+    return {name: set(owners.get(name, ())) for name in step.contacts.name}

@@ -1,1 +1,0 @@
-"""Derivatives of closest points, and the kinks at which there are none."""

@@ -1,1 +1,0 @@
-"""Derivatives of masses, gravity and Jacobians by q."""

@@ -1,0 +1,178 @@
+"""The steps near one step: where they lead when a parameter changes a little."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from quasistatic_ref.certify.rows import flat_rows
+from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.model.state import State
+from quasistatic_ref.numbers.arrays import Array, without_warnings
+from quasistatic_ref.numbers.ordered import crossed
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.backends import NONE
+from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.solve.solve import solve_step, solved
+from quasistatic_ref.solve.units import ScaledStep
+from quasistatic_ref.step.data import StepData
+
+Changes = Mapping[str, Array]
+"""What some parameters change by, by their names."""
+
+PLACE: Final = 0.01
+"""Size of a coordinate of q [m, rad], of which a thousandth is the first difference."""
+
+ROUNDING: Final = 1e-13
+"""What rounding may change in q+ [m, rad]: some hundred times that of places in the world where q
+changes. Where only a step's data change, it is this share of the step's own size."""
+
+
+class End(NamedTuple):
+    """Where a step nearby leads.
+
+    Parameters
+    ----------
+    change : ndarray, shape (n_v,)
+        Of q+, in the tangent space there [m, rad].
+    solution : StepSolution
+    """
+
+    change: Array
+    solution: StepSolution
+
+
+def exact_step(
+    simulator: Simulator, q: ArrayLike, q_bar_a: ArrayLike, force: ArrayLike | None
+) -> StepResult:
+    """The step of a simulator with its exact optimum, whatever the simulator certifies."""
+    result = simulator.step(q, q_bar_a, force)
+    if result.solution.certificate.kind == "exact":
+        return result
+    solution = solve_step(result.step.replace(), NONE)
+    end = simulator.system.at(q).plus(solution.delta_q)
+    return replace(result, q=end.q, step=solution.step, solution=solution, end=end)
+
+
+class Nearby:
+    """The steps near one.
+
+    Places are compared as seen from where a step starts, which (-) does not depend on: what is far
+    from the world's origin is then not rounded to more.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    q : array_like, shape (n_q,)
+    q_bar_a : array_like, shape (n_q_a,)
+    force : array_like, shape (n_v,)
+
+    Attributes
+    ----------
+    result : StepResult
+        The step itself, with its exact optimum whatever the simulator certifies.
+    sizes : dict of str to ndarray, shape (P,)
+        By what a change of each parameter is measured [of the parameter].
+    """
+
+    def __init__(
+        self, simulator: Simulator, q: ArrayLike, q_bar_a: ArrayLike, force: ArrayLike | None
+    ) -> None:
+        system = simulator.system
+        self.simulator = simulator
+        self.result: StepResult = exact_step(simulator, q, q_bar_a, force)
+        self._start = system.at(q)
+        self._given = q_bar_a, force
+        self._step = step = self.result.step.replace()
+        self._solver = solver_for(step, NONE)
+        self._quickly = simulator.fast and simulator.certify == "full"
+        self._rows = flat_rows(step, self.result.solution.certificate.active)
+        self._origin = system.at(system.neutral())
+        self._end = self._origin.plus(self.result.solution.delta_q)
+
+        units = ScaledStep(step).units
+        coordinate = units.size * units.coordinate
+        mu_v, mu_omega = np.array([(p.mu_v, p.mu_omega) for p in simulator.pairs]).reshape(-1, 2).T
+        masses = system.masses
+        self.sizes: dict[str, Array] = {
+            "q": np.full(system.n_v, PLACE),
+            "q_bar_a": coordinate[: system.n_a],
+            "tau": units.size / (step.h * units.coordinate),
+            "mu_v": np.where(mu_v > 0, mu_v, 1.0),
+            "mu_omega": np.where(mu_omega > 0, mu_omega, units.size * units.length),
+            "K_q": np.diag(step.K_q),
+            "h": np.array([step.h]),
+            "masses": np.where(masses > 0, masses, masses.max() or 1.0),
+        }
+        self._moved = float(coordinate.max(initial=0.0))
+
+    def rounding(self, changes: Changes) -> float:
+        """What the rounding of a step nearby may change in q+ [m, rad]."""
+        return ROUNDING if "q" in changes else ROUNDING * self._moved
+
+    def end(self, changes: Changes) -> End:
+        """The step of other parameters; errors as of a step."""
+        shift = self._change(changes, "q")
+        start = self._start.plus(shift)
+        if self._quickly and changes.keys() == {"q"}:
+            solution = self.simulator.step(start, *self._given).solution
+        else:
+            solution = self._proved(self._changed(start, changes))
+        there = self._origin.plus(shift).plus(solution.delta_q)
+        return End(self.simulator.system.difference(self._end.q, there.q), solution)
+
+    def _change(self, changes: Changes, name: str) -> Array:
+        """What one parameter changes by."""
+        return changes.get(name, np.zeros(self.sizes[name].shape))
+
+    def _proved(self, step: StepData) -> StepSolution:
+        """The exact optimum of a step, from the rows of the one that all are near to."""
+        scaled = ScaledStep(step)
+        accuracy = self.simulator.accuracy
+        return without_warnings(solved, scaled, self._solver, accuracy, "full", self._rows)
+
+    def _changed(self, start: State, changes: Changes) -> StepData:
+        """The data of a step from there under other parameters; q alone goes through geometry."""
+        simulator = self.simulator
+        system = simulator.system
+        n_a = system.n_a
+        kinematics = start.kinematics
+        step = self._step
+        if "q" in changes:
+            points = simulator.closest_points(kinematics)
+            step = simulator.step_data(start, *self._given, points)
+        if changes.keys() == {"q"}:
+            return step
+
+        contacts = step.contacts
+        of_pair = [pair.n_c for pair in simulator.pairs]
+        mu_v = np.repeat(self._change(changes, "mu_v"), of_pair)
+        mu_omega = np.repeat(self._change(changes, "mu_omega"), of_pair)
+
+        masses = self._change(changes, "masses")
+        arms = np.einsum("lab,lb->la", kinematics.R, system.centres)
+        centres = kinematics.J[:, :3] + crossed(kinematics.J[:, 3:], arms[:, :, None])
+        M = np.einsum("l,lai,laj->ij", masses, centres, centres)
+        weights = np.einsum("l,lai,a->i", masses, centres, simulator.gravity)
+        weights[:n_a] *= simulator.gravity_acts
+        tau = weights + self._change(changes, "tau")
+
+        none = np.zeros(system.n_u)
+        target = self._origin.plus(np.append(step.delta_q_bar_a, none))
+        target = target.plus(np.append(self._change(changes, "q_bar_a"), none))
+        return step.replace(
+            contacts=replace(
+                contacts,
+                mu_v=contacts.mu_v + mu_v,
+                mu_omega=contacts.mu_omega + mu_omega * contacts.torsion,
+            ),
+            K_q=step.K_q + np.diag(self._change(changes, "K_q")),
+            h=step.h + self._change(changes, "h").item(),
+            M_u=step.M_u + M[n_a:, n_a:],
+            tau_a=step.tau_a + tau[:n_a],
+            tau_u=step.tau_u + tau[n_a:],
+            delta_q_bar_a=self._origin.change_to(target.q[: system.n_q_a]),
+        )

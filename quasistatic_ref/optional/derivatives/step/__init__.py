@@ -1,1 +1,0 @@
-"""Derivatives of the optimum of one step by its data."""
