@@ -39,11 +39,6 @@ def problem_set_folder(source: str) -> Path:
     return Path(source)
 
 
-def peer_file() -> Path:
-    """The file of runs of another simulator that comes with the package."""
-    return data_folder("validation/results", "lab/claims/data") / "peer.json"
-
-
 def clouds_file() -> Path:
     """The rows of the study of clouds that come with the package."""
     return data_folder("validation/results", "lab/figures/data") / "clouds.jsonl"

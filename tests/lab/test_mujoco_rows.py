@@ -1,8 +1,8 @@
 """The comparison with MuJoCo: the formula of its contact point, and what its absence does."""
 
+from quasistatic_ref.lab.claims import mujoco_rows
 from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, claim_result
-from quasistatic_ref.lab.claims.engines import mujoco_rows
-from quasistatic_ref.lab.claims.engines.mujoco_rows import rows_of
+from quasistatic_ref.lab.claims.mujoco_rows import rows_of
 
 
 def test_without_the_formula_the_rows_do_not_agree(monkeypatch):

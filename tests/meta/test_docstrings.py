@@ -8,7 +8,7 @@ from tests.pages import PACKAGE, ROOT
 NOTATION = [
     ROOT / "docs" / "conventions.md",
     PACKAGE / "shapes" / "__init__.py",
-    PACKAGE / "lab" / "claims" / "closed_forms" / "__init__.py",
+    PACKAGE / "lab" / "claims" / "__init__.py",
     PACKAGE / "optional" / "qp" / "__init__.py",
 ]
 """Tables of symbols with their units."""

@@ -1,26 +1,62 @@
-"""A bar that two fingers lift by its end: the smallest time step with which they hold it.
-
-(R46), necessary: the fingers bear the load L = m (g + v / h) and the torque e L about their
-common normal. The pyramid of a corner bounds |f_1| + |f_2| by mu_v times its normal force, and
-either component has the arm a about the middle of the pad, so all corners together make at most
-the torque 2 mu_v N a. Sufficient: let the two corners of each pad on the side of the centre of
-mass press with F = L / (2 mu_v) together and push up with all their friction, and the other two
-press with N - F and push sideways, against each other, with up to all of theirs. The net force of
-a pad is L / 2, and its torque is anything from a L / 2 to mu_v N a, hence also e L / 2. By the
-condition F <= N, so no corner pulls. In Coulomb's cone the torque alone is bounded by sqrt(2)
-times as much.
-"""
+"""Two fingers that hold a bar, and that lift it."""
 
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, contacts_of, point_jacobian
+from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.thresholds import exact, grid, thresholds
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 
+# The paper's Figure 1 in closed form: two fingertips hold a bar off its centre of mass.
+
 M = 0.2
 """Mass of the bar [kg]."""
+
+
+def held_bar(offset: float, grip: float, mu_v: float, mu_omega: float) -> StepData:
+    """A bar that is held at an offset [m]."""
+    return pinch_step(grip, offset, mu_v, mu_omega, m=M)
+
+
+def pinch_evidence() -> Evidence:
+    """The offset at which the bar begins to turn."""
+    sweep = grid([4.0, 10.0, 40.0], [0.4, 0.8], [0.005, 0.02])
+    grip, mu_v, mu_omega = sweep.T
+    expected = mu_omega * (2 * grip / (M * GRAVITY) - 1 / mu_v)
+    measured = thresholds(held_bar, sweep, expected)
+    steps = (held_bar(0.9 * limit, *of) for limit, of in zip(expected, sweep, strict=True))
+    loads = [exact(step).wrench[:, 2] for step in steps]
+    grips = np.stack([grip, grip], axis=1)
+    return Evidence.of(
+        comparison("offset that turns the bar [m]", measured, expected, CLOSED_FORM, expected),
+        comparison("normal force of a finger [N]", loads, grips, CLOSED_FORM, grips),
+    )
+
+
+PINCH = Claim(
+    name="pinch",
+    sentence="Two fingers that press with N hold a bar without any motion while the offset of its "
+    "centre of mass is at most mu_omega (2 N / (m g) - 1 / mu_v).",
+    where="docs/derivations.md (R14); the paper, Fig. 1",
+    sweep="three grips, two mu_v, two mu_omega; each threshold by bisection on exact answers",
+    reason="CLOSED_FORM, above the 1e-13 at which the bisection stops.",
+    measure=pinch_evidence,
+)
+
+# A bar that two fingers lift by its end: the smallest time step with which they hold it.
+#
+# (R46), necessary: the fingers bear the load L = m (g + v / h) and the torque e L about their
+# common normal. The pyramid of a corner bounds |f_1| + |f_2| by mu_v times its normal force, and
+# either component has the arm a about the middle of the pad, so all corners together make at most
+# the torque 2 mu_v N a. Sufficient: let the two corners of each pad on the side of the centre of
+# mass press with F = L / (2 mu_v) together and push up with all their friction, and the other two
+# press with N - F and push sideways, against each other, with up to all of theirs. The net force of
+# a pad is L / 2, and its torque is anything from a L / 2 to mu_v N a, hence also e L / 2. By the
+# condition F <= N, so no corner pulls. In Coulomb's cone the torque alone is bounded by sqrt(2)
+# times as much.
+
 MU_V = 0.6
 K = 2000.0
 """Of a finger [N/m]."""
@@ -71,7 +107,7 @@ def lifting_step(speed: float, lever: float, h: float) -> StepData:
     )
 
 
-def evidence() -> Evidence:
+def lift_evidence() -> Evidence:
     """The rate 1 / h of steps from which on the bar turns."""
     sweep = grid([0.001, 0.01, 0.1, 0.3], [0.02, 0.03, 0.04])
     speed, lever = sweep.T
@@ -91,7 +127,7 @@ def evidence() -> Evidence:
     )
 
 
-CLAIM = Claim(
+LIFT = Claim(
     name="lift",
     sentence="Two fingers with square pads of half-width a, which press with N, lift a bar at the "
     "speed v by the lever e >= a without turning it while m (g + v / h) <= 2 mu_v N a / e: at a "
@@ -99,5 +135,5 @@ CLAIM = Claim(
     where="docs/derivations.md (R46)",
     sweep="four speeds, three levers; each threshold by bisection on exact answers",
     reason="CLOSED_FORM, above the 1e-13 at which the bisection stops.",
-    measure=evidence,
+    measure=lift_evidence,
 )

@@ -1,15 +1,20 @@
-"""Free fall, and a point that approaches the floor or has sunk into it."""
+"""Bodies without friction: free fall, an approach, and what the time step is worth as inertia."""
 
 import numpy as np
 
+from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step
 from quasistatic_ref.lab.scenes.systems import body_text, simulator_of, steps_of, system_of
 from quasistatic_ref.lab.thresholds import exact, grid
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.tolerances import CLOSED_FORM
 
-STEPS = 10
+# Free fall, and a point that approaches the floor or has sunk into it.
+
+FALL_STEPS = 10
 
 
 def fall_evidence() -> Evidence:
@@ -25,17 +30,19 @@ def fall_evidence() -> Evidence:
             rpy = tuple(rng.uniform(-1.5, 1.5, 3))
             text = body_text(float(rng.uniform(0.1, 5)), (0.02, 0.03, 0.04), com=com)
             system = system_of({"body": text}, body={"rpy": rpy})
-            results = steps_of(simulator_of(system, (), h), STEPS)
+            results = steps_of(simulator_of(system, (), h), FALL_STEPS)
             q = np.array([r.q for r in results])
             heights.append(q[:, 2])
-            expected.append(-np.arange(1, STEPS + 1) * h**2 * GRAVITY)
+            expected.append(-np.arange(1, FALL_STEPS + 1) * h**2 * GRAVITY)
             sideways.append(q[:, :2] / (h**2 * GRAVITY))
             turned.append((q[:, 3:] - system.q_start[3:]) / (h**2 * GRAVITY / 0.1))
     fallen = np.array(expected)
     return Evidence.of(
         comparison("height after k steps [m]", heights, fallen, CLOSED_FORM, fallen),
-        comparison("sideways, in steps of fall [-]", np.array(sideways), 0.0, STEPS * CLOSED_FORM),
-        comparison("turned, in steps of fall [-]", np.array(turned), 0.0, STEPS * CLOSED_FORM),
+        comparison(
+            "sideways, in steps of fall [-]", np.array(sideways), 0.0, FALL_STEPS * CLOSED_FORM
+        ),
+        comparison("turned, in steps of fall [-]", np.array(turned), 0.0, FALL_STEPS * CLOSED_FORM),
     )
 
 
@@ -77,4 +84,45 @@ APPROACH = Claim(
     sweep="three masses, nine gaps from -1 mm to 1 cm, three time steps",
     reason="CLOSED_FORM, relative to the larger of weight and push.",
     measure=approach_evidence,
+)
+
+# Inertia and time step are one number: a smaller step is a heavier body.
+
+RANDOM_STEPS = 40
+
+
+def evidence() -> Evidence:
+    """Random steps with another inertia, and with another h."""
+    rng = np.random.default_rng(45)
+    heavier: list[Array] = []
+    shorter: list[Array] = []
+    forces: list[Array] = []
+    expected: list[Array] = []
+    while len(heavier) < RANDOM_STEPS:
+        step = random_step(rng, 2, 4, random_contacts(rng, 3, 6))
+        sigma = 4.0 ** float(rng.integers(-3, 4))  # its root is a power of two: nothing is rounded
+        try:
+            heavy = exact(step.replace(M_u=sigma * step.M_u))
+            short = exact(step.replace(h=step.h / np.sqrt(sigma)))
+        except StepInfeasible:
+            continue
+        heavier.append(heavy.delta_q)
+        shorter.append(short.delta_q)
+        forces.append(heavy.wrench)
+        expected.append(short.wrench)
+    return Evidence.of(
+        comparison("delta_q with sigma M_u at h [m, rad]", heavier, shorter, 0.0),
+        comparison("forces of the contacts [N, N m]", forces, expected, 0.0),
+    )
+
+
+CLAIM = Claim(
+    name="inertia_and_time_step",
+    sentence="A step with the inertia sigma M_u at h and one with M_u at h / sqrt(sigma) have the "
+    "same displacement and forces where targets, loads and contacts are the same: smaller steps "
+    "are heavier bodies, and no limit of h to 0 is approached.",
+    where="docs/artifacts.md (R45)",
+    sweep=f"{RANDOM_STEPS} random steps with a solution, sigma from 1/64 to 64",
+    reason="no tolerance: sqrt(sigma) is a power of two, so the bits are the same.",
+    measure=evidence,
 )

@@ -1,4 +1,0 @@
-"""Claims about measured pushes.
-
-They state what ``lab/reality`` predicts, and predict nothing themselves.
-"""
