@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.observer import Observer
     from quasistatic_ref.simulate.simulator import Simulator
     from quasistatic_ref.simulate.trajectory import Trajectory
+    from quasistatic_ref.solve.backends import Certify
     from quasistatic_ref.solve.solver import Solver
     from quasistatic_ref.step.data import StepData
 
@@ -151,7 +152,7 @@ def extended_step(
     solver: str | Callable[..., Any] | Solver | None,
     fast: bool,
     accuracy: float,
-    certify: str,
+    certify: Certify,
 ) -> StepSolution:
     """``extension``: a step solved with it, from the arguments of ``solve_step``."""
     with needing("extension"):

@@ -84,10 +84,14 @@ contacts = qr.Contacts(["a"], [0.0], [[0, 0, 1]], [[1, 0, 0]], [[0, 1, 0]], [], 
 names: list[str] = [finding.name.upper() for finding in run.findings]
 if not (verdict := qr.verify(solution)):
     print(verdict.reason.upper())
+q_start: Array = scenario.system.q_start
+qr.solve_step(step, certify="exact")  # type: ignore[arg-type]  # no such word
+qr.Simulator(system, [], h=0.01, law="coloumb")  # type: ignore[arg-type]  # misspelt
+qr.rollout(simulator, q_start, [], 1, record="all")  # type: ignore[arg-type]  # no such word
 solution.delta_qq  # type: ignore[attr-defined]  # misspelt: mypy has to see it
 qr.solve_stepp  # type: ignore[attr-defined]  # misspelt: mypy has to see it
 """
-"""What users write: the last two lines are needed errors, so that nothing here is of any type."""
+"""What users write: the last five lines are needed errors, so that nothing here is of any type."""
 
 
 def test_the_names_are_those_that_dir_shows():

@@ -30,7 +30,7 @@ def block(push):
     both = np.ones((2, 1))
     return StepData(
         h=H,
-        K_q=np.zeros((0, 0)),
+        K_q=[],
         M_u=np.diag([MASS, MASS, inertia]),
         tau_a=[],
         tau_u=[push, -MASS * GRAVITY, 0.0],

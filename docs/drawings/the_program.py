@@ -23,7 +23,7 @@ def point(push, mu_v=MU_V, h=H):
     """
     return StepData(
         h=h,
-        K_q=np.zeros((0, 0)),
+        K_q=[],
         M_u=MASS * np.eye(2),
         tau_a=[],
         tau_u=[push, -MASS * GRAVITY],

@@ -29,7 +29,7 @@ left = {"pyramid": 1 - share, "ellipsoid": np.sqrt(1 - share**2), "product": 1.0
 def motion(push, cone):
     """Largest entry of delta_q [m, rad] under a push [N] and the torque."""
     step = qr.StepData(
-        h=0.01, K_q=np.zeros((0, 0)), M_u=np.diag([m, m, m, inertia]), tau_a=[],
+        h=0.01, K_q=[], M_u=np.diag([m, m, m, inertia]), tau_a=[],
         tau_u=[push, 0, -m * gravity, torque], delta_q_bar_a=[], contacts=floor, cone=cone,
     )  # fmt: skip
     return np.abs(qr.solve_step(step).delta_q).max()

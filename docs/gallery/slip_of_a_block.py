@@ -27,7 +27,7 @@ floor = qr.Contacts(
 def slip(pull):
     """How far a pull [N] moves the block along x in one step [m]."""
     step = qr.StepData(
-        h=h, K_q=np.zeros((0, 0)), M_u=m * np.eye(3), tau_a=[], tau_u=[pull, 0, -m * gravity],
+        h=h, K_q=[], M_u=m * np.eye(3), tau_a=[], tau_u=[pull, 0, -m * gravity],
         delta_q_bar_a=[], contacts=floor,
     )  # fmt: skip
     return qr.solve_step(step).delta_q[0]

@@ -29,7 +29,7 @@ def block(push, mu_v=0.5, mu_omega=0.02, torque=0.0):
     )  # fmt: skip
     M_u = np.diag([1.0, 1.0, 1.0, 1e-3])
     tau_u = [push, 0.0, -GRAVITY, torque]
-    return qr.StepData(h=H, K_q=np.zeros((0, 0)), M_u=M_u, tau_a=[], tau_u=tau_u,
+    return qr.StepData(h=H, K_q=[], M_u=M_u, tau_a=[], tau_u=tau_u,
                        delta_q_bar_a=[], contacts=contact)  # fmt: skip
 
 

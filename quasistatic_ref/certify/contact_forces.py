@@ -2,11 +2,12 @@
 
 from dataclasses import dataclass
 
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.numbers.arrays import Array, read_only
 
 
-@dataclass(frozen=True, eq=False)
-class ContactForces:
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactForces(Shown):
     """The forces of a step's contacts.
 
     Parameters

@@ -151,6 +151,11 @@ class StepSolution(Plain, Shown):
         return read_only(wrench)
 
     @property
+    def proved(self) -> bool:
+        """Whether it is proved: to be the optimum, or within its certificate's error bound."""
+        return self.certificate.kind in ("exact", "enclosure")
+
+    @property
     def lam_extra(self) -> Array:
         """Multipliers of the user's own rows, the last of lam, shape (extra rows,) [N s]."""
         return self.lam[self.step.offsets[-1] :]

@@ -17,7 +17,7 @@ from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.curved_cone import claims_of
 from quasistatic_ref.certify.rounding import nearest
 from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.errors import StepDataError, about_file
+from quasistatic_ref.errors import StepDataError, about_file, check_kind
 from quasistatic_ref.formats.files import json_read, json_text, text_written
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.numbers.arrays import Array
@@ -92,6 +92,7 @@ def save_solution(path: str | Path, solution: StepSolution) -> Path:
     >>> qr.save_solution(Path(tempfile.mkdtemp()) / "solution.json", qr.solve_step(step)).name
     'solution.json'
     """
+    check_kind(solution, StepSolution, "solution", "a StepSolution: save_solution(path, solution)")
     return text_written(path, solution_text(solution))
 
 

@@ -37,6 +37,7 @@ from quasistatic_ref.contact.ranks import closest, rounded_gaps
 from quasistatic_ref.contact.separations import BISECTOR, UNIQUE_NORMAL, pair_normal, rounding
 from quasistatic_ref.contact.shape_in_world import Pose, ShapeInWorld, moved, poses_in_world
 from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, corner_surface
+from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.shapes.placed_shape import PointCloud
@@ -78,6 +79,10 @@ class ClosestPoints(NamedTuple):
     n: Array
     point: Indices
     tie: Indices
+
+    def __repr__(self) -> str:
+        nearest = f", phi from {self.phi.min():.3g} m" if self.phi.size else ""
+        return f"<{type(self).__name__} of {counted(self.phi.size, 'contact')}{nearest}>"
 
     def swapped(self) -> "ClosestPoints":
         """The same contacts with alpha's and beta's bodies exchanged."""

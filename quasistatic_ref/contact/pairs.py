@@ -56,7 +56,7 @@ class ContactPair(Plain):
     >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
     >>> system = qr.System([ball])
     >>> floor = qr.PlacedShape.in_world("floor", qr.HalfSpace((0, 0, 1), 0.0))
-    >>> qr.ContactPair("f", floor, system.shapes[0], mu_v=0.5, mu_omega=0.01, rows=6, k=1).n_c
+    >>> qr.ContactPair("f", floor, system.shapes[0], mu_v=0.5, mu_omega=0.01).n_c
     1
     """
 
@@ -65,11 +65,13 @@ class ContactPair(Plain):
     beta: PlacedShape
     mu_v: float
     mu_omega: float
-    rows: int
-    k: int
+    rows: int = 6
+    k: int = 1
     hull: bool = False
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise ContactError("must be a text", field="name", value=self.name)
         for key in ("alpha", "beta"):
             if not isinstance(side := getattr(self, key), PlacedShape):
                 problem = (
@@ -85,7 +87,7 @@ class ContactPair(Plain):
                 raise ContactError(problem, field=f"{self.name}.{key}", value=float(friction))
         if self.rows not in (4, 6):
             raise ContactError("must be 4 or 6", field=f"{self.name}.rows", value=self.rows)
-        if not isinstance(self.k, int | np.integer) or self.k < 1:
+        if isinstance(self.k, bool) or not isinstance(self.k, int | np.integer) or self.k < 1:
             problem = "must be a whole number, 1 or more"
             raise ContactError(problem, field=f"{self.name}.k", value=self.k)
         clouds = [isinstance(s.shape, PointCloud) for s in (self.alpha, self.beta)]

@@ -120,3 +120,9 @@ def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
     for name, *others in rows:
         right = [cell.rjust(width) for cell, width in zip(others, widths, strict=True)]
         yield "  ".join([name.ljust(first), *right]).rstrip()
+
+
+def counted(n: int, noun: str) -> str:
+    """A number of things, e.g. ``1 contact`` or ``3 bodies``."""
+    many = f"{noun[:-1]}ies" if noun.endswith("y") else f"{noun}s"
+    return f"{n} {noun if n == 1 else many}"

@@ -69,7 +69,7 @@ class Body(Plain):
     package_dirs: Sequence[str | Path] = ()
 
     def __post_init__(self) -> None:
-        if not self.name or self.name == "world":
+        if not isinstance(self.name, str) or not self.name or self.name == "world":
             problem = "must be a name other than 'world'"
             raise ModelError(problem, field="body.name", value=self.name)
         if any(c in "/#*" or c.isspace() for c in self.name):
@@ -92,6 +92,15 @@ class Body(Plain):
         obstacle = None if self.base == FIXED else BASES[self.base].obstacle(xyz, rpy, xyz)
         if obstacle is not None:
             raise ModelError(obstacle, field=f"{self.name}.rpy", value=rpy.tolist())
+        if not isinstance(self.urdf, str | Path):
+            problem = "must be a path, or a URDF as text"
+            raise ModelError(problem, field=f"{self.name}.urdf", value=type(self.urdf).__name__)
+        if not isinstance(self.positions, Mapping):
+            problem = "must be a mapping of joints to numbers, as in {'elbow': 0.3}"
+            raise ModelError(problem, field=f"{self.name}.positions", value=self.positions)
+        if not isinstance(self.package_dirs, list | tuple):
+            problem = "must be a list of folders"
+            raise ModelError(problem, field=f"{self.name}.package_dirs", value=self.package_dirs)
         positions = {
             joint: finite_number(value, f"{self.name}.positions.{joint}")
             for joint, value in self.positions.items()

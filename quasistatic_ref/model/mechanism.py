@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.formats.quoting import clipped, suggestion
+from quasistatic_ref.formats.quoting import clipped, counted, suggestion
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.configuration import (
@@ -149,7 +149,8 @@ class Mechanism(ABC):
 
     def __repr__(self) -> str:
         names = ", ".join(body.name for body in self.bodies)
-        counts = f"n_a = {self.n_a}, n_u = {self.n_u}, {len(self.links) - 1} links"
+        links = counted(len(self.links) - 1, "link")
+        counts = f"n_a = {self.n_a}, n_u = {self.n_u}, {links}"
         return f"<{type(self).__name__} of {clipped(names) or 'no bodies'}: {counts}>"
 
     @abstractmethod

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import InputError, ModelError
-from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.quoting import clipped, suggestion
 from quasistatic_ref.model.joints.joint import COSINE_SINE, QUATERNION, Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.numbers.angles import cos_sin
@@ -32,6 +32,9 @@ class Named:
         self._joints = {joint.name: joint for joint in joints}
         self._q = _Places((j, j.q, [position.name for position in j.positions]) for j in joints)
         self._change = _Places((j, j.v, [entry.name for entry in j.coordinates]) for j in joints)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {clipped(', '.join(self._joints)) or 'no joints'}>"
 
     def q(self, name: str) -> Indices:
         """Indices of entries of q, and of q_a; ModelError if there is none of that name, or two."""

@@ -8,13 +8,14 @@ base has x, y and the angle of the same twist, in the plane.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 
 import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from quasistatic_ref.errors import check_kind
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.column_map import JointColumns
 from quasistatic_ref.model.coordinates import paper_order, with_shape
@@ -109,7 +110,11 @@ class System(Mechanism):
     """
 
     def __init__(self, bodies: Sequence[Body]) -> None:
-        self._make(world_of(tuple(bodies)))
+        check_kind(bodies, Iterable, "bodies", "a list of bodies: System([body])")
+        every = tuple(bodies)
+        for body in every:
+            check_kind(body, Body, "bodies", "a list of bodies, each as Body makes it")
+        self._make(world_of(every))
 
     def __getstate__(self) -> tuple[World]:
         return (self._world,)

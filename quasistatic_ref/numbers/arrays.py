@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar, copy_context
 from typing import Any, TypeVar
 
@@ -16,6 +16,7 @@ Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 Result = TypeVar("Result")
+Scalar = TypeVar("Scalar", bound=np.generic)
 
 _WARNINGS: ContextVar[Mapping[str, Any] | None] = ContextVar("_WARNINGS", default=None)
 """How NumPy's errors are handled around :func:`without_warnings`; None outside of it."""
@@ -52,7 +53,7 @@ def with_warnings() -> Iterator[None]:
         _WARNINGS.reset(inside)
 
 
-def read_only(array: NDArray[Any]) -> NDArray[Any]:
+def read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
     """An array itself, of any shape and unit [-], which cannot be written any more."""
     array.setflags(write=False)
     return array
@@ -76,6 +77,16 @@ def checked_numbers(value: object, name: str, error: type[InputError] = StepData
     except (TypeError, ValueError, OverflowError):
         pass
     raise error("must be numbers, in lists of equal length", field=name, value=value)
+
+
+def positive_number(value: object, field: str) -> float:
+    """A number greater than 0 [any unit]; InputError of anything else, such as a string."""
+    number = np.array(np.nan)
+    with suppress(InputError):
+        number = checked_numbers(value, field, InputError)
+    if number.shape != () or not number > 0:
+        raise InputError("must be a number greater than 0", field=field, value=value)
+    return float(number)
 
 
 def _has_truth(value: object) -> bool:

@@ -38,6 +38,7 @@ from quasistatic_ref.scenario.scenario_table import (
 )
 from quasistatic_ref.scenario.scene_words import HERE, scene_tables
 from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.header import Record
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.rollout import rollout
@@ -89,7 +90,7 @@ class Scenario(Settings, Plain, Shown):
     steps: int
     targets: Targets
     wrenches: tuple[Wrenches, ...] = ()
-    record: str = "full"
+    record: Record = "full"
     fast: bool = False
     bodies: Mapping[str, Body] = field(default_factory=dict)
     of_bodies: OfBodies | None = None

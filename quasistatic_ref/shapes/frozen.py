@@ -15,7 +15,7 @@ SHORT: Final = 1e-15
 def finite_number(value: Any, key: str) -> float:
     """A finite float [the field's unit]; ModelError naming the field otherwise."""
     try:
-        number = float(value)
+        number = math.nan if isinstance(value, str | bool) else float(value)
     except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number):

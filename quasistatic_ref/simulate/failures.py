@@ -26,7 +26,7 @@ class LimitExceeded(StepNotSolved):
     --------
     >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
     >>> system = qr.System([ball])
-    >>> storm = qr.Simulator(system, [], h=0.01, K_q=np.zeros((0, 0)), gravity=(0, 0, -1e7))
+    >>> storm = qr.Simulator(system, [], h=0.01, gravity=(0, 0, -1e7))
     >>> try:
     ...     storm.step(system.q_start, np.zeros(0))
     ... except qr.LimitExceeded as error:
@@ -57,7 +57,7 @@ class RunFailed(QuasistaticError):
     --------
     >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
     >>> system = qr.System([ball])
-    >>> storm = qr.Simulator(system, [], h=0.01, K_q=np.zeros((0, 0)), gravity=(0, 0, -1e7))
+    >>> storm = qr.Simulator(system, [], h=0.01, gravity=(0, 0, -1e7))
     >>> try:
     ...     qr.rollout(storm, system.q_start, [], steps=3, progress=False)
     ... except qr.RunFailed as error:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import MISSING, dataclass, fields
-from typing import Any
+from typing import Any, Literal, get_args
 
 from quasistatic_ref.errors import about_field
 from quasistatic_ref.formats.plain import Plain
@@ -15,7 +15,8 @@ from quasistatic_ref.step.cones import cone
 
 FORMAT = "quasistatic-ref/trajectory"
 VERSION = 1
-RECORDS = ("full", "light", "forces")
+Record = Literal["full", "light", "forces"]
+RECORDS: tuple[Record, ...] = get_args(Record)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -1,12 +1,15 @@
 """The law of friction that steps obey: the model's own, or Coulomb's of ``optional/coulomb``."""
 
+from typing import Final, Literal, get_args
+
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import check_there
 
-CONVEX = "convex"
-COULOMB = "coulomb"
-LAWS = (CONVEX, COULOMB)
+CONVEX: Final = "convex"
+COULOMB: Final = "coulomb"
+Law = Literal["convex", "coulomb"]
+LAWS: tuple[Law, ...] = get_args(Law)
 ITERATED = ("s", "s_residual", "s_iterations")
 """What Coulomb's law adds to each step of a record: by how much phi was raised, shape (n_c,) [m];
 by how much that is not its own [m]; and how many convex steps were solved."""
@@ -21,7 +24,7 @@ def check_law(law: str, certify: str) -> None:
         Also if ``optional/coulomb`` is missing.
     """
     if law not in LAWS:
-        raise InputError(f"is not a choice{suggestion(law, LAWS)}", field="law", value=law)
+        raise InputError(f"is not a choice{suggestion(str(law), LAWS)}", field="law", value=law)
     if law == COULOMB:
         check_there(COULOMB, f'law = "{COULOMB}"')
         if certify != "full":

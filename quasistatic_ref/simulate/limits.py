@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, positive_number
 from quasistatic_ref.simulate.failures import LimitExceeded
 from quasistatic_ref.step.data import StepData
 
@@ -27,7 +26,7 @@ class Limits:
     Raises
     ------
     InputError
-        If one of them is not greater than 0.
+        If one of them is no number greater than 0.
 
     Examples
     --------
@@ -41,9 +40,8 @@ class Limits:
 
     def __post_init__(self) -> None:
         for name in ("penetration", "reach"):
-            if not getattr(self, name) > 0:
-                limit = getattr(self, name)
-                raise InputError("must be greater than 0", field=f"limits.{name}", value=limit)
+            limit = positive_number(getattr(self, name), f"limits.{name}")
+            object.__setattr__(self, name, limit)
 
     def out_of_reach(self, links: Sequence[str], t: Array) -> str | None:
         """Which link is out of the scene, in words; None if none is.
@@ -54,7 +52,7 @@ class Limits:
         t : ndarray, shape (L, 3)
             Origins of the links [m], world frame.
         """
-        if np.vdot(t, t) <= self.reach**2:  # all of them together
+        if np.vdot(t, t) <= self.reach * self.reach:  # all of them together
             return None
         distance = np.hypot.reduce(t, axis=1)
         beyond = np.flatnonzero(~(distance <= self.reach))  # NaN is beyond, too

@@ -17,7 +17,7 @@ from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.parts import check_there, doctors
-from quasistatic_ref.simulate.header import RECORDS, Header
+from quasistatic_ref.simulate.header import RECORDS, Header, Record
 from quasistatic_ref.simulate.law import COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import (
@@ -96,7 +96,7 @@ class Recorder:
         self,
         simulator: Simulator,
         q: ArrayLike,
-        record: str = "full",
+        record: Record = "full",
         observers: Sequence[Observer] | None = None,
         target: Target | None = None,
     ) -> None:

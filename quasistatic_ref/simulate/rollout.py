@@ -10,13 +10,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.errors import InputError, QuasistaticError
+from quasistatic_ref.errors import InputError, QuasistaticError, check_kind
 from quasistatic_ref.parts import doctors
 from quasistatic_ref.simulate.failures import RunFailed
+from quasistatic_ref.simulate.header import Record
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import (
     Force,
@@ -27,7 +29,6 @@ from quasistatic_ref.simulate.user_functions import (
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.result import StepResult
-    from quasistatic_ref.simulate.simulator import Simulator
 
 
 def rollout(
@@ -37,7 +38,7 @@ def rollout(
     steps: int,
     *,
     force: Force | None = None,
-    record: str = "full",
+    record: Record = "full",
     progress: bool = True,
     findings: bool = True,
     observers: Sequence[Observer] = (),
@@ -93,6 +94,7 @@ def rollout(
     >>> len(run), run.phi.shape
     (3, (3, 1))
     """
+    check_kind(simulator, Simulator, "simulator", "a Simulator")
     if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
         raise InputError("must be a whole number, 0 or more", field="steps", value=steps)
     watch = [*doctors(printed=findings), *observers]

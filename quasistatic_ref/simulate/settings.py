@@ -3,12 +3,12 @@
 from dataclasses import dataclass, field, fields
 from typing import Any
 
-from quasistatic_ref.numbers.arrays import Array, Mask, freeze_copies
-from quasistatic_ref.simulate.law import CONVEX, check_law
+from quasistatic_ref.errors import check_kind
+from quasistatic_ref.numbers.arrays import Array, Mask, freeze_copies, positive_number
+from quasistatic_ref.simulate.law import CONVEX, Law, check_law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.scene import Scene
-from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
-from quasistatic_ref.solve.solve import check_accuracy
+from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, Certify, check_backend
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -51,13 +51,14 @@ class Settings(Scene):
     gravity_acts: Mask
     backend: str = DEFAULT
     accuracy: float = ACCURACY
-    certify: str = CERTIFY[0]
+    certify: Certify = CERTIFY[0]
     cone: str = PYRAMID
-    law: str = CONVEX
+    law: Law = CONVEX
     limits: Limits = field(default_factory=Limits)
 
     def __post_init__(self) -> None:
-        check_accuracy(self.accuracy)
+        check_kind(self.limits, Limits, "limits", "Limits(penetration=..., reach=...)")
+        object.__setattr__(self, "accuracy", positive_number(self.accuracy, "accuracy"))
         check_law(self.law, self.certify)
         check_backend(self.backend, self.cone, self.certify)
         freeze_copies(self, "K_q", "gravity", "gravity_acts")

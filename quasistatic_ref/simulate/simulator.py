@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import FrozenInstanceError, replace
 from functools import cached_property
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -19,22 +20,23 @@ from quasistatic_ref.contact.all_pairs import AllPairs
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, checked_pairs, contact_layout
-from quasistatic_ref.errors import BackendError, InputError, StepDataError
+from quasistatic_ref.errors import BackendError, InputError, StepDataError, check_kind
+from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.mechanism import StepSystem
+from quasistatic_ref.model.mechanism import Mechanism, StepSystem
 from quasistatic_ref.model.state import State
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Mask, checked_array, without_warnings
 from quasistatic_ref.parts import coulomb_solution, extended_solution, findings_of_scene
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.law import COULOMB
+from quasistatic_ref.simulate.law import COULOMB, Law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.simulate.user_functions import checked_force
-from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED
+from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED, Certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step, solved
 from quasistatic_ref.solve.solver import Solver
@@ -109,7 +111,7 @@ class Simulator(Settings, Shown):
     pairs : sequence of ContactPair
     h : float
         Time step [s].
-    K_q : ndarray, shape (n_a, n_a); or its diagonal, a number, or a mapping of joints to these
+    K_q : ndarray, shape (n_a, n_a); or its diagonal, a number, or a mapping of joints to these; {}
         Stiffness of the actuated coordinates [N/m, N m/rad], in the order of delta_q; see
         :func:`~quasistatic_ref.simulate.stiffness.stiffness_matrix`.
     gravity : array_like, shape (3,)
@@ -166,17 +168,18 @@ class Simulator(Settings, Shown):
         pairs: Sequence[ContactPair],
         *,
         h: float,
-        K_q: ArrayLike | Mapping[str, ArrayLike],
+        K_q: ArrayLike | Mapping[str, ArrayLike] = MappingProxyType({}),
         gravity: Sequence[float] = GRAVITY,
         gravity_acts: ArrayLike | None = None,
         backend: str | None = None,
         accuracy: float = Settings.accuracy,
-        certify: str = Settings.certify,
+        certify: Certify = Settings.certify,
         cone: str = Settings.cone,
-        law: str = Settings.law,
+        law: Law = Settings.law,
         extension: Callable[[Array], Extension] | None = None,
         limits: Limits | None = None,
     ) -> None:
+        check_kind(system, Mechanism, "system", "a System, as System([body]) makes it")
         pairs = checked_pairs(pairs)
         acts = np.zeros(system.n_a) if gravity_acts is None else gravity_acts
         super().__init__(
@@ -224,7 +227,7 @@ class Simulator(Settings, Shown):
         return ContactGeometry(self.layout, self.system.column_map)
 
     def __repr__(self) -> str:
-        contacts = f"{sum(pair.n_c for pair in self.pairs)} contacts"
+        contacts = counted(sum(pair.n_c for pair in self.pairs), "contact")
         settings = f"h = {self.h:g} s, {contacts}, cone {self.cone}, backend {self.backend}"
         return f"<{type(self).__name__} of {self.system!r}: {settings}>"
 

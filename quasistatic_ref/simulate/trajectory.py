@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from quasistatic_ref import parts
 from quasistatic_ref.certify.contact_forces import ContactForces
 from quasistatic_ref.certify.solution import UNKNOWN
-from quasistatic_ref.errors import InputError, MissingKey, about_file
+from quasistatic_ref.errors import InputError, MissingKey, about_file, check_kind
 from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.formats.npz import json_array, npz_record
 from quasistatic_ref.formats.plain import Plain
@@ -397,6 +397,7 @@ def save_trajectory(path: str | Path, trajectory: Trajectory) -> Path:
     >>> qr.save_trajectory(Path(tempfile.mkdtemp()) / "spin.npz", run).name
     'spin.npz'
     """
+    check_kind(trajectory, Trajectory, "trajectory", "a Trajectory: save_trajectory(path, run)")
     arrays: dict[str, Any] = {
         "header": json_array(header_table(trajectory.header)),
         **trajectory.arrays,

@@ -11,13 +11,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
-from typing import Any
+from typing import Any, Literal, get_args
 
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import check_there, qpsolvers_names
 from quasistatic_ref.solve.greeting import broken_solvers
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.cones import checked_cone
 
 Options = dict[str, Any]
 OptionSets = tuple[Options, ...]
@@ -312,7 +312,8 @@ def check_takes_cones(name: str, what: str) -> None:
                            value=name)  # fmt: skip
 
 
-CERTIFY = ("full", "residual", "off")
+Certify = Literal["full", "residual", "off"]
+CERTIFY: tuple[Certify, ...] = get_args(Certify)
 """Ways to certify an answer; :func:`~quasistatic_ref.solve.solve.solve_step` says what each is."""
 
 
@@ -335,9 +336,13 @@ def check_backend(name: str, cone_name: str, certify: str = CERTIFY[0]) -> None:
         If there is no such way to certify.
     """
     check_certify(name, certify)
+    if not isinstance(name, str):
+        problem = "must be the name of a backend; a function solves single steps"
+        raise BackendError(problem, field="backend", value=type(name).__name__)
+    curved = not checked_cone(cone_name).polyhedral
     if name != NONE:
         backend(name)
-        if not cone(cone_name).polyhedral:
+        if curved:
             check_takes_cones(name, f"the {cone_name}")
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from quasistatic_ref.errors import BackendError
+from quasistatic_ref.errors import BackendError, check_kind
 from quasistatic_ref.parts import fast_solver, function_solver, qpsolvers_solver
 from quasistatic_ref.solve.backends import DEFAULT, NONE, QPSOLVERS, check_backend, is_function
 from quasistatic_ref.solve.solver import NoSolver, Solver
@@ -34,7 +34,7 @@ def solver_for(
     InputError
         If `fast` is wanted, and its folder is not there.
     """
-    if name is not None and (callable(name) or is_function(name)):
+    if callable(name) or (isinstance(name, str) and is_function(name)):
         if not cone(step.cone).polyhedral:
             problem = f"is a function, which takes linear rows only; not the {step.cone}"
             raise BackendError(problem, field="backend", value=str(name))
@@ -42,6 +42,7 @@ def solver_for(
     if fast:
         return fast_solver(step, name)
     name = DEFAULT if name is None else name
+    check_kind(name, str, "solver", "the name of a backend, a function or a Solver")
     check_backend(name, step.cone)
     if name == NONE:
         return NoSolver(step, name)

@@ -17,10 +17,10 @@ from quasistatic_ref.certify.exact import ExactOptimum, check_length, optimum_by
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.certify.warm import basic_rows, warm_rows
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array, all_finite, without_warnings
+from quasistatic_ref.errors import InputError, check_kind
+from quasistatic_ref.numbers.arrays import Array, all_finite, positive_number, without_warnings
 from quasistatic_ref.parts import extended_step
-from quasistatic_ref.solve.backends import NONE, check_certify
+from quasistatic_ref.solve.backends import NONE, Certify, check_certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.proved import answer_residuals, exact_certificate, proof_statistics
 from quasistatic_ref.solve.reply import Reply
@@ -46,7 +46,7 @@ def solve_step(
     *,
     fast: bool = False,
     accuracy: float = ACCURACY,
-    certify: str = "full",
+    certify: Certify = "full",
     extension: Extension | None = None,
 ) -> StepSolution:
     """The optimum of Eq. :eq:`eq-13`.
@@ -108,7 +108,8 @@ def solve_step(
     >>> bool((qr.solve_step(step).delta_q == qr.solve_step(step, "osqp").delta_q).all())
     True
     """
-    check_accuracy(accuracy)
+    check_kind(step, StepData, "step", "a StepData, as run.step_data(0) returns")
+    accuracy = positive_number(accuracy, "accuracy")
     if isinstance(solver, Solver) and fast:
         problem = "has no effect on an existing solver; pass it to solver_for"
         raise InputError(problem, field="fast", value=fast)
@@ -123,17 +124,11 @@ def solve_step(
     return without_warnings(solved, ScaledStep(step), solver, accuracy, certify)
 
 
-def check_accuracy(accuracy: float) -> None:
-    """Refuse an accuracy that no answer can have: InputError."""
-    if not accuracy > 0:
-        raise InputError("must be a number greater than 0", field="accuracy", value=accuracy)
-
-
 def solved(
     scaled: ScaledStep,
     solver: Solver,
     accuracy: float,
-    certify: str,
+    certify: Certify,
     start: Sequence[int] = (),
 ) -> StepSolution:
     """The optimum of a step that fits a solver, from arguments that are checked.
@@ -308,7 +303,7 @@ def starts(
     ]
 
 
-def judged(scaled: ScaledStep, solver: Solver, reply: Reply, certify: str) -> StepSolution:
+def judged(scaled: ScaledStep, solver: Solver, reply: Reply, certify: Certify) -> StepSolution:
     """A backend's own answer as a solution in SI units.
 
     Parameters

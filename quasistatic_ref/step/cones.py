@@ -161,6 +161,14 @@ def facets(K: int) -> ConeFunction:
     return rows
 
 
+def checked_cone(name: object) -> FrictionCone:
+    """The cone of a name from outside; StepDataError, too, where it is no text."""
+    if not isinstance(name, str):
+        problem = "must be the name of a cone, such as 'pyramid'"
+        raise StepDataError(problem, field="cone", value=name)
+    return cone(name)
+
+
 @cache
 def cone(name: str) -> FrictionCone:
     """The cone of a name.

@@ -30,7 +30,7 @@ from quasistatic_ref.numbers.arrays import (
     read_only,
 )
 from quasistatic_ref.numbers.pivots import positive_definite, positive_sum, symmetric
-from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.cones import PYRAMID, checked_cone
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.contacts import Contacts
 
@@ -215,7 +215,7 @@ class StepData(Plain, HasPage):
         cone: str = PYRAMID,
         extra: Extra | None = None,
     ) -> None:
-        cone_of(cone)  # refuses a name that it does not know
+        checked_cone(cone)  # refuses a name that it does not know
         # Of three that have one length, two outvote the third, which is then refused by its name.
         of_a = {"K_q": K_q, "tau_a": tau_a, "delta_q_bar_a": delta_q_bar_a}
         n_a = sorted(_lengths(of_a))[1]

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import StepDataError, about_file
+from quasistatic_ref.errors import StepDataError, about_file, check_kind
 from quasistatic_ref.formats.files import json_read, json_text, text_written
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.step.cones import PYRAMID
@@ -101,6 +101,7 @@ def save_step(path: str | Path, step: StepData) -> Path:
     >>> qr.save_step(Path(tempfile.mkdtemp()) / "step.json", step).name
     'step.json'
     """
+    check_kind(step, StepData, "step", "a StepData: save_step(path, step)")
     return text_written(path, step_text(step))
 
 

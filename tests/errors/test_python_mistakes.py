@@ -37,6 +37,7 @@ def simulator(**more):
 
 SIMULATOR = simulator()
 FAST = qr.FastSimulator(SIMULATOR)
+STEP = SIMULATOR.step(Q, Q_A).step
 
 
 def step(q=Q, q_bar_a=Q_A, **more):
@@ -95,10 +96,44 @@ MISTAKES = {
         (lambda: simulator(gravity_acts=["yes"] * 6), "gravity_acts: must be true or false"),
         (lambda: simulator(gravity_acts=[True]), r"gravity_acts: must have shape \(6,\)"),
         (lambda: setattr(SIMULATOR, "h", 0.02), "simulator.h: is fixed when a simulator is made"),
-        (lambda: Limits(reach=np.nan), "limits.reach: must be greater than 0"),
+        (lambda: Limits(reach=np.nan), "limits.reach: must be a number greater than 0"),
+        (lambda: Limits(reach="2"), "limits.reach: must be a number greater than 0"),
+        (lambda: Limits(penetration=True), "limits.penetration: must be a number greater than 0"),
+        (lambda: simulator(limits=0.05), r"limits: must be Limits\(penetration=..., reach=...\)"),
+        (lambda: simulator(accuracy="1e-9"), "accuracy: must be a number greater than 0"),
+        (lambda: simulator(accuracy=True), "accuracy: must be a number greater than 0"),
+        (lambda: simulator(cone=["pyramid"]), "cone: must be the name of a cone"),
+        (lambda: simulator(law=["convex"]), "law: is not a choice"),
+        (lambda: simulator(backend=print), "backend: must be the name of a backend"),
+        (lambda: simulator(K_q={}), "has no stiffness for finger/base"),
+    ],
+    "the wrong thing": [
+        (lambda: qr.System(BLOCK), r"bodies: must be a list of bodies: System\(\[body\]\)"),
+        (lambda: qr.System(["block"]), "bodies: must be a list of bodies, each as Body makes it"),
+        (lambda: qr.Body("b", "b.urdf", positions=[1]), "b.positions: must be a mapping of joints"),
+        (lambda: qr.Body("b", "b.urdf", package_dirs="x"), "b.package_dirs: must be a list of"),
+        (lambda: qr.Body("b", 3), "b.urdf: must be a path, or a URDF as text"),
+        (lambda: qr.Body(3, "b.urdf"), "body.name: must be a name"),
+        (lambda: qr.Sphere("0.1"), "must be a finite number"),
+        (lambda: qr.Simulator(BLOCK, [], h=0.01), r"system: must be a System"),
+        (lambda: qr.rollout(SYSTEM, Q, Q_A, 2), "simulator: must be a Simulator"),
+        (lambda: qr.solve_step(SIMULATOR), "step: must be a StepData"),
+        (lambda: qr.solve_step(STEP, 3), "solver: must be the name of a backend, a function or"),
+        (lambda: qr.solve_step(STEP, accuracy="1e-9"), "accuracy: must be a number greater than 0"),
+        (lambda: qr.solve_step(STEP, accuracy=[1]), "accuracy: must be a number greater than 0"),
+        (lambda: qr.solve_step(STEP, extension=3), "extension: must be an Extension"),
+        (lambda: STEP.replace(cone=["pyramid"]), "cone: must be the name of a cone"),
+        (
+            lambda: qr.save_step(STEP, "x.json"),
+            r"must be a StepData: save_step\(path, step\)",
+        ),
+        (lambda: qr.save_trajectory(STEP, "x.npz"), r"must be a Trajectory: save_trajectory\(path"),
+        (lambda: qr.save_solution(STEP, "x.json"), r"must be a StepSolution: save_solution\(path"),
     ],
     "what touches": [
         (lambda: pair(mu_v=-1.0), "f.mu_v: must be at least 0"),
+        (lambda: pair(k=True), "f.k: must be a whole number, 1 or more"),
+        (lambda: pair(name=3), "name: must be a text"),
         (lambda: qr.PointCloud(np.zeros((3, 2))), r"points: must have shape \(3, 3\)"),
         (lambda: qr.Box(), "half_extents: must be given, or size, twice as long, and not both"),
     ],
@@ -172,3 +207,25 @@ def test_stiffness_in_each_form_is_the_same_matrix():
     for form in forms:
         assert_same(simulator(K_q=form).K_q, np.diag(diagonal))
     assert_same(simulator(K_q=7.0).K_q, 7.0 * np.eye(6))
+
+
+def test_what_toml_leaves_out_python_leaves_out_and_a_far_limit_is_one():
+    alone = qr.ContactPair("f", FLOOR, SYSTEM.shapes[1], mu_v=0.3, mu_omega=0.0)
+    assert (alone.rows, alone.k) == (6, 1)
+    free = qr.System([BLOCK])
+    assert qr.Simulator(free, [], h=0.01).K_q.shape == (0, 0)
+    far = qr.Simulator(free, [], h=0.01, limits=Limits(reach=1e200))
+    assert far.step(free.q_start, []).q[2] < free.q_start[2]
+
+
+def test_what_people_print_fits_on_a_line():
+    solution = qr.solve_step(STEP)
+    assert solution.proved
+    assert not qr.solve_step(STEP, certify="residual").proved
+    result = SIMULATOR.step(Q, Q_A)
+    assert repr(SYSTEM.named) == "<Named of finger/base, block/base>"
+    assert repr(result.points) == "<ClosestPoints of 4 contacts, phi from 0 m>"
+    assert repr(solution.compliant).startswith("ContactForces(wrench=array(4, 4), delta_q=array(")
+    assert repr(qr.System([BLOCK])) == "<System of block: n_a = 0, n_u = 6, 1 link>"
+    alone = qr.ContactPair("f", FLOOR, qr.System([BLOCK]).shapes[0], mu_v=0.3, mu_omega=0.0)
+    assert ", 1 contact, " in repr(qr.Simulator(qr.System([BLOCK]), [alone], h=0.01))

@@ -16,6 +16,7 @@ from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PlacedShape
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.backends import Certify
 
 GRAVITY = 9.81
 """[m/s^2]"""
@@ -53,7 +54,7 @@ class Scene:
         Makes MuJoCo's model, and its data, in which q and the loads are set.
     """
 
-    simulator: Callable[[str, bool], Simulator]
+    simulator: Callable[[Certify, bool], Simulator]
     q: Array
     target: Callable[[float, Array], Array]
     force: Array
@@ -64,7 +65,7 @@ def grasp() -> Scene:
     """``bunny_grasp``; MuJoCo's is a box of the bunny's mass between two fingers."""
     scenario = load_scenario("bunny_grasp")
 
-    def simulator(certify: str, fast: bool) -> Simulator:
+    def simulator(certify: Certify, fast: bool) -> Simulator:
         settings = [f"solver.certify={certify}", "record=light"]
         return load_scenario("bunny_grasp", settings, fast=fast).simulator()
 
@@ -120,8 +121,8 @@ def boxes(count: int) -> Scene:
     push = np.array([*PUSH, 0.0, 0.0, 0.0, 0.0]) * MASS * GRAVITY
     force = np.tile(push, count)
 
-    def simulator(certify: str, fast: bool) -> Simulator:
-        plain = Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), certify=certify)
+    def simulator(certify: Certify, fast: bool) -> Simulator:
+        plain = Simulator(system, pairs, h=H, certify=certify)
         return FastSimulator(plain) if fast else plain
 
     def model() -> tuple[Any, Any]:

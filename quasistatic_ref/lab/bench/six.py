@@ -5,15 +5,17 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
+from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.lab.bench.scenes import Scene, boxes, grasp
 from quasistatic_ref.lab.bench.timing import Job, in_turn, microseconds
 from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.solve.backends import Certify
 
-OFF = "off"
-PROVED = "full"
+OFF: Final = "off"
+PROVED: Final = "full"
 PLAIN = "plain step"
 STEP = "fast step, unproved"
 PROVED_STEP = "fast step, proved"
@@ -42,7 +44,7 @@ MOST_PLAIN = 7 * 40
 class Steps:
     """The steps of a simulator along its scene, each from where the last one ended."""
 
-    def __init__(self, scene: Scene, certify: str, fast: bool) -> None:
+    def __init__(self, scene: Scene, certify: Certify, fast: bool) -> None:
         self._scene = scene
         self._simulator = scene.simulator(certify, fast)
         self._q = scene.q
@@ -70,7 +72,7 @@ def figures(
     tell : callable
         Called with what is measured next.
     """
-    fast = {STEP: OFF, PROVED_STEP: PROVED}
+    fast: dict[str, Certify] = {STEP: OFF, PROVED_STEP: PROVED}
     turn = min(TURN, max(1, steps // 3))
     runs: list[dict[str, Job]] = []
     for number in range(repeat):
@@ -88,7 +90,7 @@ def figures(
         name: microseconds(np.minimum.reduce([t[name] for t in taken if name in t])) / turn
         for name in runs[0]
     }
-    whole = {RUN: OFF, PROVED_RUN: PROVED}
+    whole: dict[str, Certify] = {RUN: OFF, PROVED_RUN: PROVED}
     for what, kind in whole.items():
         tell(what)
         medians[what] = 1e6 * min(_wall(scene, kind, steps) for _ in range(repeat)) / steps
@@ -100,7 +102,7 @@ def _repeated(job: Job, often: int) -> None:
         job()
 
 
-def _wall(scene: Scene, certify: str, steps: int) -> float:
+def _wall(scene: Scene, certify: Certify, steps: int) -> float:
     """Wall time of a run with all that it says [s]; its simulator is made before."""
     simulator = scene.simulator(certify, True)
     start = time.perf_counter()

@@ -13,6 +13,7 @@ from quasistatic_ref.lab.reality.push import FINGER, Pushed
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution
 from quasistatic_ref.simulate.law import COULOMB
+from quasistatic_ref.solve.backends import Certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
@@ -43,7 +44,7 @@ class Prediction:
     slides: int
 
 
-def prediction(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Prediction:
+def prediction(of: Pushed, pose: Array, path: Array, certify: Certify = "full") -> Prediction:
     """A push from a pose, with the finger along a path of straight pieces.
 
     Until the finger touches the body lies still: the steps begin where the path first touches. A

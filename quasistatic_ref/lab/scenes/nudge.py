@@ -28,7 +28,7 @@ def body_at_rest(shape: Shape, height: float) -> tuple[Simulator, Array]:
     system = System([Body.of_shape("ball", Sphere(RADIUS), MASS, xyz=(0, 0, height))])
     placed = on_link(system, "ball", shape)
     pair = ContactPair("floor", world_plane(), placed, MU_V, MU_OMEGA, 6, 1)
-    simulator = Simulator(system, [pair], h=H, K_q=np.zeros((0, 0)))
+    simulator = Simulator(system, [pair], h=H)
     return FastSimulator(simulator), system.q_start
 
 

@@ -11,12 +11,12 @@ from collections.abc import Callable
 from typing import Any
 
 from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.errors import BackendError, InputError, StepDataError
+from quasistatic_ref.errors import BackendError, InputError, StepDataError, check_kind
 from quasistatic_ref.optional.extensions.extension import Extension, none
 from quasistatic_ref.optional.extensions.own_rows import joined, with_numbers
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.backends import DEFAULT, Certify
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.data import StepData
@@ -46,7 +46,7 @@ def extended_step(
     solver: str | Callable[..., Any] | Solver | None,
     fast: bool,
     accuracy: float,
-    certify: str,
+    certify: Certify,
 ) -> StepSolution:
     """What :func:`~quasistatic_ref.solve.solve.solve_step` returns for a step with an extension.
 
@@ -60,6 +60,7 @@ def extended_step(
     BackendError
         If the extension is more than rows and a quadratic cost, and the solver takes no more.
     """
+    check_kind(extension, Extension, "extension", "an Extension")
     step, whole = posed(step, extension)
     if whole:
         return solve_step(step, solver, fast=fast, accuracy=accuracy, certify=certify)
@@ -82,6 +83,7 @@ def simulated_solution(simulator: Simulator, step: StepData, extension: Extensio
     InputError
         Under Coulomb's law, if the extension is more than rows and a quadratic cost.
     """
+    check_kind(extension, Extension, "extension", "an Extension")
     step, whole = posed(step, extension)
     if whole:
         return simulator.solution(step)

@@ -38,12 +38,6 @@ def direction(n: Iterable[float]) -> str:
     return f"({', '.join(f'{x + 0.0:.3f}' for x in n)})"
 
 
-def counted(n: int, noun: str) -> str:
-    """A number of things, e.g. ``1 contact`` or ``3 bodies``."""
-    many = f"{noun[:-1]}ies" if noun.endswith("y") else f"{noun}s"
-    return f"{n} {noun if n == 1 else many}"
-
-
 def text_page(page: Page) -> str:
     """Title, facts, and the first rows of the table, as at most LINES lines of WIDTH columns."""
     title, facts, header, rows = page

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.optional.show.loads import bearing, shown_forces
-from quasistatic_ref.optional.show.show import Page, counted, number
+from quasistatic_ref.optional.show.show import Page, number
 from quasistatic_ref.optional.show.step_words import CONTACT
 
 if TYPE_CHECKING:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from quasistatic_ref.optional.show.show import Page, counted, direction, number
+from quasistatic_ref.formats.quoting import counted
+from quasistatic_ref.optional.show.show import Page, direction, number
 
 if TYPE_CHECKING:
     from quasistatic_ref.certify.certificate import Certificate

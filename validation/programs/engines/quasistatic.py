@@ -61,9 +61,7 @@ class Engine:
             for b in first
         ]
         gravity = (0.0, 0.0, -scene.gravity)
-        self.simulator = Simulator(
-            self.system, pairs, h=TIME_STEP, K_q=np.zeros((0, 0)), gravity=gravity, **setting
-        )
+        self.simulator = Simulator(self.system, pairs, h=TIME_STEP, gravity=gravity, **setting)
         self.q = self.system.q_start
 
     def link(self, name: str) -> str:
