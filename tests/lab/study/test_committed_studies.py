@@ -59,6 +59,21 @@ def test_lines_of_the_tables_by_loops_over_the_rows(committed, table):
     assert sorted(counts[1:]) == sorted(f"{count:,}" for count in wanted)
 
 
+@pytest.mark.parametrize(("setting", "count"), [("tuned", 16), ("high", 15), ("mid", 0)])
+def test_in_how_many_families_an_accuracy_that_is_reached_gives_six_digits(table, setting, count):
+    """In 95 % of the answers, as docs/studies.md says."""
+    answers = table[
+        (table["setting"] == setting)
+        & (table["units"] == "natural")
+        & (table["says"] == "solved")
+        & table["reached"].eq(True)
+        & table["feasible"]
+    ]
+    shares = (answers["digits"] >= 6).groupby(answers["family"]).mean()
+    assert len(shares) == 16
+    assert (shares >= 0.95).sum() == count
+
+
 def test_the_page_is_written_with_its_figures(committed, tmp_path):
     paths = page_written(committed[::50], tmp_path)
     names = [path.relative_to(tmp_path).as_posix() for path in paths]
