@@ -11,6 +11,7 @@ import pytest
 from hypothesis import settings
 
 from quasistatic_ref import load_scenario
+from tests import missing_parts
 from tests.extras import is_in_test, is_missing, reason
 from tests.scenes import PUSH, chain_scene, written_scenario
 
@@ -27,6 +28,7 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     """Declare the markers of tests that need an extra, and of those that only ``.ci/run`` takes."""
+    config.pluginmanager.register(missing_parts)
     config.addinivalue_line("markers", "extra(name): a test that needs an extra of pyproject.toml")
     config.addinivalue_line("markers", "long: one of many of its kind; pytest -m long takes them")
     config.addinivalue_line("markers", "ci: what README's line leaves to .ci/run, marked by itself")

@@ -11,7 +11,7 @@ from importlib.metadata import PackageNotFoundError, distribution, requires
 import pytest
 
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.optional.fast.library import missing
+from quasistatic_ref.parts import is_there
 
 OF_EXTRA = re.compile(r"""([\w.-]+).*\bextra *== *['"]([\w-]+)['"]""")
 """A requirement of the package's metadata: the name of what is required, and the extra."""
@@ -30,8 +30,17 @@ def packages_of(extra):
 def is_missing(extra):
     """Whether a package of an extra is not installed; of ``fast``, whether C was not compiled."""
     if extra == "fast":
-        return missing() is not None
+        return not_compiled() is not None
     return not all(map(_is_installed, packages_of(extra)))
+
+
+def not_compiled():
+    """Why steps are not compiled here, or None."""
+    if not is_there("fast"):
+        return "the part is not there"
+    from quasistatic_ref.optional.fast.library import missing
+
+    return missing()
 
 
 def is_in_test(extra):
@@ -50,7 +59,7 @@ def _is_installed(package):
 def reason(extra):
     """What pytest's summary says of a test that is skipped."""
     if extra == "fast":
-        return f"needs compiled steps: {missing()}"
+        return f"needs compiled steps: {not_compiled()}"
     return f'needs the extra {extra}: pip install -e ".[test,{extra}]"'
 
 

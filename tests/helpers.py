@@ -11,8 +11,9 @@ from quasistatic_ref.certify.solution_files import load_solution
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.lab.scenes import at_random
 from quasistatic_ref.lab.scenes.at_random import random_contacts
+from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about
 from quasistatic_ref.lab.scenes.pinch import pinch_step
-from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
+from quasistatic_ref.lab.scenes.rigid import free_step, point_step, sphere_step
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
 INTERFACES = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))
@@ -27,6 +28,10 @@ SHAPES = [
     (2, 2, ()),
 ]
 """The same of random steps."""
+EAST = [1.0, 0.0, 0.0]
+NORTH = [0.0, 1.0, 0.0]
+WEST = [-1.0, 0.0, 0.0]
+"""Normals of walls."""
 
 
 def changed(contacts, **changes):
@@ -182,3 +187,26 @@ def one_sentence(errors):
     assert lines[0].startswith("quasistatic-ref: ")
     assert "Traceback" not in errors
     return lines[0].removeprefix("quasistatic-ref: ")
+
+
+def resting_point(tau_x=0.0, contacts=1):
+    """A body that moves along x, y, z and turns about z, on a floor below it, J = I."""
+    each = (contacts, 1, 1)
+    at = contacts_of(0.0, np.tile(np.eye(3), each), np.tile(np.eye(4), each), 0.5, 0.25, rows=6)
+    return free_step(np.eye(4), [tau_x, 0.0, -2.0, 0.0], at, 0.5)
+
+
+def point_between_walls(normals, phi, force=(0.0, 0.0, 0.0)):
+    """A point mass of 1 kg, free along x, y, z, between frictionless walls."""
+    n = np.array(normals)
+    J = np.tile(np.eye(4, 3), (len(n), 1, 1))
+    return free_step(np.eye(3), force, contacts_of(phi, frames_about(n, -Z), J, 0.0), 0.01)
+
+
+def two_bodies(normals, phi, force):
+    """Two bodies of three coordinates and 1 kg: a wall at each side of the second, mu = 0."""
+    J = np.zeros((len(normals), 4, 6))
+    J[:, :3, 3:] = np.eye(3)
+    frames = frames_about(np.array(normals), Z)
+    M = np.kron(np.eye(2), np.eye(3) + 0.1)  # all three coordinates of a body are coupled
+    return free_step(M, force, contacts_of(phi, frames, J, 0.0), 0.01)

@@ -18,6 +18,11 @@ def python(*arguments, status=0, cwd=ROOT, env=None):
     return done
 
 
+def printed_text(*lines):
+    """What these lines print in an interpreter of their own, which must end well."""
+    return python("-W", "error", "-c", "\n".join(lines)).stdout.strip()
+
+
 def started(code, folder, **surroundings):
     """A process that runs Python's code in a folder, with the package of this checkout."""
     return subprocess.Popen(

@@ -1,10 +1,13 @@
-"""Optional parts can be taken away: the grasp keeps its bits, and a word that needs one says so."""
+"""Parts can be taken away, with their tests; the grasp keeps its bits, and a word says its part."""
 
+import re
 import shutil
 import sys
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 
 import numpy as np
@@ -58,12 +61,82 @@ GONE = ["", *(pytest.param(name, marks=pytest.mark.long) for name in PARTS)]
 
 @pytest.mark.parametrize("gone", GONE, ids=lambda name: name or "all parts")
 def test_the_grasp_has_the_same_bits_where_a_part_is_deleted(copied, whole, gone):
-    part = copied / "quasistatic_ref" / "optional" / gone
-    kept = part.rename(copied / "kept")
-    try:
+    with deleted(copied / "quasistatic_ref" / "optional" / gone):
         assert grasp(copied) == whole
-    finally:
-        kept.rename(part)
+
+
+@contextmanager
+def deleted(folder):
+    """A folder is not there for a while."""
+    with TemporaryDirectory() as elsewhere:
+        kept = shutil.move(folder, Path(elsewhere) / "kept")
+        try:
+            yield
+        finally:
+            shutil.move(kept, folder)
+
+
+@pytest.fixture(scope="module")
+def checkout(tmp_path_factory):
+    """A copy of the package and of its tests, next to links to all else."""
+    folder = tmp_path_factory.mktemp("checkout")
+    for path in ROOT.iterdir():
+        if path in (PACKAGE, ROOT / "tests"):
+            ignored = shutil.ignore_patterns("__pycache__")
+            shutil.copytree(path, folder / path.name, ignore=ignored)
+        elif not path.name.startswith(".git"):
+            (folder / path.name).symlink_to(path)
+    return folder
+
+
+OF_LAB = [
+    ["lab/bench"], ["lab/claims"], ["lab/reality"], ["lab/study"], ["lab/vectors", "lab/program"],
+]  # fmt: skip
+EACH = [*([f"optional/{name}"] for name in PARTS), *OF_LAB]
+FOLDERS = [
+    [name for each in EACH for name in each],
+    *(pytest.param(each, marks=pytest.mark.long) for each in EACH),
+]
+SKIPPED = re.compile(r"^SKIPPED \[\d+\] tests/(\w+/[\w/]+)(?:\.py)?:", re.MULTILINE)
+OF_CORE_AND_PARTS = {
+    "analytic/test_blocks",
+    "analytic/test_closed_forms",
+    "analytic/test_grasp",
+    "certify/test_check_solution",
+    "certify/test_exact",
+    "certify/test_groups",
+    "certify/test_joined_parts",
+    "cli/test_inspect",
+    "contact/solids/test_solid_pair",
+    "errors/test_python_mistakes",
+    "errors/test_spoilt_files",
+    "model/readers/test_mesh_files",
+    "properties/test_forgeries",
+    "shapes/test_a_shape_added",
+    "simulate/test_trajectory",
+    "solve/test_any_solver",
+    "solve/test_defaults",
+    "solve/test_interruptible",
+    "solve/test_known_issues",
+    "solve/test_solver",
+    "solve/test_step_problem",
+    "step/test_plain_data",
+}
+"""Tests of the core that ask a part, too, and leave with it. The list only shrinks."""
+
+
+@pytest.mark.parametrize("folders", FOLDERS, ids=lambda folders: " ".join(folders)[:20])
+def test_what_is_left_is_collected_where_a_part_is_deleted_with_its_tests(checkout, folders):
+    with ExitStack() as gone:
+        for name in folders:
+            for place in ("quasistatic_ref", "tests"):
+                if (folder := checkout / place / name).is_dir():
+                    gone.enter_context(deleted(folder))
+        quiet = "--collect-only", "-qq", "-rs", "-p", "no:cacheprovider"
+        said = python("-m", "pytest", *quiet, "tests", cwd=checkout).stdout
+    left_out = set(SKIPPED.findall(said))
+    of_core = {name for name in left_out if name.split("/")[0] not in ("lab", "meta", "optional")}
+    assert of_core - OF_CORE_AND_PARTS == set()
 
 
 @pytest.fixture

@@ -14,8 +14,7 @@ from quasistatic_ref.certify.solution_files import solution_text
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.solve.proved import exact_certificate
 from quasistatic_ref.solve.units import ScaledStep
-from tests.certify.test_exact import resting_point
-from tests.helpers import point_on_floor
+from tests.helpers import point_on_floor, resting_point
 
 
 @pytest.fixture(scope="module")

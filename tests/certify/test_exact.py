@@ -5,16 +5,7 @@ import pytest
 
 from quasistatic_ref.certify.exact import exact_slack, form_optimum, step_optimum
 from quasistatic_ref.lab.bench.scenes import boxes
-from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.scenes.rigid import free_step
 from tests.oracles.forms import exact_form_of
-
-
-def resting_point(tau_x=0.0, contacts=1):
-    """A body that moves along x, y, z and turns about z, on a floor below it, J = I."""
-    each = (contacts, 1, 1)
-    at = contacts_of(0.0, np.tile(np.eye(3), each), np.tile(np.eye(4), each), 0.5, 0.25, rows=6)
-    return free_step(np.eye(4), [tau_x, 0.0, -2.0, 0.0], at, 0.5)
 
 
 def test_matrix_beyond_the_precision_of_the_balls_is_solved():

@@ -15,21 +15,9 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.certify.exact import ILL_POSED, relative_length, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
+from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
-from tests.helpers import sphere_on_floor
-
-
-def point_between_walls(normals, phi, force=(0.0, 0.0, 0.0)):
-    """A point mass of 1 kg, free along x, y, z, between frictionless walls."""
-    n = np.array(normals)
-    J = np.tile(np.eye(4, 3), (len(n), 1, 1))
-    return free_step(np.eye(3), force, contacts_of(phi, frames_about(n, -Z), J, 0.0), 0.01)
-
-
-EAST = [1.0, 0.0, 0.0]
-NORTH = [0.0, 1.0, 0.0]
-WEST = [-1.0, 0.0, 0.0]
+from tests.helpers import EAST, NORTH, WEST, point_between_walls, sphere_on_floor
 
 
 def test_walls_that_overlap_are_infeasible_and_named():

@@ -12,18 +12,10 @@ from quasistatic_ref import (
 from quasistatic_ref.certify.exact import ILL_POSED, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.groups import group_steps, groups
-from quasistatic_ref.lab.scenes.contacts import X, Z, contacts_of, frames_about
+from quasistatic_ref.lab.scenes.contacts import X, contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
+from tests.helpers import two_bodies
 from tests.oracles.grouped import faults, random_case
-
-
-def two_bodies(normals, phi, force):
-    """Two bodies of three coordinates and 1 kg: a wall at each side of the second, mu = 0."""
-    J = np.zeros((len(normals), 4, 6))
-    J[:, :3, 3:] = np.eye(3)
-    frames = frames_about(np.array(normals), Z)
-    M = np.kron(np.eye(2), np.eye(3) + 0.1)  # all three coordinates of a body are coupled
-    return free_step(M, force, contacts_of(phi, frames, J, 0.0), 0.01)
 
 
 def test_random_steps_without_some_couplings_have_the_optimum_of_their_groups():

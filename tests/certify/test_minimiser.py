@@ -13,7 +13,7 @@ from quasistatic_ref.certify.form import EXACT, StepForm, exact_matrix
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.working_set import NearSets, ball_point
 from quasistatic_ref.numbers.precision import working_precision
-from tests.certify.test_exact import resting_point
+from tests.helpers import resting_point
 from tests.oracles.forms import exact_form_of
 from tests.oracles.random_steps import any_step
 

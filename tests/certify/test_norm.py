@@ -17,8 +17,8 @@ from quasistatic_ref.certify.norm import (
 )
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step
-from tests.certify.test_farkas import EAST, point_between_walls
 from tests.closeness import assert_relative, assert_within
+from tests.helpers import EAST, point_between_walls
 
 HALF_DIGIT = 0.5
 """Rounding in the norms moves a digit count by far less."""

@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref import standard_form
 from quasistatic_ref.certify.warm import BLOCK, basic_rows, warm_rows
-from tests.certify.test_exact import resting_point
+from tests.helpers import resting_point
 from tests.tolerances import ROUNDING
 
 

@@ -4,39 +4,12 @@ Under test: contact.jacobian.ContactGeometry.
 """
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
 from tests.cases import cases
 from tests.closeness import assert_close, assert_relative
-from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP
-
-LINKS = {
-    "a free body on the world": ("world", "box/box"),
-    "the world on a free body": ("box/box", "world"),
-    "a chain on a floating base and a free body": ("arm/lower", "box/box"),
-    "a prismatic joint's link and a mimic's": ("desk/slider", "arm/follower"),
-    "a mimic's link, welded on, and the world": ("desk/tool", "world"),
-    "two links of one chain": ("arm/upper", "arm/tool"),
-}
-
-
-def relative_velocity(scene, q, v, link_alpha, link_beta, alpha, beta, n):
-    """f(q, v) of Eq. (2) from positions a little before and after q, moving at v."""
-    here = scene.kinematics(q)
-    before, after = (
-        scene.kinematics(scene.integrate(q, way * DIFFERENCE_STEP * v)) for way in (-1, 1)
-    )
-
-    def of_side(link, point):
-        """Velocity of a material point, and angular velocity."""
-        local = here.R[link].T @ (point - here.t[link])
-        one, two = (at.R[link] @ local + at.t[link] for at in (before, after))
-        turned = Rotation.from_matrix(after.R[link] @ before.R[link].T).as_rotvec()
-        return (two - one) / (2 * DIFFERENCE_STEP), turned / (2 * DIFFERENCE_STEP)
-
-    (nu_a, omega_a), (nu_b, omega_b) = of_side(link_alpha, alpha), of_side(link_beta, beta)
-    return [*(nu_b - nu_a), n @ (omega_b - omega_a)]
+from tests.oracles.printed_rows import LINKS, relative_velocity
+from tests.tolerances import DIFFERENCE
 
 
 @cases("alpha_link, beta_link", LINKS)

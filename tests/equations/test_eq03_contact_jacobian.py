@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
-from tests.equations.test_eq02_relative_velocity import LINKS, relative_velocity
+from tests.oracles.printed_rows import LINKS, relative_velocity
 from tests.tolerances import DIFFERENCE
 
 

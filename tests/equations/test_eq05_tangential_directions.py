@@ -1,7 +1,7 @@
 """Eq. (5), d~_1 and d~_2. Under test: step.problem.paper_problem."""
 
 from tests.closeness import assert_close
-from tests.equations.test_eq04_contact_rows import added_to_the_gap, along
+from tests.oracles.printed_rows import added_to_the_gap, along
 
 
 def test_they_are_what_the_first_two_constraints_add_to_the_gap(rng):

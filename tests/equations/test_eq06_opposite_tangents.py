@@ -1,7 +1,7 @@
 """Eq. (6), d~_3 and d~_4. Under test: step.problem.paper_problem."""
 
 from tests.closeness import assert_close
-from tests.equations.test_eq04_contact_rows import added_to_the_gap, along
+from tests.oracles.printed_rows import added_to_the_gap, along
 
 
 def test_they_are_what_the_third_and_fourth_constraint_add_to_the_gap(rng):

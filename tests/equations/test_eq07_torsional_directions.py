@@ -3,8 +3,8 @@
 from quasistatic_ref.step.cones import pyramid
 from quasistatic_ref.step.problem import paper_problem
 from tests.closeness import assert_close
-from tests.equations.test_eq04_contact_rows import added_to_the_gap
 from tests.helpers import random_step
+from tests.oracles.printed_rows import added_to_the_gap
 
 
 def test_they_are_what_the_last_two_constraints_add_to_the_gap(rng):

@@ -5,8 +5,8 @@ import pytest
 
 from quasistatic_ref import standard_form
 from tests.closeness import assert_relative
-from tests.equations.test_eq04_contact_rows import problem_at
 from tests.helpers import planted_step, random_step, slacks
+from tests.oracles.printed_rows import problem_at
 
 
 def objective(step, delta_q):

@@ -30,14 +30,15 @@ from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
 from quasistatic_ref.simulate.trajectory import save_trajectory
 from tests.errors.scene import scene_written
-from tests.model.readers.test_clouds import PCD_BODY, pcd
-from tests.model.readers.test_mesh_files import (
+from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
+from tests.oracles.shape_files import (
     COLLADA,
+    PCD_BODY,
     TETRAHEDRON,
     exported,
+    pcd,
     plain_gltf,
 )
-from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
 
 LONGEST = 2000
 """Most characters of a sentence."""

@@ -12,9 +12,9 @@ from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.step.cones import CONES, ELLIPSOID, cone
 from tests.meta.remedies import assert_alike, assert_among
-from tests.optional.doctor.test_findings import GRAVE
+from tests.optional.doctor.mistake_scenes import GRAVE
+from tests.oracles.cones import COUNTS
 from tests.pages import PACKAGE, ROOT
-from tests.step.test_cones import COUNTS
 from validation.check_solution import cone_rows
 
 
@@ -72,7 +72,7 @@ def test_every_cone_is_on_its_pages_and_in_its_tables():
         CONES,
         tested,
         "How many multipliers the cone {} has is not tested: add it to COUNTS in "
-        "tests/step/test_cones.py",
+        "tests/oracles/cones.py",
         "COUNTS in tests/step/test_cones.py has {}, which is no cone: remove it",
     )
 

@@ -7,7 +7,7 @@ import pytest
 from quasistatic_ref.model.body import FIXED
 from quasistatic_ref.model.joints import BASES, JOINTS
 from tests.pages import PACKAGE
-from tests.processes import python
+from tests.processes import printed_text, python
 
 # What import-linter cannot see: the core's files that may name a folder of modules as a string.
 DOORS = {"lab": "cli/main.py", "optional": "parts.py"}
@@ -77,11 +77,6 @@ def test_no_file_names_another_part_or_asks_for_a_kind():
 )
 def test_a_planted_word_is_found(name, source):
     assert len([*wrong_words(name, source)]) == 1
-
-
-def printed_text(*lines):
-    """What these lines print in an interpreter of their own, which must end well."""
-    return python("-W", "error", "-c", "\n".join(lines)).stdout.strip()
 
 
 def test_step_certify_and_solve_work_without_pinocchio_and_coal():

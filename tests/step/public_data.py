@@ -24,9 +24,8 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.optional.derivatives.reason import Reason
-from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.extras import is_missing
-from tests.helpers import random_step
+from tests.helpers import EAST, WEST, point_between_walls, random_step
 from tests.scenes import written_scenario
 
 NAN = np.nan

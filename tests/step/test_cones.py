@@ -9,17 +9,10 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.friction import contact_wrenches
 from tests.closeness import assert_close, assert_within
 from tests.helpers import random_step
+from tests.oracles.cones import COUNTS
 from tests.tolerances import EXACT
 
 POLYHEDRAL = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
-COUNTS = {
-    "pyramid": (6, 4),
-    "product": (8, 4),
-    "facets-10": (12, 10),
-    "facets-1024": (1026, 1024),
-    "frictionless": (1, 1),
-    "ellipsoid": (4, 4),
-}
 
 
 @pytest.mark.parametrize(("name", "counts"), COUNTS.items(), ids=COUNTS)

@@ -11,6 +11,7 @@ from quasistatic_ref import ModelError
 from quasistatic_ref.model.readers import text
 from quasistatic_ref.model.readers.clouds import point_cloud, seen_points
 from tests.cases import cases, refusal
+from tests.oracles.shape_files import PCD_BODY, PCD_HEADER, pcd
 
 POINTS = np.array([[0.1, -0.2, 0.3], [1.0, 2e-3, -0.5]])
 PLY_ASCII = """ply
@@ -39,24 +40,6 @@ element face 0
 property list uchar int vertex_indices
 end_header
 """
-
-
-PCD_HEADER = """# .PCD v0.7 - Point Cloud Data file format
-VERSION 0.7
-FIELDS red x y z
-SIZE 1 8 8 8
-TYPE U F F F
-COUNT 1 1 1 1
-WIDTH 2
-HEIGHT 1
-VIEWPOINT 0 0 0 1 0 0 0
-POINTS 2
-DATA """
-PCD_BODY = b"255 0.1 -0.2 0.3\n\n0 1.0 2e-3 -0.5\n"
-
-
-def pcd(kind, body, header=PCD_HEADER):
-    return f"{header}{kind}\n".encode() + body
 
 
 def binary_body(layout):

@@ -1,7 +1,5 @@
 """Meshes become convex hulls, from files that are where they may be."""
 
-import base64
-import json
 import os
 import re
 import sys
@@ -21,9 +19,9 @@ from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from tests.cases import cases
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
+from tests.oracles.shape_files import COLLADA, TETRAHEDRON, bytes_of, exported, plain_gltf
 from tests.tolerances import CLOSED_FORM
 
-TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 DENTED = TETRAHEDRON.replace("f 2 3 4", "v 0.2 0.2 0.2\nf 2 3 5\nf 3 4 5\nf 4 2 5")
 
 UNSCALED = np.ones(3)
@@ -146,20 +144,6 @@ def test_a_mesh_that_is_too_large_is_refused(tmp_path):
     assert caught.value.field == "link[a].collision[0].mesh.filename"
 
 
-COLLADA = """<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>
-<library_geometries><geometry id="g"><mesh><source id="s">
-<float_array id="a" count="12">0 0 0 1 0 0 0 1 0 0 0 1</float_array>
-<technique_common><accessor source="#a" count="4" stride="3"><param name="X" type="float"/>
-<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#s"/></vertices>
-<triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/>
-<p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="sc"><node><instance_geometry url="#g"/></node>
-</visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#sc"/></scene></COLLADA>
-"""
 # Each of these lost a triangle or a corner without a word, or took memory for what is not there.
 MALFORMED = {
     "a letter for an index": ("0 3 2 1", "0 3 x 1"),
@@ -255,10 +239,6 @@ def test_a_format_is_read_as_trimesh_wrote_it(tmp_path, kind):
     assert hull.is_convex
 
 
-def _bytes(content):
-    return content.encode() if isinstance(content, str) else content
-
-
 def test_a_mesh_that_is_named_five_times_is_read_once_and_has_one_hull(tmp_path, monkeypatch):
     urdf_of_text(tmp_path, TETRAHEDRON, "m.obj")
     mesh = collision('<mesh filename="m.obj" scale="{0} {0} {0}"/>')
@@ -272,38 +252,6 @@ def test_a_mesh_that_is_named_five_times_is_read_once_and_has_one_hull(tmp_path,
     assert len(counts) == 1
     assert len({id(placed.shape) for placed in same}) == 1
     assert np.ptp(larger.shape.vertices, axis=0).tolist() == [2, 2, 2]
-
-
-def exported(kind):
-    """A box as trimesh writes it."""
-    mesh = trimesh.creation.box((1, 2, 4))
-    return _bytes(trimesh.Scene(mesh).export(file_type=kind) if kind == "glb" else
-                  mesh.export(file_type=kind))  # fmt: skip
-
-
-def plain_gltf(**changed):
-    """The tetrahedron as a glTF of one buffer, whose tables are changed."""
-    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "<f4").tobytes()
-    faces = np.array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3], "<u2").tobytes()
-    uri = "data:;base64," + base64.b64encode(corners + faces).decode()
-    accessors = [
-        {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
-        {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"},
-    ]
-    views = [
-        {"buffer": 0, "byteLength": 48},
-        {"buffer": 0, "byteOffset": 48, "byteLength": 24},
-    ]
-    tree = {
-        "asset": {"version": "2.0"},
-        "buffers": [{"uri": uri, "byteLength": 72}],
-        "bufferViews": views,
-        "accessors": accessors,
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-        "nodes": [{"mesh": 0}],
-        "scenes": [{"nodes": [0]}],
-    }
-    return json.dumps(tree | changed).encode()
 
 
 def gltf_at(uri):
@@ -388,7 +336,7 @@ def test_what_a_file_states_of_itself_is_compared_with_it(
     monkeypatch.setattr(placed_meshes, "MOST_PLACED", 150)
     monkeypatch.setattr(placed_meshes, "PART", 0)
     monkeypatch.setattr(files, "LARGEST_UNPACKED", 8000)
-    (tmp_path / name).write_bytes(_bytes(content))
+    (tmp_path / name).write_bytes(bytes_of(content))
     with pytest.raises(ModelError, match=f"^{re.escape(str(tmp_path))}/.*{words}"):
         loaded_mesh(tmp_path / name)
 
@@ -413,7 +361,7 @@ SAME = {
 
 @cases("name, content", SAME)
 def test_what_is_whole_is_read(tmp_path, name, content):
-    (tmp_path / name).write_bytes(_bytes(content))
+    (tmp_path / name).write_bytes(bytes_of(content))
     vertices = loaded_mesh(tmp_path / name).vertices
     extent = np.ptp(vertices, axis=0)
     assert extent.tolist() in ([1, 1, 1], [1, 2, 4], [0.001, 0.002, 0.004])

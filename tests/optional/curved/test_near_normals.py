@@ -9,7 +9,7 @@ from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.optional.curved.faces import face
 from tests.closeness import assert_within
 from tests.contact.still import in_world
-from tests.meta.test_layers import printed_text
+from tests.processes import printed_text
 from tests.tolerances import CURVED_PAIR
 
 BOX = Box((0.05, 0.035, 0.025))

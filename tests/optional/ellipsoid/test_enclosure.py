@@ -27,10 +27,12 @@ from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.ellipsoid.interior import interior_point
 from quasistatic_ref.optional.ellipsoid.tolerances import ENCLOSED
 from quasistatic_ref.optional.friction import cone_matrix
-from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.closeness import assert_relative, assert_same, assert_within
 from tests.helpers import (
+    EAST,
+    WEST,
     pinch,
+    point_between_walls,
     point_on_floor,
 )
 from tests.tolerances import ROUNDING

@@ -10,32 +10,18 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import (
     Box,
-    Capsule,
     ContactError,
     ContactPair,
-    Cylinder,
     HalfSpace,
     PointCloud,
-    Sphere,
-    convex_hull,
 )
 from quasistatic_ref.contact.separations import OF_CLOUD, TIED_FACES
 from quasistatic_ref.formats.plain import bits
+from tests.contact.solids_of_tests import SHAPES
 from tests.contact.still import one_by_one, pair, placed_shape, standing_links
 from tests.oracles.posed_pairs import PosedPairs
 
 pytestmark = pytest.mark.extra("fast")
-WEDGE = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2], [0.2, 0.2, 0.1]])
-SHAPES = {
-    "sphere": Sphere(0.1),
-    "box": Box((0.05, 0.125, 0.25)),
-    "capsule": Capsule(0.05, 0.1),
-    "half-space": HalfSpace((0.0, 0.0, 1.0), -0.0625),
-    "tilted half-space": HalfSpace((1.0, 2.0, 2.0), 0.1),
-    "cylinder": Cylinder(0.1, 0.05),
-    "hull": convex_hull(WEDGE),
-}
-"""C knows all but the last two."""
 
 
 def cloud(kind, N, rng):

@@ -6,7 +6,7 @@ import pytest
 
 import quasistatic_ref as qr
 from tests.helpers import first_step
-from tests.meta.test_layers import printed_text
+from tests.processes import printed_text
 
 STEPS = 4
 TABLES = {

@@ -28,10 +28,10 @@ from quasistatic_ref.optional.fast import library
 from quasistatic_ref.optional.fast import simulator as of_fast
 from quasistatic_ref.step.contacts import spread
 from quasistatic_ref.step.standard_form import StandardForm
+from tests.contact.solids_of_tests import SHAPES as SOLIDS
 from tests.contact.still import placed_shape
 from tests.helpers import error, first_step, residuals_of
 from tests.model.urdf.urdf_texts import inertial, joint, link, mimic, robot
-from tests.optional.fast.test_closest import SHAPES as SOLIDS
 from tests.tolerances import ACTIVE_SET
 
 BOX = SOLIDS["box"]

@@ -18,34 +18,14 @@ from quasistatic_ref.lab.scenes.rigid import free_step, rigid_step
 from quasistatic_ref.optional.forces.of_group import COMPLIANCE, HARDLY_MOVES, group_compliance
 from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian
-from tests.certify.test_farkas import EAST, WEST, point_between_walls
-from tests.certify.test_groups import two_bodies
 from tests.closeness import assert_relative, assert_within
-from tests.helpers import changed, point_on_floor
+from tests.helpers import EAST, WEST, changed, point_between_walls, point_on_floor, two_bodies
+from tests.optional.forces.blocks import MU_V, POLYHEDRAL, G, H, M, block, walled_block
 from tests.oracles import force_checks as checks
 from tests.oracles.random_steps import mixed_step
 from tests.tolerances import ROUNDING
 
-H = 0.01
-M = 1.0
-G = 9.81
-MU_V = 0.5
-CORNERS = [[x, y, -0.03] for x in (0.05, -0.05) for y in (0.05, -0.05)]
-POLYHEDRAL = ("pyramid", "product", "facets-6", "frictionless")
 CONES = (*POLYHEDRAL, "ellipsoid")
-
-
-def block(push=0.0):
-    """A block of 0.1 x 0.1 x 0.06 m on four corners, pushed at its bottom."""
-    wrench = [push, 0, -M * G, 0, 0.03 * -push, 0]
-    friction = {"mu_v": MU_V, "mu_omega": 0.01, "rows": 6}
-    return rigid_step(M, (0.002, 0.002, 0.003), wrench, CORNERS, [np.eye(3)] * 4, **friction, h=H)
-
-
-def walled_block():
-    """One that slides against a wall, x <= 0.1 mm, before another one, x <= 1 m."""
-    rows = Extra(("beyond", "wall"), -np.eye(6)[[0, 0]], [-1.0, -1e-4])
-    return block(push=9.0).replace(extra=rows)
 
 
 def test_a_row_of_a_user_stays_hard():

@@ -13,7 +13,7 @@ from quasistatic_ref.optional.forces.faces import face, nearest_face, rows_of
 from quasistatic_ref.optional.forces.of_group import group_compliance
 from quasistatic_ref.optional.friction import cone_matrix
 from tests.closeness import assert_within
-from tests.optional.forces.test_forces import POLYHEDRAL, block, walled_block
+from tests.optional.forces.blocks import POLYHEDRAL, block, walled_block
 from tests.oracles import force_checks as checks
 
 
