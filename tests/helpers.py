@@ -8,7 +8,7 @@ from quasistatic_ref import InputError, load_step, standard_form
 from quasistatic_ref.certify.curved_cone import judge_of
 from quasistatic_ref.certify.residuals import optimality_residuals
 from quasistatic_ref.certify.solution_files import load_solution
-from quasistatic_ref.cli.verify import refutation
+from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.lab.scenes import at_random
 from quasistatic_ref.lab.scenes.at_random import random_contacts
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about
@@ -175,7 +175,7 @@ def verify_refusal(folder, step, solution):
         path.write_text(text)
     try:
         posed = load_step(paths[0])
-        return refutation(posed, load_solution(paths[1], posed))
+        return verify(load_solution(paths[1], posed)).reason or None
     except InputError as error:
         return str(error)
 

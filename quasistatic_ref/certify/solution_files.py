@@ -15,8 +15,11 @@ import numpy as np
 
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.curved_cone import claims_of
+from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.rounding import nearest
 from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.verdict import Verdict, wrong_bits
+from quasistatic_ref.certify.verification import verify_answer
 from quasistatic_ref.errors import StepDataError, about_file, check_kind
 from quasistatic_ref.formats.files import json_read, json_text, text_written
 from quasistatic_ref.formats.table_reader import TableReader
@@ -27,6 +30,8 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.friction import impulses, wrenches
 
+UNPROVED = ("residual", "none")
+"""Kinds of certificate that claim nothing which could be proved."""
 SOLUTION_FORMAT = "quasistatic-ref/solution"
 VERSION = 2
 MAY_BE_NULL = {
@@ -38,12 +43,14 @@ MAY_BE_NULL = {
 
 @dataclass(frozen=True, eq=False)
 class SolutionFile:
-    """What a solution file says about a step; nothing of it is believed yet.
+    """What a solution file says about a step; nothing of it is believed before it is verified.
 
     Parameters
     ----------
+    step : StepData
     delta_q : ndarray, shape (n_v,), or None
-        None for an infeasible step. If step_sha256 is that of another step, every field is None.
+        None for an infeasible step. If step_sha256 is that of another step, all but `step` are
+        None.
     lam : ndarray, shape (m,), or None
         The user's own rows last.
     wrench : ndarray, shape (n_c, 4), or None
@@ -53,15 +60,47 @@ class SolutionFile:
 
     Examples
     --------
-    >>> qr.SolutionFile(farkas=("1", "1/2")).delta_q is None
-    True
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.verify(qr.SolutionFile(step, farkas=("1", "1/2"))).reason
+    'the Farkas vector has 2 entries, the step 6 rows'
     """
 
+    step: StepData
     delta_q: Array | None = None
     lam: Array | None = None
     wrench: Array | None = None
     certificate: Certificate | None = None
     farkas: tuple[str, ...] | None = None
+
+    def verdict(self) -> Verdict:
+        """Whether all that it claims is proved: the answer and its wrench, or that there is none.
+
+        Raises
+        ------
+        InputError
+            If nothing can be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
+        """
+        step = self.step
+        if self.farkas is not None:
+            reason = farkas_refutation(step, self.farkas)
+            return Verdict(reason is None, reason or "")
+        if self.certificate is None or self.delta_q is None or self.lam is None:
+            return Verdict(False, "the solution belongs to another step: step_sha256 differs")
+        kind = self.certificate.kind
+        if kind in UNPROVED:
+            problem = f"a certificate of kind {kind!r} proves nothing; solve with full"
+            return Verdict(False, problem)
+        lam = self.lam
+        of_contacts = lam[: step.offsets[-1]]
+        right = rounded_wrenches(step.contacts, of_contacts, step.h, step.cone)
+        wrench = right[:0] if self.wrench is None else self.wrench
+        if len(wrench) != len(right):
+            return Verdict(False, f"wrench has {len(wrench)} rows; the step wants {len(right)}")
+        for j, row in enumerate(right):
+            if wrong := wrong_bits(f"wrench[{j}]", wrench[j], row):
+                return Verdict(False, wrong)
+        claims = self.certificate
+        return verify_answer(step, self.delta_q, claims.active, lam, claims)
 
 
 def solution_text(solution: StepSolution) -> str:
@@ -102,7 +141,7 @@ def infeasible_text(step: StepData, farkas: Sequence[str]) -> str:
 
 
 def load_solution(path: str | Path, step: StepData) -> SolutionFile:
-    """Read a solution file, whatever program wrote it.
+    """Read a solution file, whatever program wrote it: what `verify` takes.
 
     Raises
     ------
@@ -116,7 +155,7 @@ def load_solution(path: str | Path, step: StepData) -> SolutionFile:
     >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
     >>> solution = qr.solve_step(step)
     >>> path = qr.save_solution(Path(tempfile.mkdtemp()) / "solution.json", solution)
-    >>> bool((qr.load_solution(path, step).delta_q == solution.delta_q).all())
+    >>> bool(qr.verify(qr.load_solution(path, step)))
     True
     """
     with about_file(path):
@@ -140,16 +179,17 @@ def _solution(top: TableReader, step: StepData) -> SolutionFile:
     if named != step.cone:
         raise top.error_about("cone", f"must be that of the step, {step.cone!r}", named)
     if top.text("step_sha256") != step_sha256(step):
-        return SolutionFile()  # its shapes are another step's
+        return SolutionFile(step)  # its shapes are another step's
     if status == "infeasible":
         farkas = top.sequence("farkas")
         if not all(isinstance(y, str) for y in farkas):
             raise top.error_about("farkas", 'must be a list of fractions such as "1/3"', farkas)
         top.close()
-        return SolutionFile(farkas=tuple(farkas))
+        return SolutionFile(step, farkas=tuple(farkas))
     lam = _nested(top, step)
     claims = top.table("certificate")
     solution = SolutionFile(
+        step,
         delta_q=top.array("delta_q", (step.n_v,)),
         lam=np.concatenate([lam, top.array("lam_extra", (len(step.extra.names),))]),
         wrench=top.array("wrench", (step.contacts.n_c, 4)),

@@ -13,7 +13,7 @@ positive definite, and the decisions on degeneracy; it does not search for a wor
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from flint import arb
@@ -29,13 +29,15 @@ from quasistatic_ref.certify.rows import flat_rows, row_owners
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.certify.working_set import Point, fraction_point
+from quasistatic_ref.errors import check_kind
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.step.data import StepData
 
 
+@runtime_checkable
 class HasVerdict(Protocol):
-    """An answer of another kind that can check itself, such as that of ``exact_qp``."""
+    """An answer of another kind that can check itself: of a file, or of ``exact_qp``."""
 
     def verdict(self) -> Verdict:
         """Whether all that it claims is so."""
@@ -49,7 +51,8 @@ def verify(solution: StepSolution | HasVerdict) -> Verdict:
 
     Parameters
     ----------
-    solution : StepSolution, ExactQP or QPInfeasible
+    solution : StepSolution, SolutionFile, ExactQP or QPInfeasible
+        A file's wrench is checked, too.
 
     Returns
     -------
@@ -67,6 +70,7 @@ def verify(solution: StepSolution | HasVerdict) -> Verdict:
     True
     """
     if not isinstance(solution, StepSolution):
+        check_kind(solution, HasVerdict, "solution", "what solve_step or load_solution returns")
         return solution.verdict()
     claims = solution.certificate
     return verify_answer(solution.step, solution.delta_q, claims.active, solution.lam, claims)

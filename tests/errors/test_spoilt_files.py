@@ -22,7 +22,7 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.certify.solution_files import load_solution, solution_text
-from quasistatic_ref.cli.verify import refutation
+from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.files import answers_written
@@ -116,7 +116,7 @@ def step_solved(path):
 def solution_verified(path):
     """A solution of the step next to it."""
     step = load_step(path.with_name("step.json"))
-    refutation(step, load_solution(path, step))
+    verify(load_solution(path, step))
 
 
 READERS = {

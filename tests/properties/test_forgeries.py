@@ -10,7 +10,7 @@ import pytest
 from quasistatic_ref import Certificate, solve_step
 from quasistatic_ref.certify.certificate import CLAIMS
 from quasistatic_ref.certify.solution_files import load_solution, solution_text
-from quasistatic_ref.cli.verify import refutation
+from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from tests.oracles.forged_scenes import between_walls, scenes
@@ -87,7 +87,7 @@ def faults_of_forgeries(step, path, **changes):
     for name, value in changes.items():
         (certificate if name in certificate else record)[name] = value
     path.write_text(json.dumps(record))
-    return refutation(step, load_solution(path, step))
+    return verify(load_solution(path, step)).reason or None
 
 
 def test_a_force_between_walls_that_nothing_touches_is_refused(path):
