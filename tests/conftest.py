@@ -1,4 +1,4 @@
-"""Shared fixtures: deterministic random numbers, and Hypothesis the same in every CI run."""
+"""Shared fixtures: random numbers, and what Hypothesis draws, are the same in every run."""
 
 import gc
 import os
@@ -15,10 +15,10 @@ from tests import missing_parts
 from tests.extras import is_in_test, is_missing, reason
 from tests.scenes import PUSH, chain_scene, written_scenario
 
-settings.register_profile("ci", derandomize=True, deadline=None, max_examples=15, database=None)
-settings.register_profile("local", deadline=None, max_examples=15)
+settings.register_profile("same", derandomize=True, deadline=None, max_examples=15, database=None)
+settings.register_profile("new", deadline=None, max_examples=15, print_blob=True)
 settings.register_profile("long", deadline=None, max_examples=10_000)
-settings.load_profile("ci" if os.environ.get("CI") else "local")
+settings.load_profile("same")  # pytest's --hypothesis-profile names another
 
 
 def pytest_addoption(parser):

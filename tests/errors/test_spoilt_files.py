@@ -100,7 +100,7 @@ def read_by_others(path):
         view = tree["bufferViews"][at]
         return np.frombuffer(content, "<f4", view["byteLength"] // 4,
                              start + view.get("byteOffset", 0)).reshape(-1, 3)  # fmt: skip
-    lines = re.split(rb"DATA ascii\n|x,y,z,.*\n", content)[-1].splitlines()
+    lines = re.split(rb'DATA ascii\n|"?x"?,y,z,.*\n', content)[-1].splitlines()
     lines = [line.partition(b"#")[0].strip() for line in lines]
     rows = [line.split(b"," if b"," in line else None) for line in lines if line]
     first = 1 if path.suffix == ".pcd" else 0
