@@ -151,8 +151,10 @@ class TableReader:
             raise self.error_about(field, problem, value)
         return value
 
-    def array(self, field: str, shape: tuple[int, ...], default: Any = REQUIRED) -> np.ndarray:
-        """A field that is finite numbers of a shape, as float64."""
+    def array(
+        self, field: str, shape: tuple[int, ...], default: Any = REQUIRED, *, infinite: bool = False
+    ) -> np.ndarray:
+        """A field that is finite numbers of a shape, or also `infinite` ones, as float64."""
         value = self.take(field, default)
         count = " x ".join(map(str, shape))
         problem = f"must be {count} numbers"
@@ -175,7 +177,7 @@ class TableReader:
             numbers = numbers.reshape(shape)
         if numbers.shape != shape:
             raise self.error_about(field, problem, value)
-        if not np.isfinite(numbers).all():
+        if not np.isfinite(numbers).all() and (not infinite or np.isnan(numbers).any()):
             raise self.error_about(field, "must contain finite numbers only", value)
         return numbers
 

@@ -139,7 +139,7 @@ def body_entry(
 def stiffness(system: System, entry: BodyEntry) -> Array:
     """What a body adds to K_q, shape (n_a, n_a): zero at the coordinates of other bodies.
 
-    Each joint has a number, a list (diagonal) or a matrix; or the whole body has one matrix.
+    Each joint has a number, a list (diagonal) or a matrix; or the whole body has one of these.
 
     Raises
     ------
@@ -153,12 +153,11 @@ def stiffness(system: System, entry: BodyEntry) -> Array:
         raise table.error_about(
             "K_q", f"is missing for {', '.join(entry.short(j) for j in joints)}"
         )
-    if isinstance(entry.K_q, list):
+    if isinstance(entry.K_q, list | int | float):
         index = np.array([i for j in joints for i in range(j.v.start, j.v.stop)], dtype=np.int64)
-        wrapped = TableReader({"K_q": entry.K_q}, table.where, ScenarioError)
-        block = wrapped.array("K_q", (len(index), len(index)))
-        positive_definite(table.name("K_q"), block)  # refused here rather than in the first step
-        K_q[np.ix_(index, index)] = block
+        name = table.name("K_q")
+        block = stiffness_block(entry.K_q, name, len(index))
+        K_q[np.ix_(index, index)] = positive_definite(name, block)
         return K_q
     stiffnesses = TableReader(
         {} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError

@@ -117,10 +117,10 @@ TABLES = Tables({
             "list of words", "roots of this body alone", default=[],
         ),
         "K_q": Field(
-            "table by joint, or a matrix",
-            "stiffness of each actuated joint: a number, a list (diagonal) or a matrix",
+            "table by joint, or of the whole body",
+            "stiffness of each actuated joint, or of all: a number, a list (diagonal) or a matrix",
             "N/m, N m/rad", None,
-            schema={"anyOf": [MATRIX, {"type": "object", "additionalProperties": _STIFF}]},
+            schema={"anyOf": [_STIFF, {"type": "object", "additionalProperties": _STIFF}]},
         ),
         "targets": Field("list of tables", "waypoints, linear in time, held at both ends",
                          default=[], of=WAYPOINT),
@@ -147,7 +147,8 @@ TABLES = Tables({
         ),
         "joint_limits": Field(
             'table by joint, or "urdf"',
-            "least and greatest position of a joint, its stops; \"urdf\" takes those of the file",
+            "least and greatest position of a joint, its stops, -inf and inf where there is none; "
+            "\"urdf\" takes those of the file",
             "m, rad", None,
             schema={"anyOf": [
                 {"enum": [URDF]},

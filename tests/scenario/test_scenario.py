@@ -49,6 +49,8 @@ def test_a_wildcard_names_all_links_with_shapes(load):
 STIFFNESS = {
     "numbers": ("K_q = { slide = 500, turn = 2.5 }", [[500, 0], [0, 2.5]]),
     "matrices": ("K_q = { slide = [[500]], turn = [[2.5]] }", [[500, 0], [0, 2.5]]),
+    "a number of the whole body": ("K_q = 500", [[500, 0], [0, 500]]),
+    "a diagonal of the whole body": ("K_q = [500, 2.5]", [[500, 0], [0, 2.5]]),
     "a matrix of the whole body": ("K_q = [[500, 3], [3, 2.5]]", [[500, 3], [3, 2.5]]),
 }
 

@@ -1,5 +1,6 @@
 """What tables of bodies add to each step: ``joint_friction``, ``support`` and ``joint_limits``."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -118,9 +119,9 @@ def joint_limits(system: System, entry: BodyEntry) -> dict[str, tuple[float, flo
     fields.only(joints)
     limits = {}
     for name in fields.names_left():
-        lower, upper = fields.array(name, (2,)).tolist()
-        if lower > upper:
-            problem = "must be a least position, and then a greatest one"
+        lower, upper = fields.array(name, (2,), infinite=True).tolist()
+        if lower > upper or lower == math.inf or upper == -math.inf:
+            problem = "must be a least position (or -inf), and then a greatest one (or inf)"
             raise fields.error_about(name, problem, [lower, upper])
         limits[joints[name].name] = lower, upper
     return limits

@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import compress
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.model.system import System
-from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask, freeze_copies
 from quasistatic_ref.optional.extensions.urdf_joints import urdf_joints
 from quasistatic_ref.step.data import Extra
 
@@ -28,7 +29,7 @@ class JointLimits(Plain):
     coordinates : ndarray of int, shape (c,)
         Their entries of delta_q.
     lower, upper : ndarray, shape (c,)
-        [m, rad]
+        [m, rad]; an infinite one has no row.
     n_v : int
     """
 
@@ -52,7 +53,13 @@ class JointLimits(Plain):
         """
         at = q[self.places]
         b = np.concatenate([self.lower - at, at - self.upper])
-        return Extra(*self._of_every_q, b)
+        return Extra(*self._of_every_q, b[self._finite])
+
+    @cached_property
+    def _finite(self) -> Mask:
+        """Which of the lower and then of the upper ends are finite, shape (2 c,)."""
+        finite: Mask = np.isfinite(np.concatenate([self.lower, self.upper]))
+        return finite
 
     @cached_property
     def _of_every_q(self) -> tuple[tuple[str, ...], Array]:
@@ -62,7 +69,8 @@ class JointLimits(Plain):
         A[0, np.arange(c), self.coordinates] = 1.0
         A[1, np.arange(c), self.coordinates] = -1.0
         names = [f"{name} at its {end} limit" for end in ("lower", "upper") for name in self.names]
-        return tuple(names), A.reshape(2 * c, self.n_v)
+        kept = self._finite
+        return tuple(compress(names, kept)), A.reshape(2 * c, self.n_v)[kept]
 
     def check_start(self, q: Array) -> None:
         """Check that no joint is beyond its limits at q, shape (n_q,); InputError naming it."""

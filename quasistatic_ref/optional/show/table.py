@@ -150,7 +150,7 @@ def _of_contacts(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:
     arrays = {name: trajectory[name] for name in CONTACT}
     arrays["wrench"] = np.array([shown_forces(trajectory, k) for k in range(trajectory.steps)])
     for name, labels in CONTACT.items():
-        entries = arrays[name].reshape(*columns["point"].shape, -1)
+        entries = arrays[name].reshape(*columns["point"].shape, len(labels))
         columns |= {label: entries[:, :, i] for i, label in enumerate(labels)}
     return columns
 

@@ -87,9 +87,25 @@ def test_a_table_by_joint_takes_the_place_of_the_file():
         assert not [one for one in run.findings if "limit" in one.name]
 
 
+def test_a_joint_may_have_one_stop():
+    """What has no bound has no row, and goes where the force moves it; the other end holds."""
+    pushes = {(-np.inf, 0.0015): 50.0, (-0.0015, np.inf): -50.0}
+    for ends, force in pushes.items():
+        stopped = pushed_drawer(scene(drawer(), {"slide": [*ends]}), force, 4)
+        assert len(stopped.header.extra) == 1
+        assert abs(stopped["q"][-1, 0]) == 0.0015
+        free = pushed_drawer(scene(drawer(), {"slide": [*ends]}), -force, 4)
+        assert_relative(free["q"][-1, 0], -4 * force * H**2 / M)
+    free = pushed_drawer(scene(drawer(), {"slide": [-np.inf, np.inf]}), 50.0, 4)
+    assert not free.header.extra
+
+
 @pytest.mark.parametrize(("table", "words"), [
     ({"slid": [0, 1]}, r"bodies.c.joint_limits.slid: is unknown; did you mean 'slide'"),
-    ({"slide": [1, 0]}, r"joint_limits.slide: must be a least position, and then a greatest one"),
+    ({"slide": [1, 0]}, r"joint_limits.slide: must be a least position .* then a greatest"),
+    ({"slide": [np.inf, np.inf]}, r"joint_limits.slide: must be a least position \(or -inf\)"),
+    ({"slide": [-np.inf, -np.inf]}, r"and then a greatest one \(or inf\) .*got \[-inf, -inf\]"),
+    ({"slide": [np.nan, 1]}, r"joint_limits.slide: must contain finite numbers only"),
     ({"slide": 1}, r"joint_limits.slide: must be 2 numbers"),
     ("file", r"bodies.c.joint_limits: must be a table of named fields"),
 ])  # fmt: skip

@@ -119,6 +119,14 @@ def test_a_run_without_steps_is_an_empty_table():
     assert len(empty.to_pandas()) == len(empty.contacts_to_pandas()) == 0
 
 
+def test_a_run_without_contacts_has_a_table_with_a_header_alone(run):
+    run_of_arm = load_scenario("arm_push", {"contacts": {}}, steps=2).run(progress=False)
+    assert len(run_of_arm.to_pandas()) == 2
+    table = run_of_arm.contacts_to_pandas()
+    assert len(table) == 0
+    assert list(table.columns) == list(run.contacts_to_pandas().columns)
+
+
 def test_without_pandas_a_table_is_one_sentence(run, monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(InputError, match=r"^a table needs pandas: pip install 'quasistatic"):
