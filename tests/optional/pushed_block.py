@@ -87,22 +87,8 @@ class PushedBlock:
         return results
 
 
-def pushed_block(
-    *,
-    h: float = H,
-    cone: str = ELLIPSOID,
-    mu_omega: float = MU_OMEGA,
-) -> PushedBlock:
-    """The scene at rest, the finger at the block's face.
-
-    Parameters
-    ----------
-    h : float
-        [s].
-    cone : str
-    mu_omega : float
-        Of the support [m].
-    """
+def pushed_block(cone: str = ELLIPSOID) -> PushedBlock:
+    """The scene at rest in a cone, the finger at the block's face."""
     system = system_of(
         {"hand": FINGER, "block": BLOCK},
         hand={"base": "fixed", "actuated": ["along", "across"], "xyz": (*OFFSET, HEIGHT / 2)},
@@ -112,11 +98,11 @@ def pushed_block(
     finger, block = (shapes[system.link(name)] for name in ("hand/finger", "block/block"))
     foot = cloud_on(system, "block/block", [[0.0, 0.0, -HEIGHT / 2]])
     pairs = [
-        ContactPair("support", world_plane(), foot, MU_V, mu_omega, 6, 1),
+        ContactPair("support", world_plane(), foot, MU_V, MU_OMEGA, 6, 1),
         ContactPair("push", finger, block, MU_FINGER, 0.0, 4, 1),
     ]
     simulator = Simulator(
-        system, pairs, h=h, K_q=STIFFNESS * np.eye(2), gravity=(0.0, 0.0, -GRAVITY),
+        system, pairs, h=H, K_q=STIFFNESS * np.eye(2), gravity=(0.0, 0.0, -GRAVITY),
         cone=cone,
     )  # fmt: skip
     return PushedBlock(FastSimulator(simulator), system.q_start)
