@@ -129,10 +129,10 @@ def _equal(one: Array, other: Array, rounding: float) -> bool:
     return bool(np.abs(one - other).max(initial=0.0) <= most)
 
 
-def _slope(sides: list[Side], rounding: float, nowhere: Array) -> Array:
+def _slope(sides: Sequence[Side], rounding: float, nowhere: Array) -> Array:
     """Of the slopes by smaller and smaller differences the first that the next one confirms."""
     slopes = [side.slope if len(side.ends) == 2 else nowhere for side in sides]
-    for slope, (smaller, side) in zip(slopes, [*zip(slopes, sides, strict=True)][1:], strict=False):
+    for slope, smaller, side in zip(slopes, slopes[1:], sides[1:], strict=False):
         if _equal(slope, smaller, rounding / abs(side.eps)):
             return slope
     return slopes[-1]

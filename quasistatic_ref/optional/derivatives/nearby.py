@@ -14,6 +14,7 @@ from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.numbers.ordered import crossed
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step, solved
@@ -85,7 +86,7 @@ class Nearby:
         self.simulator = simulator
         self.result: StepResult = exact_step(simulator, q, q_bar_a, force)
         self._start = system.at(q)
-        self._given = q_bar_a, force
+        self._given = np.array(q_bar_a, np.float64), checked_force(system, force)
         self._step = step = self.result.step.replace()
         self._solver = solver_for(step, NONE)
         self._quickly = simulator.fast and simulator.certify == "full"

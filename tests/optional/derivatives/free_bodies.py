@@ -46,3 +46,8 @@ def vector_scene(name, **settings):
 def falling_ball(gap=0.0):
     """(simulator, q) of a ball that falls as far as the floor in a step, but for a gap [m]."""
     return free(Sphere(0.05), (0, 0, 0.05 + H**2 * G + gap), FLOOR)
+
+
+def after(simulator, q_next, q, q_bar_a, force=0.0):
+    """The end of a step, as seen from q_next."""
+    return simulator.system.difference(q_next, simulator.step(q, q_bar_a, force).q)

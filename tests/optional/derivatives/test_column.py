@@ -17,8 +17,7 @@ from quasistatic_ref import (
 )
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import joint, link, robot
-from tests.optional.derivatives.free_bodies import BOX, FLOOR, NONE, POINT, H, free
-from tests.oracles.differences import after
+from tests.optional.derivatives.free_bodies import BOX, FLOOR, NONE, POINT, H, after, free
 
 DOWN = np.array([0, 0, -1.0, 0, 0, 0])
 ASKEW = np.array([0.3, 0.2, -1.0, 0.01, 0.02, 0.01])

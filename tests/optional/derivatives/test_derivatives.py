@@ -25,11 +25,11 @@ from tests.optional.derivatives.free_bodies import (
     NONE,
     G,
     H,
+    after,
     falling_ball,
     free,
     vector_scene,
 )
-from tests.oracles.differences import after
 from tests.tolerances import DIFFERENCE_OF_STEPS
 
 DIGITS = 5

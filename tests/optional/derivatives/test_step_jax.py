@@ -13,7 +13,6 @@ from quasistatic_ref import (
     derivatives,
 )
 from quasistatic_ref.lab.scenes.nudge import RADIUS, body_at_rest, points
-from quasistatic_ref.lab.scenes.pushed_block import pushed_block
 from quasistatic_ref.optional.derivatives.nearby import Nearby
 from quasistatic_ref.optional.derivatives.step_jax import step_jax
 from tests.closeness import assert_same, assert_within
@@ -26,6 +25,7 @@ from tests.optional.derivatives.free_bodies import (
     free,
     vector_scene,
 )
+from tests.optional.pushed_block import pushed_block
 from tests.tolerances import JAX_GRADIENT, JAX_STEP
 
 jax = pytest.importorskip("jax", reason=needs("jax"))
