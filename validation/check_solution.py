@@ -7,8 +7,8 @@ something fails, 2 if a file cannot be read, or cannot be judged here.
 All numbers of the files are float64, hence fractions, and fractions they stay. A step is the
 problem  min 1/2 x'Hx - g'x  subject to  A x >= b,  where x is delta_q. A solution names rows W, its
 ``active``. Eq. (9) and A_W x = b_W are one linear system, which determines x and lam. The file is
-right if these satisfy Eqs. (10)-(12), and if its numbers are theirs, rounded once. Not judged are
-multipliers_unique and differentiable where a row touches that bears nothing, and the sign of zeros.
+right if these satisfy Eqs. (10)-(12), and if its numbers are theirs, rounded once, and zero is 0.0.
+Not judged are multipliers_unique and differentiable where a row touches that bears nothing.
 """
 
 import hashlib
@@ -43,7 +43,7 @@ def read(value, like, name):
     if like == ():
         finite = type(value) in (int, float) and abs(value) <= sys.float_info.max
         need(finite, f"{name} is no finite number: {value!r}")
-        return float(value) + 0.0  # -0.0 counts as 0.0
+        return float(value) + 0.0 if name.startswith("step") else float(value)  # -0.0 as 0.0
     one_of = [(type(v), v) for v in like] if isinstance(like, set) else [(like, value)]
     words = like if isinstance(like, set) else f"a {like.__name__}"
     need((type(value), value) in one_of, f"{name} must be {words}, and is {value!r}")
@@ -123,6 +123,12 @@ def solution_read(record):
     kinds |= {"multipliers_unique": bool, "differentiable": bool}
     numbers = {"delta_q": [()], "lam": [[()]], "lam_extra": [()], "wrench": [[()]]}
     return read(record, head | numbers | {"certificate": kinds}, "solution")
+
+
+def minus_zero(value):
+    """Whether a number is -0.0, or any in nested lists and tables."""
+    value = list(value.values()) if isinstance(value, dict) else value
+    return any(map(minus_zero, value)) if isinstance(value, list) else repr(value) == "-0.0"
 
 
 def fractions(values):
@@ -240,6 +246,7 @@ def verdicts(step, solution):
     if solution["status"] == "infeasible":
         yield "Eq. (10) has no solution", infeasible(A, b, solution["farkas"])
         return
+    yield "zero is written 0.0", not minus_zero(solution)
     claims = solution["certificate"]
     counts = [len(rows) for rows in weights] + [len(A) - sum(map(len, weights))]
     W = [sum(counts[:j]) + i for j, i in claims["active"] if 0 <= i < counts[j] and j >= 0]

@@ -15,7 +15,7 @@ from tests.oracles.attacked_steps import steps
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import good_file
 from tests.oracles.random_steps import mixed_step
-from tests.oracles.records import with_value
+from tests.oracles.records import places, value_at, with_value
 from validation import check_solution as checker
 from validation.tools.scripts import ROOT
 
@@ -119,6 +119,21 @@ def test_minimisers_on_rows_that_are_not_those_of_the_optimum_break_their_equati
         texts = step_text(step), json.dumps(wrong)
         assert outcome(*texts) == (1, line)
         assert verify_refusal(tmp_path, *texts) is not None
+
+
+def test_minus_zero_is_refused_in_a_solution_and_zero_in_a_step_here_and_by_verify(
+    outcome, tmp_path
+):
+    text, good = step_text(STICKS), good_file(STICKS, "exact")
+    zeros = [place for place in places(good) if repr(value_at(good, place)) == "0.0"]
+    assert {place[0] for place in zeros} >= {"lam", "wrench", "certificate"}
+    for place in zeros:
+        wrong = json.dumps(with_value(good, place, -0.0))
+        assert outcome(text, wrong) == (1, "zero is written 0.0: FAILS")
+        assert "-0.0" in verify_refusal(tmp_path, text, wrong)
+    negated = json.dumps(with_value(json.loads(text), ("contacts", 0, "phi"), -0.0))
+    assert outcome(negated, json.dumps(good))[0] == 0
+    assert verify_refusal(tmp_path, negated, json.dumps(good)) is None
 
 
 NEARLY_SINGULAR = [[1, 1, 0], [1, 1 + 2**-48, 0], [0, 0, 1]]
