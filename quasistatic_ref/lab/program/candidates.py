@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .distance import closest_points, corners, points_on, swapped, transformed
+from .distance import closest_points, corners, normals, points_on, swapped, transformed
 from .rotation import AXES, unit
 
 OVER, SKEW = 1e-9, 1e-6
@@ -25,6 +25,10 @@ SPANNED = 1e-6
 
 SAME_NORMAL = 1e-6
 """Components of normals that differ by less are one [-]."""
+
+
+TIED = 1e-12
+"""[m]: faces of a solid that are as high over a cloud's point as the highest, but for rounding."""
 
 
 def extent(shape):
@@ -176,9 +180,36 @@ def as_they_bear(solid, pose, n, points):
     return phi, alpha, x, normal
 
 
+def as_the_cloud_lies(solid, pose, points):
+    """phi, alpha, beta and n of a cloud, beta, on a solid, of whose faces several may tie.
+
+    A point of the cloud that is not outside may be as high over one face as over another. Then its
+    normal is that of the face above which the whole cloud's least height is the largest.
+    """
+    phi, alpha, x, n = points
+    vertices = np.array(solid.get("vertices", corners(solid)))
+    inside = np.flatnonzero(phi <= TIED)
+    if not len(vertices) or not len(inside):
+        return points
+    faces, _ = normals(np.zeros((1, 3)), vertices)
+    heights = ((x - pose[1]) @ pose[0]) @ faces.T - (vertices @ faces.T).max(axis=0)
+    least = heights.min(axis=0)
+    for i in inside:
+        tied = heights[i] >= heights[i].max() - TIED
+        way = pose[0] @ faces[int(np.argmax(np.where(tied, least, -np.inf)))]
+        if np.abs(way - n[i]).max() > SAME_NORMAL:
+            alpha[i] = x[i] - phi[i] * way
+            n[i] = way
+    return phi, alpha, x, n
+
+
 def candidates(alpha, pose_alpha, beta, pose_beta, k):
     """phi, alpha, beta, n and index of all candidates, and which come after all others."""
     nearest = closest_points(alpha, pose_alpha, beta, pose_beta)
+    if beta["kind"] == "cloud":
+        nearest = as_the_cloud_lies(alpha, pose_alpha, nearest)
+    elif alpha["kind"] == "cloud":
+        nearest = swapped(as_the_cloud_lies(beta, pose_beta, swapped(nearest)))
     parts = [nearest]
     _, _, _, way = nearest
     clouds = "cloud" in (alpha["kind"], beta["kind"])

@@ -48,6 +48,17 @@ func candidates(alpha, beta Shape, at, bt Pose, k int) (found []Candidate) {
 		for i, d := range distances(alpha, beta, at, bt) {
 			found = append(found, Candidate{Distance: d, index: i})
 		}
+		if beta.Kind == "cloud" {
+			tied(alpha, at, found)
+			return
+		}
+		for i := range found {
+			found[i].Distance = swapped(found[i].Distance)
+		}
+		tied(beta, bt, found)
+		for i := range found {
+			found[i].Distance = swapped(found[i].Distance)
+		}
 		return
 	}
 	closest := Candidate{Distance: distance(alpha, beta, at, bt)}
@@ -87,6 +98,37 @@ func candidates(alpha, beta Shape, at, bt Pose, k int) (found []Candidate) {
 		found = append(found, far)
 	}
 	return
+}
+
+// tied gives the points of a cloud, beta, that are as high over several faces of a solid as over the highest, and not outside,
+// the normal of the face above which the whole cloud's least height is the largest.
+func tied(solid Shape, pose Pose, cloud []Candidate) {
+	if solid.Kind != "box" && solid.Kind != "convex" {
+		return
+	}
+	p := polytope(solid, pose)
+	height := func(f int, x Vec) float64 { return dot(p.normals[f], sub(x, p.vertices[p.faces[f][0]])) }
+	least := make([]float64, len(p.normals))
+	for f := range least {
+		least[f] = math.Inf(1)
+		for _, c := range cloud {
+			least[f] = math.Min(least[f], height(f, c.Beta))
+		}
+	}
+	for i, c := range cloud {
+		highest, best := math.Inf(-1), -1
+		for f := range least {
+			highest = math.Max(highest, height(f, c.Beta))
+		}
+		for f := range least {
+			if height(f, c.Beta) >= highest-1e-12 && (best < 0 || least[f] > least[best]) {
+				best = f
+			}
+		}
+		if n := p.normals[best]; highest <= 1e-12 && norm(sub(n, c.N)) > 1e-6 {
+			cloud[i].Distance = Distance{c.Phi, sub(c.Beta, scale(c.Phi, n)), c.Beta, n}
+		}
+	}
 }
 
 // extent is the longest edge of the box about a shape along its axes, smaller that of the smaller one.

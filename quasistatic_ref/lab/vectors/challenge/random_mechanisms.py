@@ -33,7 +33,10 @@ def random_pose(rng: Rng, size: float = 1.0) -> Json:
 
 
 def mass(rng: Rng) -> Json:
-    """Mass, centre and inertia that a body can have: that of two masses and a ball."""
+    """Mass, centre and inertia that a body can have: that of two masses and a ball.
+
+    In one of four the centre is at the origin, and not said.
+    """
     a = few_digits(rng.uniform(0.01, 0.05, 2))
     b = few_digits(rng.uniform(-0.1, 0.1, 3), 2)
     x, y, z = b
@@ -43,11 +46,9 @@ def mass(rng: Rng) -> Json:
         [-x * y, ball + x * x + z * z, -y * z],
         [-x * z, -y * z, ball + x * x + y * y],
     ]
-    return {
-        "mass": few_digits(rng.uniform(0.1, 3, 1))[0],
-        "com": few_digits(rng.uniform(-0.1, 0.1, 3)),
-        "inertia": [few_digits(row, 6) for row in inertia],
-    }
+    centre = {"com": few_digits(rng.uniform(-0.1, 0.1, 3))} if rng.integers(4) else {}
+    heavy = few_digits(rng.uniform(0.1, 3, 1))[0]
+    return {"mass": heavy, **centre, "inertia": [few_digits(row, 6) for row in inertia]}
 
 
 def random_tree(rng: Rng, count: int, base: str) -> Json:
@@ -71,10 +72,12 @@ def random_tree(rng: Rng, count: int, base: str) -> Json:
 
 
 def random_follower(rng: Rng, parent: str) -> list[Json]:
-    """A joint, one that follows it, and mostly a body that turns on that."""
+    """A joint, one that follows it, beside it or on it, and perhaps a body that turns on that."""
     joint = str(rng.choice(["revolute", "prismatic"]))
     bodies = follower(joint, parent, actuated=bool(rng.integers(2)))
-    if rng.integers(3):
+    if rng.integers(2):  # the last link of a coupled finger, on the joint that it follows
+        bodies[1] |= {"parent": "drive", "placement": random_pose(rng, 0.3)}
+    if rng.integers(3) == 0:
         tip = {"axis": few_digits(rng.uniform(-1, 1, 3) + 0.01), "actuated": bool(rng.integers(2))}
         kind = str(rng.choice(["revolute", "continuous"]))
         bodies.append(link("tip", "finger", kind, placement=random_pose(rng, 0.5), **tip))

@@ -23,7 +23,7 @@ from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
     random_quaternion,
     random_tree,
 )
-from quasistatic_ref.lab.vectors.tables import GRAVITY, free_body, link, on, scene
+from quasistatic_ref.lab.vectors.tables import GRAVITY, UPRIGHT, free_body, link, on, scene
 from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.numbers.arrays import Array
 
@@ -62,9 +62,10 @@ WITH_CORNERS = ("sphere", "box", "halfspace")
 
 def random_scene(rng: Rng, level: int) -> Json:
     """The input of a case."""
-    kind = int(rng.integers(6))
+    kind = int(rng.integers(5))
     if level != EASY and kind == 0:
-        return _brick_beside(rng) if rng.integers(2) else _brick_on_solid(rng)
+        makers = (_brick_beside, _brick_on_solid, _cloud_in_plate)
+        return makers[int(rng.integers(3))](rng)
     tree = _bodies(rng, level, kind)
     bodies = {"bodies": tree}
     q = random_q(rng, bodies)
@@ -216,17 +217,18 @@ def _direction(rng: Rng) -> Array:
     return np.asarray(way / np.linalg.norm(way))
 
 
-def _free_brick(rng: Rng, size: list[float], q: list[float]) -> Json:
-    """A scene of one brick, that is free."""
+def _free(rng: Rng, shape: Json, q: list[float]) -> Json:
+    """A scene of one body, that is free."""
     body = {**free_body("body0"), **mass(rng)}
-    return scene([body], {"body": on("body0", {"kind": "box", "size": size})}, q, pairs=[])
+    return scene([body], {"body": on("body0", shape)}, q, pairs=[])
 
 
 def _brick_on_solid(rng: Rng) -> Json:
     """A brick that is turned by more or less than 0.25 rad on a box, or on a ball."""
     world = random_quaternion(rng)
     place = few_digits(rng.uniform(-1, 1, 3))
-    case = _free_brick(rng, few_digits(rng.uniform(0.05, 0.2, 3), 2), [*place, *world])
+    size = few_digits(rng.uniform(0.05, 0.2, 3), 2)
+    case = _free(rng, {"kind": "box", "size": size}, [*place, *world])
     half_angle = float(rng.choice([0.02, 0.05, 0.1, 0.2, 0.3])) * rng.uniform(0.9, 1.1)
     turn = [*np.sin(half_angle) * _direction(rng), np.cos(half_angle)]
     case["shapes"]["body"]["pose"]["quaternion"] = few_digits(turn, 4)
@@ -246,7 +248,20 @@ def _brick_beside(rng: Rng) -> Json:
     along = int(rng.integers(3))
     place = (top - under) / 2 * rng.integers(-1, 2, 3)  # flush faces, or middles that meet
     place[along] = (top + under)[along] / 2 + float(rng.choice([0.0, -1 / 64, 1 / 1024]))
-    case = _free_brick(rng, top.tolist(), [*place.tolist(), 0.0, 0.0, 0.0, 1.0])
+    case = _free(rng, {"kind": "box", "size": top.tolist()}, [*place.tolist(), *UPRIGHT])
     case["shapes"]["under"] = on(None, {"kind": "box", "size": under.tolist()})
     _add_pair(rng, case, "under", "body", int(rng.integers(2, 9)))
+    return case
+
+
+def _cloud_in_plate(rng: Rng) -> Json:
+    """A cloud with a point on the middle plane of a plate, and all others on one side of it."""
+    thin = int(rng.integers(3))
+    size = rng.choice([0.5, 1.0], 3)
+    size[thin] = 0.125
+    points = rng.integers(-2, 3, (4, 3)) / 16
+    points[:, thin] = rng.choice([-1, 1]) * np.array([0, 1, 2, 4]) / 16
+    case = _free(rng, {"kind": "cloud", "points": points.tolist()}, [0.0, 0.0, 0.0, *UPRIGHT])
+    case["shapes"]["under"] = on(None, {"kind": "box", "size": size.tolist()})
+    _add_pair(rng, case, "under", "body", int(rng.integers(1, 5)))
     return case

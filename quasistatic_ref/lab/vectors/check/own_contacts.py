@@ -11,7 +11,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from quasistatic_ref.lab.program.candidates import candidates
+from quasistatic_ref.lab.program.candidates import RANKED, candidates, gaps, k_first, smaller
+from quasistatic_ref.lab.program.candidates import TIED as FACES
 from quasistatic_ref.lab.program.distance import closest_points, corners
 from quasistatic_ref.lab.program.layers import plain
 from quasistatic_ref.lab.program.mechanism import kinematics
@@ -25,6 +26,8 @@ from quasistatic_ref.numbers.arrays import Array
 FIELDS = ("phi", "alpha", "beta", "n")
 SAME_WAY = 1e-12
 """Normals that differ by no more, in any component, are one [-]."""
+ROUNDING = 1e-12
+"""Of a distance in float64, at most [m]."""
 TIED = 1e-9
 """Components of n that are that near to each other may be exchanged by rounding, unless the n that
 is answered has them equal: d1 is a function of it."""
@@ -49,6 +52,7 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
     for one, other in pairwise(contacts):
         if one["pair"] == other["pair"] and one["index"] > other["index"]:
             return f"those of {one['pair']} do not stand in the order of index"
+    rounding = 2 * (allowed if "negligible" in record else min(allowed, ROUNDING))
     at = kinematics(case["mechanism"], np.array(case["q"]))
     for pair in case["pairs"]:
         of_pair_contacts = [c for c in contacts if c["pair"] == pair["name"]]
@@ -64,12 +68,28 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         for contact in of_pair_contacts:
             if contact["index"] not in known:
                 return f"{pair['name']} has no candidate {contact['index']}"
+        indices = [contact["index"] for contact in of_pair_contacts]
+        if problem := _rank_problem(sides, pair["k"], indices, rounding):
+            return f"{pair['name']}: {problem}"
+        for contact in of_pair_contacts:
             if problem := _contact_problem(known[contact["index"]], contact, allowed):
                 others = (i for i, c in known.items() if not _contact_problem(c, contact, allowed))
                 if (place := next(others, None)) is not None:
                     problem = f"its point is candidate {place}: candidates have a documented order"
                 return f"{pair['name']}/{contact['index']}: {problem}"
     return None
+
+
+def _rank_problem(sides: Sides, k: int, indices: list[int], rounding: float) -> str | None:
+    """Which candidate should be kept by its rank and index, but where rounding decides a rank."""
+    phi, _, _, _, index, late = candidates(*sides["alpha"], *sides["beta"], k)
+    size = smaller(*(shape for shape, _ in sides.values()))
+    rank = gaps(phi, size)
+    if not size or np.any(np.abs(phi - RANKED * size * rank) + rounding >= RANKED * size / 2):
+        return None
+    due = index[k_first(rank, index, late, k)].tolist()
+    missing = [i for i in due if i not in indices]
+    return f"candidate {missing[0]} is as near, and of a lower index" if missing else None
 
 
 @dataclass(frozen=True)
@@ -93,14 +113,15 @@ def _known_candidates(sides: Sides, k: int) -> dict[int, Candidate]:
     *numbers, index, _ = candidates(*sides["alpha"], *sides["beta"], k)
     every = [dict(zip(FIELDS, values, strict=True)) for values in zip(*numbers, strict=True)]
     return {
-        i: Candidate(one, _closest(sides, k, i, one["n"]))
+        i: Candidate(one, _closest(sides, k, i, one))
         for i, one in zip(index.tolist(), every, strict=True)
     }
 
 
-def _closest(sides: Sides, k: int, index: int, n: Array) -> Sides | None:
-    """The two solids whose closest points a candidate is; None if it bears along another way."""
-    cloud = "cloud" in (shape["kind"] for shape, _ in sides.values())
+def _closest(sides: Sides, k: int, index: int, numbers: Json) -> Sides | None:
+    """The two solids whose closest points a candidate is; None if a rule says along which way."""
+    kinds = {shape["kind"] for shape, _ in sides.values()}
+    cloud = "cloud" in kinds
     last = 0
     for side, (shape, pose) in sides.items():
         points = shape.get("points", ()) if cloud or k == 1 else corners(shape)
@@ -109,9 +130,10 @@ def _closest(sides: Sides, k: int, index: int, n: Array) -> Sides | None:
             alone = {**sides, side: (point, pose)}
             (solids,) = each_solid(alone)
             if cloud:
-                return solids
+                in_faces = kinds & {"box", "convex"} and numbers["phi"] <= FACES
+                return None if in_faces else solids
             *_, way = closest_points(*alone["alpha"], *alone["beta"])
-            return solids if np.abs(way - n).max() <= SAME_WAY else None
+            return solids if np.abs(way - numbers["n"]).max() <= SAME_WAY else None
         last += len(points)
     return sides if index < last + min(k, last + 9) else None
 
