@@ -132,6 +132,13 @@ def findings_of_time(trajectory: Trajectory) -> list[Finding]:
     return checks.findings(checks.OF_TIME, trajectory)
 
 
+def pairs_by_coal(pairs: tuple[ContactPair, ...]) -> tuple[ContactPair, ...]:
+    """``distances = "coal"``: pairs whose solids take their distances to points from coal."""
+    with needing('distances = "coal"'):
+        from quasistatic_ref.optional.curved.clouds_by_coal import pairs_by_coal as by_coal
+    return by_coal(pairs)
+
+
 def ellipsoid_cone() -> CurvedCone:
     """``cone = "ellipsoid"``."""
     with needing('cone = "ellipsoid"'):

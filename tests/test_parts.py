@@ -161,6 +161,7 @@ def without(monkeypatch):
 
 OPTIONS = {
     'law = "coulomb"': ("coulomb", ["--law", "coulomb"]),
+    'distances = "coal"': ("curved", ["--set", "distances=coal"]),
     "strict": ("doctor", ["--strict"]),
     'cone = "ellipsoid"': ("ellipsoid", ["--cone", "ellipsoid"]),
     "fast": ("fast", ["--fast"]),

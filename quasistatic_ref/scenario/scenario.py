@@ -37,6 +37,7 @@ from quasistatic_ref.scenario.scenario_table import (
     VERSION,
 )
 from quasistatic_ref.scenario.scene_words import HERE, scene_tables
+from quasistatic_ref.simulate.distances import check_closed
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import Record
 from quasistatic_ref.simulate.limits import Limits
@@ -237,6 +238,9 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     of_solver = checked_fields(solver, SOLVER)
     certify = of_solver("certify")
     law = read("law")
+    distances = read("distances")
+    if fast:
+        check_closed(distances)
     of_limits = checked_fields(read("limits"), LIMITS)
     limits = Limits(of_limits("penetration"), of_limits("reach"))
 
@@ -300,6 +304,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
             fast=fast,
             of_bodies=of_bodies,
             law=law,
+            distances=distances,
         )
     except BackendError as error:
         raise solver.error_about(error.field or "backend", error.problem, error.value) from None

@@ -10,6 +10,7 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.body import BASE_WORDS
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.scenario.world_solids import SOLIDS
+from quasistatic_ref.simulate.distances import DISTANCES
 from quasistatic_ref.simulate.header import RECORDS
 from quasistatic_ref.simulate.law import LAWS
 from quasistatic_ref.simulate.limits import Limits
@@ -63,6 +64,12 @@ TABLES = Tables({
         "law": Field(
             "text", "whether sliding contacts rise, as in the model, or not (coulomb)",
             default=Settings.law, choices=LAWS,
+        ),
+        "distances": Field(
+            "text",
+            "closed forms, or coal's distances of points of clouds to boxes, spheres, capsules and "
+            "half-spaces; fast takes closed forms alone",
+            default=Settings.distances, choices=DISTANCES,
         ),
         "fast": Field(
             "boolean", "whether to take the same steps sooner, to the same certified bits",

@@ -9,6 +9,7 @@ from typing import Any, Literal, get_args
 from quasistatic_ref.errors import about_field
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.simulate.distances import CLOSED, DISTANCES
 from quasistatic_ref.simulate.finding import Finding, finding_read, finding_table
 from quasistatic_ref.simulate.law import CONVEX, LAWS
 from quasistatic_ref.step.cones import cone
@@ -49,7 +50,8 @@ class Header(Plain):
     contacts : tuple of tuple of str
         Names of the contacts in each step of a full record.
     findings : tuple of Finding
-    law : str
+    law, distances : str
+        As of a scenario.
     alone : bool
         False where the steps are not all that was solved, see
         :class:`~quasistatic_ref.certify.solution.StepSolution`.
@@ -79,6 +81,7 @@ class Header(Plain):
     contacts: tuple[tuple[str, ...], ...]
     findings: tuple[Finding, ...]
     law: str = CONVEX
+    distances: str = CLOSED
     alone: bool = True
     unanswered: tuple[int, ...] = ()
     not_looked_at: str = ""
@@ -134,6 +137,7 @@ def header_read(top: TableReader, n_q: int, n_c: int) -> Header:
         contacts=tuple(map(tuple, contacts)),
         findings=tuple(finding_read(one, f"findings[{i}]") for i, one in listed),
         law=top.text("law", CONVEX, LAWS),
+        distances=top.text("distances", CLOSED, DISTANCES),
         alone=top.boolean("alone", True),
         unanswered=tuple(top.sequence("unanswered", [])),
         not_looked_at=top.text("not_looked_at", ""),

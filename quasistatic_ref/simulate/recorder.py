@@ -281,6 +281,7 @@ class Recorder:
             contacts=tuple(map(tuple, map(layout.contact_names, arrays["point"]))) if full else (),
             findings=(),
             law=simulator.law,
+            distances=simulator.distances,
             alone=self.alone,
             unanswered=tuple(step for step in self.unanswered if step < self.steps),
         )

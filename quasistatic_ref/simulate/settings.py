@@ -5,6 +5,7 @@ from typing import Any
 
 from quasistatic_ref.errors import check_kind
 from quasistatic_ref.numbers.arrays import Array, Mask, freeze_copies, positive_number
+from quasistatic_ref.simulate.distances import CLOSED, Distances, measured_pairs
 from quasistatic_ref.simulate.law import CONVEX, Law, check_law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.scene import Scene
@@ -35,14 +36,18 @@ class Settings(Scene):
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
     law : str
         ``"convex"``, the model's, or ``"coulomb"``, without the rise of sliding contacts.
+    distances : str
+        ``"closed"``, closed forms, or ``"coal"``, coal's distances of points of clouds as they are.
     limits : Limits
         Penetration and reach beyond which a run ends.
 
     Raises
     ------
     InputError
-        If the accuracy, what is to be certified, the law or the backend is none, or they do not go
-        together.
+        If the accuracy, what is to be certified, the law, the distances or the backend is
+        none, or they do not go together.
+    ContactError
+        If the distances do not suit a pair.
     """
 
     h: float
@@ -54,12 +59,14 @@ class Settings(Scene):
     certify: Certify = CERTIFY[0]
     cone: str = PYRAMID
     law: Law = CONVEX
+    distances: Distances = CLOSED
     limits: Limits = field(default_factory=Limits)
 
     def __post_init__(self) -> None:
         check_kind(self.limits, Limits, "limits", "Limits(penetration=..., reach=...)")
         object.__setattr__(self, "accuracy", positive_number(self.accuracy, "accuracy"))
         check_law(self.law, self.certify)
+        measured_pairs(self.pairs, self.distances)
         check_backend(self.backend, self.cone, self.certify)
         freeze_copies(self, "K_q", "gravity", "gravity_acts")
 

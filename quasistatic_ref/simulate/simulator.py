@@ -29,6 +29,7 @@ from quasistatic_ref.model.state import State
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Mask, checked_array, without_warnings
 from quasistatic_ref.parts import coulomb_solution, extended_solution, findings_of_scene
+from quasistatic_ref.simulate.distances import Distances, measured_pairs
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB, Law
 from quasistatic_ref.simulate.limits import Limits
@@ -127,6 +128,9 @@ class Simulator(Settings, Shown):
     law : str
         ``"convex"``, the model's, or ``"coulomb"``, without the rise of sliding contacts: each step
         is then a :class:`~quasistatic_ref.optional.coulomb.fixed_point.CoulombSolution`.
+    distances : str
+        ``"closed"``, closed forms, or ``"coal"``: coal's distances and normals of points of clouds,
+        on boxes, spheres, capsules and half-spaces.
     extension : callable, optional
         A function of q that returns the user's own constraints and costs for the step from q.
     limits : Limits, optional
@@ -149,7 +153,9 @@ class Simulator(Settings, Shown):
     BackendError
         If the backend is unknown or not installed, or does not take the cone.
     InputError
-        If the law is unknown or does not take `certify`.
+        If the law is unknown or does not take `certify`, or the distances are unknown.
+    ContactError
+        If the distances do not suit a pair.
 
     Examples
     --------
@@ -176,6 +182,7 @@ class Simulator(Settings, Shown):
         certify: Certify = Settings.certify,
         cone: str = Settings.cone,
         law: Law = Settings.law,
+        distances: Distances = Settings.distances,
         extension: Callable[[Array], Extension] | None = None,
         limits: Limits | None = None,
     ) -> None:
@@ -194,6 +201,7 @@ class Simulator(Settings, Shown):
             certify=certify,
             cone=cone,
             law=law,
+            distances=distances,
             limits=Limits() if limits is None else limits,
         )
         self.extension = extension
@@ -219,7 +227,7 @@ class Simulator(Settings, Shown):
     @cached_property
     def all_pairs(self) -> AllPairs:
         """Which pairs are searched at once."""
-        return AllPairs(self.pairs)
+        return AllPairs(measured_pairs(self.pairs, self.distances))
 
     @cached_property
     def geometry(self) -> ContactGeometry:

@@ -64,6 +64,7 @@ def test_a_copy_of_a_simulator_has_every_setting(things, trip):
         "certify": "full",
         "cone": "product",
         "law": "coulomb",
+        "distances": "closed",
         "extension": contradiction_error,  # any function that a pickle finds by its name
         "limits": replace(scenario.limits, reach=7.0),
     }

@@ -28,6 +28,7 @@ from quasistatic_ref.optional.fast.program import NaturalProgram
 from quasistatic_ref.optional.fast.solver import DAQP, FastSolver, FormedStep
 from quasistatic_ref.optional.fast.steps import Steps
 from quasistatic_ref.optional.fast.sums import Sums
+from quasistatic_ref.simulate.distances import check_closed
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, by_one_thread, stopwatch
@@ -110,7 +111,7 @@ class FastSimulator(Simulator):
     Raises
     ------
     InputError
-        If that is no Simulator, or its class takes steps of its own.
+        If that is no Simulator, its class takes steps of its own, or its distances are coal's.
 
     Examples
     --------
@@ -129,6 +130,7 @@ class FastSimulator(Simulator):
         if any(getattr(kind, name, None) is not getattr(Simulator, name) for name in STEPPED):
             problem = "has steps of its own, which nothing takes sooner; pass a plain simulator"
             raise InputError(problem, field="simulator", value=kind.__name__)
+        check_closed(simulator.distances)
         self.simulator = simulator
         backend = simulator.backend
         if simulator.named_backend is None:

@@ -1,0 +1,37 @@
+"""Where distances come from: the closed forms, or for points of clouds coal."""
+
+from typing import Final, Literal, get_args
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.parts import pairs_by_coal
+
+CLOSED: Final = "closed"
+COAL: Final = "coal"
+Distances = Literal["closed", "coal"]
+DISTANCES: tuple[Distances, ...] = get_args(Distances)
+
+
+def measured_pairs(pairs: tuple[ContactPair, ...], distances: str) -> tuple[ContactPair, ...]:
+    """Pairs whose shapes take their distances to points from where `distances` says.
+
+    Raises
+    ------
+    InputError
+        If that is unknown, or ``optional/curved`` is missing.
+    ContactError
+        If coal's distances are asked for, and a pair is none of a cloud and a solid for which they
+        are right to rounding.
+    """
+    if distances not in DISTANCES:
+        problem = f"is not a choice{suggestion(str(distances), DISTANCES)}"
+        raise InputError(problem, field="distances", value=distances)
+    return pairs_by_coal(pairs) if distances == COAL else pairs
+
+
+def check_closed(distances: str) -> None:
+    """Refuse, for ``fast``, distances that are not closed forms: InputError."""
+    if distances != CLOSED:
+        problem = f'must be "{CLOSED}" for fast, which compiles the closed forms; leave fast out'
+        raise InputError(problem, field="distances", value=distances)

@@ -1,0 +1,166 @@
+"""``distances = "coal"``: coal's distances of clouds as they are, beside the closed forms."""
+
+import copy
+
+import coal
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref import (
+    Box,
+    Capsule,
+    Cone,
+    ContactError,
+    Cylinder,
+    Ellipsoid,
+    FastSimulator,
+    HalfSpace,
+    InputError,
+    PointCloud,
+    Simulator,
+    Sphere,
+    System,
+    convex_hull,
+    load_scenario,
+    load_trajectory,
+)
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.optional.curved.clouds_by_coal import MeasuredByCoal
+from quasistatic_ref.simulate.header import header_table
+from quasistatic_ref.simulate.trajectory import save_trajectory
+from tests.closeness import assert_same, assert_within
+from tests.contact.still import pair, placed_shape, standing_links
+from tests.tolerances import CLOSED_FORM
+
+SOLIDS = {
+    "box": Box((0.05, 0.07, 0.03)),
+    "sphere": Sphere(0.06),
+    "capsule": Capsule(0.03, 0.05),
+    "half-space": HalfSpace((1.0, -2.0, 3.0), 0.01),
+}
+REFUSED = {
+    "cylinder": Cylinder(0.05, 0.05),
+    "cone": Cone(0.05, 0.05),
+    "ellipsoid": Ellipsoid((0.03, 0.04, 0.05)),
+    "mesh": convex_hull(SOLIDS["box"].corners(np.eye(3)[0])[0]),
+}
+NO_BODIES = System([])
+
+
+def simulator(*pairs, distances="coal"):
+    return Simulator(NO_BODIES, pairs, h=0.01, distances=distances)
+
+
+@pytest.mark.parametrize("name", SOLIDS)
+def test_of_random_points_coal_has_the_distances_of_the_closed_forms(name):
+    solid = SOLIDS[name]
+    points = np.random.default_rng(0).uniform(-0.15, 0.15, (4000, 3))
+    phi, n = solid.signed_distance(points)
+    by_coal, its_n = MeasuredByCoal(solid).signed_distance(points)
+    assert phi.min() < 0 < phi.max()
+    assert_within(by_coal, phi, CLOSED_FORM)
+    assert_within(its_n, n, CLOSED_FORM)
+
+
+@pytest.mark.parametrize("cloud_first", [True, False])
+@pytest.mark.parametrize("name", SOLIDS)
+def test_contacts_of_a_cloud_are_those_of_the_closed_forms(name, cloud_first):
+    rng = np.random.default_rng(1)
+    cloud = placed_shape(PointCloud(rng.uniform(-0.1, 0.1, (60, 3))), 1)
+    for _ in range(5):
+        R = Rotation.random(rng=rng).as_matrix()
+        solid = placed_shape(SOLIDS[name], R=R, t=rng.uniform(-0.1, 0.1, 3))
+        one = pair(*((cloud, solid) if cloud_first else (solid, cloud)), k=7)
+        turned = Rotation.random(rng=rng).as_matrix()
+        links = standing_links((turned, rng.uniform(-0.1, 0.1, 3)))
+        closed = simulator(one, distances="closed").closest_points(links)
+        by_coal = simulator(one).closest_points(links)
+        assert_same(by_coal.point, closed.point)
+        assert_same(by_coal.tie, closed.tie)
+        for field in ("phi", "alpha", "beta", "n"):
+            assert_within(getattr(by_coal, field), getattr(closed, field), CLOSED_FORM)
+
+
+def test_distances_of_a_run_are_what_coal_says(monkeypatch):
+    honest = coal.distance
+    monkeypatch.setattr(coal, "distance", lambda *arguments: honest(*arguments) + 1e-6)
+    closed = load_scenario("bunny_grasp", steps=1).run(findings=False)
+    by_coal = load_scenario("bunny_grasp", steps=1, distances="coal").run(findings=False)
+    assert_within(by_coal["phi"], closed["phi"] + 1e-6, CLOSED_FORM)
+
+
+@pytest.mark.parametrize("mu_omega", [None, 0.0])
+@pytest.mark.parametrize("steps", [30, pytest.param(600, marks=pytest.mark.long)])
+def test_the_paper_s_grasp_has_equal_bits_with_either(steps, mu_omega):
+    change = {} if mu_omega is None else {"contacts.grip.mu_omega": mu_omega}
+    closed, by_coal = (
+        load_scenario("bunny_grasp", change, steps=steps, distances=distances).run(findings=False)
+        for distances in ("closed", "coal")
+    )
+    assert by_coal.steps == steps
+    for field in ("q", "phi", "n", "alpha", "beta", "lam"):
+        assert bits(by_coal[field]) == bits(closed[field]), field
+
+
+def test_copies_of_a_simulator_keep_their_distances():
+    by_coal = load_scenario("bunny_grasp", distances="coal").simulator()
+    assert copy.copy(by_coal).distances == copy.deepcopy(by_coal).distances == "coal"
+
+
+def test_a_trajectory_says_where_its_distances_come_from(tmp_path):
+    runs = {
+        distances: load_scenario("bunny_grasp", steps=1, distances=distances).run(findings=False)
+        for distances in ("closed", "coal")
+    }
+    for distances, run in runs.items():
+        path = save_trajectory(tmp_path / f"{distances}.npz", run)
+        assert load_trajectory(path).header.distances == distances
+        assert ("distances" in header_table(run.header)) == (distances == "coal")
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_where_coal_s_general_search_answers_it_is_refused_and_off(name):
+    solid = REFUSED[name]
+    cloud = placed_shape(PointCloud(np.zeros((1, 3))), 1)
+    with pytest.raises(ContactError, match=r"distances: .*, and p is of pointcloud and \w+: use"):
+        simulator(pair(cloud, placed_shape(solid)))
+
+
+def test_two_solids_are_refused_by_the_pair_s_name():
+    message = r"distances: coal's .* and rest\(floor, block/block#0\) is of halfspace and box: use"
+    with pytest.raises(ContactError, match=message):
+        load_scenario("arm_push", distances="coal")
+
+
+def test_coal_is_off_inside_a_cylinder():
+    """If this fails, coal has become right there, and cylinders need no longer be refused."""
+    request = coal.DistanceRequest()
+    request.enable_signed_distance = True
+    at = coal.Transform3s(np.eye(3), np.array([0.02, 0.0, 0.03]))
+    can = coal.Cylinder(0.05, 0.1), coal.Transform3s(np.eye(3), np.zeros(3))
+    off = coal.distance(*can, coal.Sphere(0.0), at, request, coal.DistanceResult()) + 0.02
+    assert abs(off) > 1e-3
+
+
+def test_fast_and_unknown_words_are_refused():
+    message = r'distances: must be "closed" for fast, which compiles the closed forms; leave fast'
+    with pytest.raises(InputError, match=message):
+        load_scenario("bunny_grasp", fast=True, distances="coal")
+    with pytest.raises(InputError, match=message):
+        FastSimulator(load_scenario("bunny_grasp", distances="coal").simulator())
+    with pytest.raises(InputError, match=r"distances: is not a choice; did you mean 'coal'\?"):
+        simulator(distances="cole")
+
+
+def test_an_answer_without_a_unit_normal_is_refused(monkeypatch):
+    honest = coal.distance
+
+    def spoilt(*arguments):
+        phi = honest(*arguments)
+        arguments[-1].normal = np.zeros(3)
+        return phi
+
+    monkeypatch.setattr(coal, "distance", spoilt)
+    with pytest.raises(ContactError, match="box: coal has no normal for one of its points; use"):
+        MeasuredByCoal(SOLIDS["box"]).signed_distance(np.zeros((1, 3)))
