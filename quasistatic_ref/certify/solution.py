@@ -15,7 +15,7 @@ from quasistatic_ref.parts import contact_forces
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches
 
-UNKNOWN = "are not known: a step holds no costs, nonlinear constraints or smoothing"
+UNKNOWN = "are not known: a step holds no costs or nonlinear constraints"
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,8 +81,7 @@ class StepSolution(Plain, Shown):
         A'lam [N s, N m s] of a certified optimum, correctly rounded, in the ellipsoid to within the
         enclosure; None where nothing is proved.
     alone : bool
-        Whether the step is all that was solved: no costs or nonlinear constraints of an extension,
-        and no smoothing.
+        Whether the step is all that was solved: no costs or nonlinear constraints of an extension.
 
     Notes
     -----
