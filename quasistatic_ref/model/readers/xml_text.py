@@ -8,6 +8,11 @@ from quasistatic_ref.errors import ModelError
 
 DEEPEST = 100
 """Most elements in one another; other readers of XML recurse, and end the process."""
+MOST_ELEMENTS = 100_000
+"""Most elements of a file: each takes some 200 bytes, and a few letters of the file."""
+LONGEST_WORD = 4000
+"""Most characters of the name of an element or of an attribute, and of what an attribute of a URDF
+says: paths have fewer."""
 
 
 def xml_root(text: str) -> Element:
@@ -16,7 +21,8 @@ def xml_root(text: str) -> Element:
     Raises
     ------
     ModelError
-        If the text is not well-formed, is nested without end, or declares a document type:
+        If the text is not well-formed, is nested without end, has very many elements or very long
+        names, or declares a document type:
         entities of its own are never needed in a model, and can expand without bound.
     """
     # It says nothing more of a text; where it is not at the start, other readers pass it over.
@@ -31,12 +37,20 @@ def xml_root(text: str) -> Element:
 
     parser.StartDoctypeDeclHandler = refusal
     depth = 0
+    count = 0
 
     def start(name: str, attributes: dict[str, str]) -> None:
-        nonlocal depth
+        nonlocal depth, count
         depth += 1
+        count += 1
+        problem = ""
         if depth > DEEPEST:
             problem = f"is nested deeper than {DEEPEST} elements"
+        elif count > MOST_ELEMENTS:
+            problem = f"has more than {MOST_ELEMENTS} elements"
+        elif max(map(len, (name, *attributes))) > LONGEST_WORD:
+            problem = f"has a name of more than {LONGEST_WORD} characters"
+        if problem:
             raise ModelError(problem, field=f"line {parser.CurrentLineNumber}")
         builder.start(name, attributes)
 

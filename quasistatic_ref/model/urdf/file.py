@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from decimal import Decimal
 from pathlib import Path
 from typing import Final, NamedTuple
 
@@ -256,13 +255,21 @@ def _inertial(link: Tag) -> tuple[float, Array, Array, Defect | None, float]:
             problem = f"must equal {name}, the same moment"
             raise ModelError(problem, field=f"{moments.where}.{twin}", value=moments.text(twin))
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    printed = [Decimal(moments.text(name).strip()) for name in ("ixx", "iyy", "izz")]
-    digit = min((10.0 ** int(x.as_tuple().exponent) for x in printed if x), default=0.0)
+    written = {"ixx": xx, "iyy": yy, "izz": zz}
+    digit = min((_last_digit(moments.text(name).strip()) for name in written if written[name]),
+                default=0.0)  # fmt: skip
     defect = inertia_defect(inertia, digit)
     if not mass > 0:
         defect = ("mass", "must be greater than 0", mass)
     turned = product(R, product(inertia, R.T))
     return mass, com, np.triu(turned) + np.triu(turned, 1).T, defect, digit
+
+
+def _last_digit(number: str) -> float:
+    """A unit of the last digit of a decimal number, whatever its exponent: 0.001 of 1.250."""
+    digits, _, exponent = number.lower().partition("e")
+    decimals = len(digits.partition(".")[2])
+    return float(f"1e{int(exponent or 0) - decimals}")
 
 
 def inertia_defect(inertia: Array, digit: float = 0.0) -> Defect | None:

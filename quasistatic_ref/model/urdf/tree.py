@@ -108,6 +108,9 @@ def _check_mimic(joint: FileJoint, named: Mapping[str, FileJoint]) -> None:
     if leader.kind == "fixed" or leader.mimic is not None:
         problem = "must be a joint that moves by itself, neither fixed nor a mimic"
         raise ModelError(problem, field=field, value=of)
+    if "ball" in (joint.kind, leader.kind):
+        problem = "a ball joint, which has no single position, can neither mimic nor be mimicked"
+        raise ModelError(problem, field=field, value=of)
     if (joint.kind == "continuous") != (leader.kind == "continuous"):
         problem = (
             "a continuous joint can only mimic, and be mimicked by, a continuous one; write "

@@ -14,6 +14,7 @@ import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.model.readers.text import decimal
+from quasistatic_ref.model.readers.xml_text import LONGEST_WORD
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import length
@@ -59,6 +60,9 @@ class Tag:
         value = self.element.get(name)
         if value is None or not value.strip():
             raise ModelError("is missing", field=f"{self.where}.{name}")
+        if len(value) > LONGEST_WORD:
+            problem = f"is longer than {LONGEST_WORD} characters"
+            raise ModelError(problem, field=f"{self.where}.{name}", value=value)
         return value
 
     def expanded(self, name: str) -> str:

@@ -76,6 +76,17 @@ def test_rounding_of_the_last_printed_digit_makes_no_moments_impossible(moments,
         assert loaded_urdf(text, base="floating").links == ("a",)
 
 
+@pytest.mark.parametrize("moment", ["1e-9999999999999999999", "0e9999999999999999999", "0.0e-400"])
+def test_a_moment_of_any_exponent_is_read(moment):
+    """It is 0, as of no body; of an actuated link it is only noted."""
+    text = robot(link("a", inertial=inertial("1", (moment, "1", "1"))))
+    with pytest.raises(ModelError, match=r"inertia: must be positive definite .*got \[0.0, 1.0"):
+        loaded_urdf(text, base="floating")
+    assert "must be positive definite" in loaded_urdf(text).notes[0]
+    exact = robot(link("a", inertial=inertial("1", ("1e-0000000000000000001", "1", "1"))))
+    assert loaded_urdf(exact, base="floating").links == ("a",)
+
+
 @pytest.mark.parametrize(("excess", "impossible"), [(0.01, False), (0.03, True)])
 def test_a_welded_link_makes_up_for_an_inertia_as_far_as_parallel_axes_go(excess, impossible):
     # Two links of 1 kg, 0.2 m apart along z: about their common centre each adds 1 kg (0.1 m)^2 to

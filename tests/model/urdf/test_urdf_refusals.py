@@ -82,6 +82,21 @@ REFUSED = {
         link("c") + link("d") + joint("l", "c", "d") + joint("m", "d", "c") + "</robot>",
         r"tree: these joints are not connected to the root link 'a' \(got \['l', 'm'\]\)",
     ),
+    "a ball that mimics": (
+        WHEELS.replace('"k" type="continuous"', '"k" type="ball"'), "RATIO", "1",
+        r"\[k\].mimic: a ball joint, which has no single position, can neither mimic.*'j'",
+    ),
+    "a ball that is mimicked": (
+        WHEELS.replace('"j" type="continuous"', '"j" type="ball"'), "RATIO", "1",
+        r"\[k\].mimic: a ball joint, which has no single position, can neither mimic.*'j'",
+    ),
+    "balls that mimic": (
+        WHEELS.replace('type="continuous"', 'type="ball"'), "RATIO", "1",
+        r"\[k\].mimic: a ball joint, which has no single position, can neither mimic.*'j'",
+    ),
+    "a very long name": (
+        TWO, 'name="a"', f'name="{"a" * 10_000}"', r"link.name: is longer than 4000 characters",
+    ),
     "mimics what it moves": (
         robot(link("a"), link("b"), link("c"), joint("k", "a", "b"), joint("j", "b", "c")),
         "</joint>",
