@@ -7,6 +7,7 @@ unpacked.
 
 import io
 import json
+import lzma
 import math
 import tokenize
 import warnings
@@ -46,9 +47,11 @@ UNREADABLE: tuple[type[Exception], ...] = (
     EOFError,
     RuntimeError,
     SyntaxError,
+    OverflowError,  # a member that begins beyond any file
     tokenize.TokenError,  # an array's header with an open bracket
     zipfile.BadZipFile,
     zlib.error,
+    lzma.LZMAError,
 )
 """What zipfile and NumPy raise at a file that is something else, or spoilt."""
 

@@ -2,6 +2,7 @@
 
 import io
 import json
+import struct
 import zipfile
 
 import numpy as np
@@ -73,6 +74,27 @@ def twice(run):
     return file.getvalue()
 
 
+def lzma_spoilt():
+    """A member whose compressed bytes are zeros."""
+    content = bytearray(zip_bytes([("t.npy", npy(np.zeros(100)))], zipfile.ZIP_LZMA))
+    content[50:60] = bytes(10)
+    return bytes(content)
+
+
+def far_away(run):
+    """The first member begins at byte 2^64 - 1, which the directory has room for."""
+    start, end = run.index(b"PK\x01\x02"), run.index(b"PK\x05\x06")
+    extra = struct.pack("<HHQ", 1, 8, 2**64 - 1)
+    entry = bytearray(run[start:end])
+    name = int.from_bytes(entry[28:30], "little")
+    entry[30:32] = struct.pack("<H", len(extra))
+    entry[42:46] = b"\xff" * 4
+    entry[46 + name : 46 + name] = extra
+    last = bytearray(run[end:])
+    last[12:16] = struct.pack("<I", len(entry))
+    return run[:start] + entry + last
+
+
 ZEROS = np.zeros(3)
 CAUSES = {
     # name: (what is replaced in the good one, or the file from it, words of the sentence)
@@ -86,6 +108,8 @@ CAUSES = {
     ),
     "a bomb": (lambda run: bomb(3), "its arrays: unpacks to more than 1 GiB (got 3221225472)"),
     "an array twice": (twice, "t.npy: is given twice"),
+    "a spoilt member of LZMA": (lambda run: lzma_spoilt(), NOT_ONE),
+    "a member that begins beyond any file": (lambda run: far_away(run), NOT_ONE),
     "very many members": (
         {f"x{i}": b"" for i in range(300)},
         "holds more than 256 arrays (got ",
