@@ -9,6 +9,8 @@ from quasistatic_ref.numbers.arrays import Array, Indices
 
 DIGITS = 7
 """Digits of the extent to which corners at one place agree: a bit of a float32 is 6e-8 [-]."""
+FLAT = 1e-12
+"""Thickness over the extent, and volume over its cube, that are nothing but rounding [-]."""
 TOUCHING = 1e-6
 """Common part of shells, over the volume, up to which they only touch [-]."""
 
@@ -24,13 +26,18 @@ def closed_mesh(vertices: Array, triangles: Indices, notes: list[str]) -> trimes
     Raises
     ------
     InputError
-        If the mesh has a hole, an edge of more than two triangles, or shells that overlap.
+        If the mesh has a hole, an edge of more than two triangles, or shells that overlap, or it
+        encloses nothing.
     """
     mesh = trimesh.Trimesh(vertices, triangles, process=False)
+    corners = vertices[triangles.ravel()]
+    extent = float(np.ptp(corners, axis=0).max())
+    _check_encloses(np.linalg.matrix_rank(corners - corners.mean(axis=0), rtol=FLAT) == 3)
     if not mesh.is_watertight:
-        digits = DIGITS - np.ceil(np.log10(np.ptp(vertices[triangles.ravel()], axis=0).max()))
+        digits = DIGITS - np.ceil(np.log10(extent))
         mesh.merge_vertices(digits_vertex=int(digits))
         mesh.update_faces(np.diff(np.sort(mesh.faces)).all(axis=1))
+    _check_encloses(len(mesh.faces) > 0)
     edges, sides = np.unique(mesh.edges_sorted, axis=0, return_counts=True)
     _check_edges(
         mesh.vertices[edges[sides == 1]],
@@ -42,11 +49,23 @@ def closed_mesh(vertices: Array, triangles: Indices, notes: list[str]) -> trimes
         "away, or unite the parts",
     )
     written = mesh.faces.copy()
-    trimesh.repair.fix_normals(mesh, multibody=not mesh.is_winding_consistent)
+    with np.errstate(all="ignore"):  # the centre of mass of what has no volume
+        trimesh.repair.fix_normals(mesh, multibody=not mesh.is_winding_consistent)
     if turned := np.count_nonzero((mesh.faces != written).any(axis=1)):
         notes.append(f"{turned} triangles are wound inwards, or against their neighbours: turned")
+    volume = np.linalg.det(mesh.triangles - corners.mean(axis=0)).sum() / 6
+    _check_encloses(volume > FLAT * extent**3)
     _check_shells(mesh)
     return mesh
+
+
+def _check_encloses(something: bool) -> None:
+    if not something:
+        problem = (
+            "encloses nothing: its corners lie in a point, on a line or in a plane, or its sides "
+            "on each other; give a closed mesh with a volume"
+        )
+        raise InputError(problem, field="mesh")
 
 
 def _check_edges(ends: Array, problem: str) -> None:

@@ -7,6 +7,7 @@ import pytest
 import trimesh
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.scans.body import scanned_body
 from quasistatic_ref.optional.scans.closed import closed_mesh
 from quasistatic_ref.optional.scans.solid import Solid
 from tests.closeness import assert_relative, assert_within
@@ -70,6 +71,27 @@ DOUBLED = "has 3 edges, .* mm, of more than two triangles: a doubled face"
 def test_a_hole_and_a_doubled_face_are_refused_where_they_are(faces, words):
     with pytest.raises(InputError, match=words):
         closed_mesh(V, faces, [])
+
+
+TETRAHEDRON = np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])
+NOTHING = {
+    "a point": (np.ones((4, 3)), TETRAHEDRON),
+    "a line": (np.arange(4.0)[:, None] * [1, 1, 1], TETRAHEDRON),
+    "a line far away": (1e6 + np.arange(4.0)[:, None] * [1, 2, 3], TETRAHEDRON),
+    "a plane": (np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]]), TETRAHEDRON),
+    "triangles that are points": (np.eye(4, 3), np.repeat(np.arange(4), 3).reshape(-1, 3)),
+}
+
+
+@pytest.mark.parametrize(("vertices", "faces"), NOTHING.values(), ids=NOTHING)
+def test_a_closed_mesh_that_encloses_nothing_is_refused(tmp_path, vertices, faces):
+    with pytest.raises(InputError, match="mesh: encloses nothing"):
+        closed_mesh(vertices, faces, [])
+    mesh = trimesh.Trimesh(vertices, faces, process=False)
+    for kind in ("obj", "off", "ply", "stl"):
+        mesh.export(tmp_path / f"m.{kind}")
+        with pytest.raises(InputError, match="mesh: encloses nothing"):
+            scanned_body(tmp_path / f"m.{kind}", mass=1.0, unit="m")
 
 
 def test_point_like_triangles_at_a_pole_are_no_holes():
