@@ -1,6 +1,7 @@
 """Many calls of a function, some at once, by any executor of ``concurrent.futures``."""
 
 import os
+import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
@@ -32,10 +33,16 @@ def workers(jobs: int | None) -> Iterator[Executor | None]:
     main = sys.modules["__main__"]
     sys.modules["__main__"] = ModuleType("__main__")  # what a process that is spawned imports
     try:
-        with ProcessPoolExecutor(jobs, get_context("spawn"), end_with_parent) as pool:
+        with ProcessPoolExecutor(jobs, get_context("spawn"), begin_worker) as pool:
             yield pool
     finally:
         sys.modules["__main__"] = main
+
+
+def begin_worker() -> None:
+    """End this process with its parent, and at Ctrl-C, which both get, without a traceback."""
+    signal.signal(signal.SIGINT, lambda *_: os._exit(1))
+    end_with_parent()
 
 
 def end_with_parent() -> None:

@@ -2,6 +2,10 @@
 
 import csv
 import json
+import os
+import signal
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -10,6 +14,7 @@ from quasistatic_ref import InputError, Scenario, load_scenario, load_trajectory
 from quasistatic_ref.lab.processes import descendants
 from quasistatic_ref.lab.sweep import TABLE, simulate_many, swept_values
 from tests.optional.doctor.mistake_scenes import scenes_written
+from tests.pages import ROOT
 from tests.processes import has_ended, started, waited_for
 
 
@@ -77,6 +82,20 @@ def test_workers_end_with_the_process_of_the_sweep_also_when_it_is_killed(tmp_pa
     process.kill()
     process.wait()
     waited_for(lambda: all(map(has_ended, workers)))
+
+
+def test_ctrl_c_ends_a_sweep_and_its_workers_without_a_traceback(tmp_path):
+    command = "-m quasistatic_ref run block_incline --sweep steps=1,100000 --jobs 2 --out map"
+    process = subprocess.Popen(
+        [sys.executable, *command.split()], cwd=tmp_path, stderr=subprocess.PIPE,
+        env=os.environ | {"PYTHONPATH": str(ROOT)}, start_new_session=True,
+    )  # fmt: skip
+    waited_for(lambda: any((tmp_path / "map").glob("runs/*.npz")))
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert b"Traceback" not in said
+    assert [float(row["steps"]) for row in table(tmp_path / "map")] == [1]
 
 
 @pytest.mark.long
