@@ -6,6 +6,7 @@ that a camera did not see are, is left out.
 """
 
 import re
+from array import array
 from pathlib import Path
 
 import numpy as np
@@ -92,7 +93,8 @@ def _of_text(path: Path) -> Array:
     """Points of a text of columns."""
     columns = [0, 1, 2]
     width = stated = None
-    points: list[list[float]] = []
+    numbers = array("d")
+    points: Array | None = None
     lines = point_lines(text_read(path, ModelError))
     for number, line in enumerate(lines, start=1):
         text = line.split("#", 1)[0].strip()
@@ -111,16 +113,18 @@ def _of_text(path: Path) -> Array:
         if len(words) < 3:
             problem = "must be three numbers, x y z"
             raise ModelError(problem, field=f"line {number}", value=line)
-        if not points and (table := _table(lines[number - 1 :], text)) is not None:
-            points = table[:, columns].tolist()
+        if not numbers and (table := _table(lines[number - 1 :], text)) is not None:
+            points = table[:, columns]
             break
         if len(words) != width:
             raise ModelError(f"must have {width} columns", field=f"line {number}", value=line)
         with about_field(f"line {number}"):
-            points.append([number_or_nan(words[c]) for c in columns])
+            numbers.extend(number_or_nan(words[c]) for c in columns)
+    if points is None:
+        points = np.array(numbers).reshape(-1, 3)
     check_points(len(points))
     check_equal("points", len(points), len(points) if stated is None else stated)
-    return np.array(points, dtype=np.float64).reshape(-1, 3)
+    return points
 
 
 def _table(lines: list[str], first: str) -> Array | None:

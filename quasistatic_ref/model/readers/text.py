@@ -2,12 +2,16 @@
 
 import math
 import re
+from collections.abc import Sequence
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.files import LARGEST_TEXT
 
 MOST_POINTS = 1_000_000
 """Most points of a cloud; its text has at most twice as many lines, with comments and a header."""
+
+LONGEST_LINE = 100_000
+"""Most characters of a line of a cloud or a mesh: each of its words takes some 60 bytes."""
 
 _DECIMAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
@@ -45,7 +49,16 @@ def point_lines(text: str) -> list[str]:
     if len(lines) > 2 * MOST_POINTS:
         problem = f"holds more than {2 * MOST_POINTS} lines; thin it out"
         raise ModelError(problem, value=len(lines))
+    check_lines(lines)
     return lines
+
+
+def check_lines(lines: Sequence[str]) -> None:
+    """ModelError if a line is too long, before it is split into words."""
+    number = next((k for k, line in enumerate(lines, 1) if len(line) > LONGEST_LINE), None)
+    if number is not None:
+        problem = f"is longer than {LONGEST_LINE} characters"
+        raise ModelError(problem, field=f"line {number}", value=lines[number - 1])
 
 
 def check_points(count: int) -> None:

@@ -4,8 +4,9 @@ Readers of others pass over what they do not know, and take a file that was cut 
 """
 
 import re
-from collections.abc import Callable, Sequence
-from itertools import pairwise
+from array import array
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import islice
 from typing import Any, Final
 
 import numpy as np
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.model.readers.mesh import Mesh
-from quasistatic_ref.model.readers.text import check_equal, number_or_nan
+from quasistatic_ref.model.readers.text import check_equal, check_lines, number_or_nan
 from quasistatic_ref.numbers.arrays import Array, Indices
 
 LARGEST_HEADER = 2**20
@@ -45,6 +46,8 @@ PLY_TYPES = {
     "int64": "i8", "uint64": "u8", "float": "f4", "float32": "f4", "double": "f8", "float64": "f8",
 }  # fmt: skip
 """Kinds of numbers of a PLY."""
+FACE_LISTS = ("vertex_indices", "vertex_index")
+"""Names of the list of a face's corners; other elements that have one, as grids, are no faces."""
 PLY_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 
 
@@ -58,7 +61,9 @@ def text_of_mesh(content: bytes) -> str:
 
 def _lines(content: bytes) -> list[str]:
     """Lines as editors count them; ``splitlines`` also parts at letters of Latin-1."""
-    return re.split("\r\n|\r|\n", text_of_mesh(content))
+    lines = re.split("\r\n|\r|\n", text_of_mesh(content))
+    check_lines(lines)
+    return lines
 
 
 def _point(words: list[str], number: int, most: int = 3) -> list[float]:
@@ -77,21 +82,33 @@ def _numbers(words: list[str], number: int) -> list[int]:
     return [int(word) for word in words]
 
 
-def _face(corners: list[int], number: int) -> list[int]:
-    if len(corners) < 3:
-        problem = "must be a face of three corners or more"
-        raise ModelError(problem, field=f"line {number}", value=corners)
-    return corners
+class _Faces:
+    """Faces of any number of corners, in arrays: lists of small lists take ten times as much."""
+
+    def __init__(self) -> None:
+        self._corners = array("q")
+        self._sizes = array("q")
+
+    def add(self, corners: Sequence[int], field: str) -> None:
+        """Add a face; ModelError about the field if it has fewer than three corners."""
+        if len(corners) < 3:
+            problem = "must be a face of three corners or more"
+            raise ModelError(problem, field=field, value=list(corners))
+        self._corners.extend(corners)
+        self._sizes.append(len(corners))
+
+    def triangles(self) -> Indices:
+        """Each face as a fan around its first corner, shape (T, 3)."""
+        return _fans(np.array(self._corners), np.array(self._sizes))
 
 
-def _fans(faces: Sequence[Sequence[int]]) -> Indices:
-    """Triangles, (T, 3), of faces of any number of corners, as a fan around the first of each."""
-    triangles = [(a, b, c) for a, *rest in faces for b, c in pairwise(rest)]
-    return np.array(triangles, dtype=np.int64).reshape(-1, 3)
-
-
-def _points(points: list[list[float]]) -> Array:
-    return np.array(points, dtype=np.float64).reshape(-1, 3)
+def _fans(corners: Indices, sizes: Indices) -> Indices:
+    """Triangles, (T, 3), of faces of some sizes, (F,), whose corners follow one another."""
+    counts = sizes - 2
+    begins = np.repeat(np.cumsum(sizes) - sizes, counts)
+    place = np.arange(len(begins)) - np.repeat(np.cumsum(counts) - counts, counts)
+    triangles = np.stack([begins, begins + place + 1, begins + place + 2], axis=1)
+    return np.asarray(corners[triangles])
 
 
 def _stl(content: bytes) -> Mesh:
@@ -108,12 +125,12 @@ def _stl_text(content: bytes) -> Array:
     if content.lstrip()[:5].lower() != b"solid":
         problem = "must begin with solid, or hold 50 bytes for each of its triangles after 84 bytes"
         raise ModelError(problem)
-    points = []
+    points = array("d")
     letters = ""
     for number, line in enumerate(_lines(content), start=1):
         first, *words = line.split() or [""]
         if first.lower() == "vertex":
-            points.append(_point(words, number))
+            points.extend(_point(words, number))
         if first.lower() not in ("", *STL_WORDS):
             problem = f"must begin with one of {', '.join(STL_WORDS)}"
             raise ModelError(problem, field=f"line {number}", value=line)
@@ -121,57 +138,67 @@ def _stl_text(content: bytes) -> Array:
     if not SOLIDS.fullmatch(letters):
         problem = "is cut off or not in order: each solid has an endsolid, each facet 3 corners"
         raise ModelError(problem)
-    return _points(points)
+    return np.array(points)
 
 
 def _obj(content: bytes) -> Mesh:
     """An OBJ: its points and faces."""
-    points: list[list[float]] = []
-    faces = []
+    points = array("d")
+    faces = _Faces()
     lines = _lines(re.sub(rb"\\\r?\n", b" ", content))
     for number, line in enumerate(lines, start=1):
         first, *words = line.partition("#")[0].split() or [""]
         if first == "v":
-            points.append(_point(words, number, 7))
+            points.extend(_point(words, number, 7))
         elif first == "f":
             corners = _numbers([word.partition("/")[0] for word in words], number)
+            n = len(points) // 3
             # Those below zero are counted back from the last point so far; none is number zero.
-            ahead = [c - 1 if c > 0 else len(points) + c if c else -1 for c in corners]
-            # Two corners are a line, which some write as a face.
-            faces.append(ahead if len(ahead) == 2 else _face(ahead, number))
+            ahead = [c - 1 if c > 0 else n + c if c else -1 for c in corners]
+            if len(ahead) != 2:  # a line, which some write as a face
+                faces.add(ahead, f"line {number}")
         elif first and first not in OBJ_UNREAD:
             problem = "is a line of an OBJ that is not read"
             raise ModelError(problem, field=f"line {number}", value=line)
-    return Mesh(_points(points), _fans(faces))
+    return Mesh(np.array(points).reshape(-1, 3), faces.triangles())
 
 
 def _off(content: bytes) -> Mesh:
     """An OFF: of each line of a point, and of a face, the first numbers."""
-    stripped = [line.partition("#")[0].strip() for line in _lines(content)]
-    lines = [(number, line) for number, line in enumerate(stripped, start=1) if line]
-    header = re.fullmatch(r"(?:ST)?C?N?OFF\s*(\d.*)?", lines[0][1] if lines else "")
+    lines = _lines(content)
+    left = _numbered(lines)
+    number, line = next(left, (1, ""))
+    header = re.fullmatch(r"(?:ST)?C?N?OFF\s*(\d.*)?", line)
     if header is None:
         raise ModelError("must begin with OFF", field="line 1")
-    body = [(1, header[1]), *lines[1:]] if header[1] else lines[1:]
-    if not body:
+    number, line = (number, header[1]) if header[1] else next(left, (number, ""))
+    if not line:
         raise ModelError("is cut off after OFF")
-    number, line = body[0]
     counts = _numbers(line.split(), number)
-    if len(counts) < 2 or len(body) - 1 != sum(counts[:2]):
-        problem = f"must be the number of points and of faces, of {len(body) - 1} lines"
+    follow = sum(1 for _ in _numbered(lines)) - (1 if header[1] else 2)
+    if len(counts) < 2 or follow != sum(counts[:2]):
+        problem = f"must be the number of points and of faces, of {follow} lines"
         raise ModelError(problem, field=f"line {number}", value=line)
-    n = 1 + counts[0]
-    points = [_point(line.split(), number, len(line)) for number, line in body[1:n]]
-    faces = []
-    for number, line in body[n:]:
+    points = array("d")
+    for number, line in islice(left, max(0, counts[0])):
+        points.extend(_point(line.split(), number, len(line)))
+    faces = _Faces()
+    for number, line in left:
         words = line.split()
         (corners,) = _numbers(words[:1], number)
         face = _numbers(words[1 : 1 + max(0, corners)], number)
         if len(face) != corners:
             problem = f"must have {corners} corners"
             raise ModelError(problem, field=f"line {number}", value=line)
-        faces.append(_face(face, number))
-    return Mesh(_points(points), _fans(faces))
+        faces.add(face, f"line {number}")
+    return Mesh(np.array(points).reshape(-1, 3), faces.triangles())
+
+
+def _numbered(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
+    """Lines that say something, without comments, and their numbers from 1 on."""
+    for number, line in enumerate(lines, start=1):
+        if stripped := line.partition("#")[0].strip():
+            yield number, stripped
 
 
 _Properties = list[tuple[str, np.dtype[Any], np.dtype[Any] | None]]
@@ -185,62 +212,104 @@ def _ply(content: bytes) -> Mesh:
         raise ModelError("must begin with ply, and have an end_header")
     is_text, elements = _ply_header(_lines(head[0])[1:-2])
     body = content[head.end() :]
-    lines = [line for line in _lines(body) if line.strip()] if is_text else []
-    if is_text:
-        body = np.array([number_or_nan(word) for word in " ".join(lines).split()]).tobytes()
-    read, left = _ply_entries(body, elements)
     if is_text:  # each entry has a line
-        check_equal("lines", len(lines), sum(count for _, count, _ in elements))
-    if left.strip():
-        raise ModelError("holds more than its header says")
-    vertices = read.get("vertex", {"x": (), "y": (), "z": ()})
-    points = np.stack([np.asarray(vertices[axis], dtype=np.float64) for axis in "xyz"], axis=1)
-    lists = ("vertex_indices", "vertex_index")
-    named = [
-        (name, one) for name, _, properties in elements for one, *_ in properties if one in lists
-    ]
-    if "face" not in read and not named:
-        return Mesh(points, _fans(()))
-    if [name for name, _ in named] != ["face"]:
-        raise ModelError("must be faces with a list vertex_indices", field="face")
-    corners = read["face"][named[0][1]]
-    if any(corner % 1 for face in corners for corner in face):
-        raise ModelError("must be whole numbers", field="face")
-    return Mesh(points, _fans([_face(face, number) for number, face in enumerate(corners)]))
-
-
-def _ply_entries(
-    body: bytes, elements: list[tuple[str, int, _Properties]]
-) -> tuple[dict[str, Any], bytes]:
-    """Of each element, by the names of its properties, the numbers or lists; and what is left."""
-    at = 0
-
-    def taken(kind: np.dtype[Any], count: int, what: str) -> NDArray[Any]:
-        nonlocal at
-        start = at
-        check_equal(what, min(count, (len(body) - start) // kind.itemsize), count)
-        at += count * kind.itemsize
-        return np.frombuffer(body, kind, count, start)
-
-    read: dict[str, Any] = {}
+        lines = [line for line in _lines(body) if line.strip()]
+        words = (word for line in lines for word in line.split())
+        body = np.fromiter(map(number_or_nan, words), np.float64).tobytes()
+    read = _PlyBody(body)
+    points = np.zeros((0, 3))
+    triangles = np.zeros((0, 3), np.int64)
     for name, count, properties in elements:
+        table = read.entries(name, count, properties)
+        if name == "vertex":
+            points = np.stack([np.asarray(table[axis], np.float64) for axis in "xyz"], axis=1)
+        if name == "face":
+            lists = [table[one] for one in FACE_LISTS if one in table]
+            if len(lists) != 1:
+                problem = f"must be faces with a list {FACE_LISTS[0]}"
+                raise ModelError(problem, field="face")
+            corners = lists[0]
+            if (corners % 1).any():
+                raise ModelError("must be whole numbers", field="face")
+            triangles = _fans(corners.astype(np.int64), read.sizes)
+    if is_text:
+        check_equal("lines", len(lines), sum(count for _, count, _ in elements))
+    if read.left:
+        raise ModelError("holds more than its header says")
+    return Mesh(points, triangles)
+
+
+class _PlyBody:
+    """What follows the header of a PLY, element after element.
+
+    Parameters
+    ----------
+    body : bytes
+
+    Attributes
+    ----------
+    sizes : ndarray of int
+        How many corners each face has.
+    """
+
+    def __init__(self, body: bytes) -> None:
+        self._body = body
+        self._at = 0
+        self.sizes = np.zeros(0, np.int64)
+
+    @property
+    def left(self) -> bytes:
+        """What nothing has read, without spaces."""
+        return self._body[self._at :].strip()
+
+    def _taken(self, kind: np.dtype[Any], count: int, what: str) -> NDArray[Any]:
+        start = self._at
+        check_equal(what, min(count, (len(self._body) - start) // kind.itemsize), count)
+        self._at += count * kind.itemsize
+        return np.frombuffer(self._body, kind, count, start)
+
+    def entries(self, name: str, count: int, properties: _Properties) -> Mapping[str, NDArray[Any]]:
+        """The numbers of each property; of lists all entries, one after the other.
+
+        Of an element that is neither vertex nor face, which is passed over, nothing.
+        """
         if all(length is None for *_, length in properties):
             fields = [(one, kind) for one, kind, _ in properties]
-            read[name] = taken(np.dtype(fields), count, name)
-            continue
-        columns: dict[str, list[Any]] = {one: [] for one, *_ in properties}
+            taken = self._taken(np.dtype(fields), count, name)
+            return {one: taken[one] for one, _ in fields}
+        is_wanted = name in ("vertex", "face")
+        parts: dict[str, list[bytes]] = {one: [] for one, *_ in properties}
+        sizes = array("q")
+        body = self._body
         for number in range(count):
-            if at == len(body):
+            if self._at == len(body):
                 check_equal(name, number, count)
             for one, kind, length in properties:
-                what = f"{name}[{number}].{one}"
-                (size,) = (1,) if length is None else taken(length, 1, what).tolist()
-                if size % 1:
-                    raise ModelError("must have a whole number of entries", field=what, value=size)
-                values = taken(kind, max(0, int(size)), what).tolist()
-                columns[one].append(values[0] if length is None else values)
-        read[name] = columns
-    return read, body[at:]
+                size = 1
+                if length is not None:
+                    size = self._size(length, f"{name}[{number}].{one}")
+                start = self._at
+                end = start + size * kind.itemsize
+                if end > len(body):
+                    self._taken(kind, size, f"{name}[{number}].{one}")
+                self._at = end
+                if is_wanted:
+                    parts[one].append(body[start:end])
+                if name == "face" and one in FACE_LISTS:
+                    if size < 3:
+                        problem = "must be a face of three corners or more"
+                        raise ModelError(problem, field=f"face[{number}]", value=size)
+                    sizes.append(size)
+        self.sizes = np.array(sizes)
+        kinds = {one: kind for one, kind, _ in properties}
+        return {one: np.frombuffer(b"".join(each), kinds[one]) for one, each in parts.items()}
+
+    def _size(self, kind: np.dtype[Any], what: str) -> int:
+        """How many entries a list has."""
+        (size,) = self._taken(kind, 1, what).tolist()
+        if size % 1:
+            raise ModelError("must have a whole number of entries", field=what, value=size)
+        return max(0, int(size))
 
 
 def _ply_header(lines: list[str]) -> tuple[bool, list[tuple[str, int, _Properties]]]:

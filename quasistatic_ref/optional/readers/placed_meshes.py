@@ -20,15 +20,17 @@ from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.model.readers.mesh import Mesh
 from quasistatic_ref.model.readers.text import check_equal, decimal
-from quasistatic_ref.model.readers.xml_text import DEEPEST, xml_root
+from quasistatic_ref.model.readers.xml_text import DEEPEST, MOST_ELEMENTS, xml_root
 from quasistatic_ref.optional.readers.files import LARGEST_UNPACKED, check_unpacked
 from quasistatic_ref.optional.readers.mesh_texts import text_of_mesh
 from quasistatic_ref.parts import needed_package
 
 MOST_PLACED = 5_000_000
 """Most vertices and triangles of a file, each counted as often as it is placed."""
-PART = 100
+PART = 500
 """A part takes the memory of so many vertices."""
+TRIANGLE = 6
+"""A triangle of COLLADA takes the memory of so many vertices."""
 UP = "its y axis is up; it is not turned, rpy = [1.5708, 0, 0] stands it up"
 GLB = 12
 """Bytes of a GLB before its chunks."""
@@ -118,6 +120,9 @@ def _gltf(path: Path, content: bytes) -> _Stated:
     if content[:4] == b"glTF":
         content, chunk = _glb(content)
     tree = json.loads(text_of(content, path, ModelError))
+    for name in ("buffers", "bufferViews", "accessors", "meshes", "nodes"):
+        if (count := len(tree.get(name, ()))) > MOST_ELEMENTS:
+            raise ModelError(f"are more than {MOST_ELEMENTS}", field=name, value=count)
     buffers: list[bytes] = []
     for number, buffer in enumerate(tree.get("buffers", ())):
         with about_field(f"buffers[{number}]"):
@@ -239,7 +244,7 @@ def _collada(_: Path, content: bytes) -> _Stated:
         with about_field(f"geometry[{geometry.get('id')}]"):
             triangles = sum(map(_collada_triangles, geometry.findall("mesh/*")))
             size = sum(_float_count(array) for array in geometry.iter("source"))
-            parts[geometry] = _Part(size // 3 + 3 * triangles, triangles, ())
+            parts[geometry] = _Part(size // 3 + TRIANGLE * triangles, triangles, ())
     for node in root.iter("node"):
         placed = [_target(one) for one in node if one.tag in ("instance_geometry", "instance_node")]
         below = [named.get(target, target) for target in placed]

@@ -238,6 +238,36 @@ def test_what_others_read_is_read(tmp_path, name):
     assert unseen == (2 if name == "unseen.xyz" else 0)
 
 
+GRID = """element range_grid 4
+property list uchar int vertex_indices
+element tristrips 1
+property list int int vertex_indices
+element edge 1
+property int vertex1
+property int vertex2
+end_header
+"""
+"""What scanners write after their points: none of it is a face."""
+
+
+@pytest.mark.parametrize("kind", ["ascii", "binary_little_endian"])
+def test_elements_of_a_ply_that_are_no_vertex_and_no_face_are_passed_over(tmp_path, kind):
+    points = f"ply\nformat {kind} 1.0\nobj_info num_cols 2\nelement vertex 8\n{XYZ}"
+    if kind == "ascii":
+        rows = "\n".join(" ".join(map(repr, row)) for row in EIGHT.tolist())
+        body = f"{rows}\n1 0\n1 1\n0\n1 2\n4 0 1 2 -1\n0 1\n".encode()
+    else:
+        body = EIGHT.astype("<f4").tobytes() + struct.pack(
+            "<BiBiBBi5i2i", 1, 0, 1, 1, 0, 1, 2, 4, 0, 1, 2, -1, 0, 1
+        )
+    path = tmp_path / "scan.ply"
+    path.write_bytes(points.encode() + GRID.encode() + body)
+    assert point_cloud(path).points == pytest.approx(EIGHT, abs=1e-8)
+    path.write_bytes(points.encode() + GRID.encode() + body[:-5])
+    with pytest.raises(ModelError, match=r"edge|lines"):
+        point_cloud(path)
+
+
 def test_a_compressed_pcd_is_read_and_one_that_is_cut_off_or_of_another_number_refused(tmp_path):
     path = tmp_path / "a.pcd"
     pypcd4.PointCloud.from_xyz_points(EIGHT).save(path, pypcd4.Encoding.BINARY_COMPRESSED)

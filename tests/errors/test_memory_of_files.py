@@ -1,0 +1,109 @@
+"""A file takes at most forty times its size in memory, whatever it holds; it is read or refused."""
+
+import struct
+import tracemalloc
+from contextlib import suppress
+
+import pytest
+
+from quasistatic_ref import Body, InputError, System, load_step
+from quasistatic_ref.model.readers import xml_text
+from quasistatic_ref.model.readers.clouds import point_cloud
+from quasistatic_ref.model.readers.mesh_files import loaded_mesh
+from tests.cases import cases
+from tests.oracles.shape_files import COLLADA, plain_gltf
+
+TIMES = 40
+"""Most bytes of memory for each byte of a file."""
+SIZE = 2**19
+"""Of each file, nearly [bytes]: far above what readers take of a file of any size."""
+
+
+def lines(one, count=SIZE):
+    return one * (count // len(one))
+
+
+def ply(elements, body, kind="binary_little_endian"):
+    """A PLY of no vertices, and of lists that other elements hold."""
+    lists = "".join(
+        f"element {name} {count}\nproperty list uchar int {of}\n" for name, count, of in elements
+    )
+    points = "element vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+    return f"ply\nformat {kind} 1.0\n{points}{lists}end_header\n".encode() + body
+
+
+FACES = SIZE // 13
+TRIANGLES = struct.pack("<B3i", 3, 0, 0, 0) * FACES
+PLACED = b'<instance_geometry url="#g"/>'
+URDF = b'<robot name="r"><link name="a">%s</link></robot>'
+FILES = {
+    "a CSV with one line": ("a.csv", b"1," * (SIZE // 2) + b"1\n"),
+    "a CSV of short lines": ("a.csv", lines(b"0 0 0\n")),
+    "a CSV with a header": ("a.csv", b"z,y,x\n" + lines(b"0,0,0\n") + b"0,0,nan\n"),
+    "an OBJ with one face": ("a.obj", b"v 0 0 0\nf" + b" 1" * (SIZE // 2)),
+    "an OBJ of faces": ("a.obj", b"v 0 0 0\n" + lines(b"f 1 1 1\n")),
+    "an OBJ of points": ("a.obj", lines(b"v 1 2 3\n")),
+    "an OFF of short lines": ("a.off", b"OFF\n" + lines(b"0\n")),
+    "an OFF of short lines, well counted": (
+        "a.off", b"OFF\n1 %d 0\n0 0 0\n" % (SIZE // 8) + lines(b"3 0 0 0\n"),
+    ),
+    "a PLY of empty faces": ("a.ply", ply([("face", SIZE, "vertex_indices")], bytes(SIZE))),
+    "a PLY of triangles": ("a.ply", ply([("face", FACES, "vertex_index")], TRIANGLES)),
+    "a PLY of an empty grid": ("a.ply", ply([("range_grid", SIZE, "vertex_indices")], bytes(SIZE))),
+    "a PLY in text with one line": (
+        "a.ply", ply([("face", 1, "vertex_indices")], b"0 " * (SIZE // 2), "ascii"),
+    ),
+    "a PLY in text of short lines": (
+        "a.ply", ply([("grid", SIZE // 2, "of")], b"0\n" * (SIZE // 2), "ascii"),
+    ),
+    "an STL in text": ("a.stl", b"solid\n" + lines(b"vertex 0 0 0\n")),
+    "a step of objects": (
+        "a.json", b'{"format": "quasistatic-ref/step", "x": [' + lines(b'{"a":0},') + b"0]}",
+    ),
+    "a step of lists": (
+        "a.json", b'{"format": "quasistatic-ref/step", "x": [' + lines(b"[],") + b"0]}",
+    ),
+    "a URDF of empty elements": ("a.urdf", URDF % lines(b"<b/>")),
+    "a URDF of attributes": (
+        "a.urdf", URDF % b"".join(b'<b c="" d="" e="" f="%d"/>' % k for k in range(SIZE // 26)),
+    ),
+    "a COLLADA of empty elements": (
+        "a.dae", COLLADA.encode().replace(b"</COLLADA>", lines(b"<b/>") + b"</COLLADA>"),
+    ),
+    "a glTF of empty nodes": ("a.gltf", plain_gltf(nodes=[{}] * (SIZE // 4))),
+    "a COLLADA of a part in many places": (
+        "a.dae", COLLADA.encode().replace(PLACED, PLACED * (SIZE // len(PLACED))),
+    ),
+    "a COLLADA of numbers": (
+        "a.dae", COLLADA.encode().replace(b"0 0 0 1 0 0 0", lines(b"0 ") + b"0 0 0 1 0 0 0"),
+    ),
+}  # fmt: skip
+READERS = {
+    ".csv": point_cloud,
+    ".json": load_step,
+    ".urdf": lambda path: System([Body("r", path)]),
+}
+
+
+@cases("name, content", FILES)
+def test_a_file_takes_at_most_forty_times_its_size(tmp_path, name, content):
+    path = tmp_path / name
+    read = READERS.get(path.suffix, loaded_mesh)
+    for size in (1000, len(content)):  # what the first call imports and keeps is not of the file
+        path.write_bytes(content[:size])
+        tracemalloc.start()
+        with suppress(InputError):
+            read(path)
+        _, peak = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+    assert peak < TIMES * len(content) + 2**20
+
+
+def test_elements_are_counted_while_they_are_read(monkeypatch):
+    monkeypatch.setattr(xml_text, "MOST_ELEMENTS", 100)
+    assert len(list(xml_text.xml_root(f"<a>{'<b/>' * 99}</a>"))) == 99
+    with pytest.raises(InputError, match=r"^line 2: has more than 100 elements"):
+        xml_text.xml_root(f"<a>\n{'<b/>' * 100}{'<' * 1000}")
+    for long in ("x" * 4001, f'a {"x" * 4001}=""'):
+        with pytest.raises(InputError, match="has a name of more than 4000 characters"):
+            xml_text.xml_root(f"<{long}/>")
