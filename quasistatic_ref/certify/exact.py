@@ -27,6 +27,7 @@ from quasistatic_ref.certify.form import ExactForm, StepForm
 from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.norm import Parts, energy_norm, single_loads
+from quasistatic_ref.certify.proofs import Proofs
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.step.cones import cone
@@ -160,7 +161,10 @@ def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
 
 
 def optimum_by_groups(
-    step: StepData, parts: Parts, starts: Sequence[Sequence[int]]
+    step: StepData,
+    parts: Parts,
+    starts: Sequence[Sequence[int]],
+    proofs: Proofs | None = None,
 ) -> ExactOptimum:
     """The exact optimum, however long it is, by the groups of the step.
 
@@ -171,17 +175,24 @@ def optimum_by_groups(
         Its groups.
     starts : sequence of sequence of int
         Of each group, counted in it: rows that a solver found active.
+    proofs : Proofs, optional
+        Those of the step before; they become those of this step.
 
     Raises
     ------
     StepInfeasible
     """
+    proofs = Proofs() if proofs is None else proofs
     optima: list[tuple[Group, ExactOptimum]] = []
-    for (group, part), start in zip(parts, starts, strict=True):
-        form = StepForm(part)
-        optimum = form_optimum(form, start)
-        if isinstance(optimum, Combination):
-            raise StepInfeasible(step, farkas_vector(step, form, optimum, group.rows))
+    for i, ((group, part), start) in enumerate(zip(parts, starts, strict=True)):
+        optimum = proofs.kept(i, part, start)
+        if optimum is None:
+            form = StepForm(part)
+            end = form_optimum(form, start)
+            if isinstance(end, Combination):
+                raise StepInfeasible(step, farkas_vector(step, form, end, group.rows))
+            optimum = end
+            proofs.keep(i, part, start, optimum)
         if part is step:
             return optimum
         optima.append((group, optimum))

@@ -245,7 +245,8 @@ def proved(
     curved = curved_cone(step)
     optimum: Enclosed | ExactOptimum | None
     if curved is None:
-        optimum = optimum_by_groups(step, scaled.groups, starts(scaled, solver, claimed, start))
+        begins = starts(scaled, solver, claimed, start)
+        optimum = optimum_by_groups(step, scaled.groups, begins, solver.proofs)
     else:
         check_arithmetic()  # a backend may have changed it
         optimum = curved.optimum(step, None if claimed is None else answer)

@@ -11,6 +11,7 @@ from typing import ClassVar, Final
 import numpy as np
 
 from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref.certify.proofs import Proofs
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.numbers.arrays import Mask, all_finite
@@ -60,6 +61,8 @@ class Solver(ABC):
         Whether the rows of its positive multipliers are independent.
     unsafe : bool
         Whether its backend may not return from steps whose rows are unlike each other.
+    proofs : Proofs
+        Those of the last step.
     """
 
     interface: ClassVar[str]
@@ -70,6 +73,7 @@ class Solver(ABC):
     def __init__(self, template: StepData, name: str) -> None:
         self.template = template
         self.name = name
+        self.proofs = Proofs()
         self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
         if name.removeprefix(QPSOLVERS) == "highs":
             greeting_silenced()
