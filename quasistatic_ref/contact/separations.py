@@ -59,8 +59,8 @@ def pair_normal(name: str, a: ShapeInWorld, b: ShapeInWorld) -> tuple[Witness, i
     ContactError
         If the solids are as deep in each other along two normals, or have no trustworthy one.
     """
-    nearest, every = pair_and_gaps(name, a, b)
     within = rounding(a, b)
+    nearest, every = pair_and_gaps(name, a, b, within)
     normals = tied_normals(a, b, nearest, within, every)
     if len(normals) == 1:
         return nearest, UNIQUE_NORMAL

@@ -82,6 +82,17 @@ class Polytope:
         offsets = self.offsets + dot(normals, t[:, None])
         return replace(self, vertices=vertices, normals=normals, offsets=offsets)
 
+    def part(self, edges: Indices) -> "Polytope":
+        """Some of its edges, with the faces that meet there, and all of its corners."""
+        faces, sides = np.unique(self.sides[edges], return_inverse=True)
+        return replace(
+            self,
+            normals=self.normals[..., faces, :],
+            offsets=self.offsets[..., faces],
+            edges=self.edges[edges],
+            sides=sides.reshape(-1, 2),
+        )
+
     def core_distance(self, points: Array) -> tuple[Array, Array]:
         """Signed distances and normals of points (P, N, 3) [m], in each one's own frame."""
         flat = points.reshape(-1, 3)

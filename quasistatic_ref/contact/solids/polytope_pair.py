@@ -13,17 +13,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.shape_in_world import Pose, Witnesses
+from quasistatic_ref.contact.solids.near_features import (
+    are_fine,
+    edges_within,
+    giving_way,
+    near_corners,
+    near_features,
+)
 from quasistatic_ref.contact.solids.polytope import Polytope
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Capsule
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 
 def polytope_pairs(
-    a: Polytope, b: Polytope, pose_a: Pose, pose_b: Pose
+    a: Polytope, b: Polytope, pose_a: Pose, pose_b: Pose, within: float = np.inf
 ) -> tuple[Witnesses, tuple[Array, Array]]:
-    """Closest points of P pairs of polytopes in the world frame, and gaps along all normals.
+    """Closest points of P pairs of polytopes in the world frame, and gaps along normals.
 
     Parameters
     ----------
@@ -32,17 +40,19 @@ def polytope_pairs(
         one pair.
     pose_a, pose_b : tuple of ndarray
         Of their frames in the world.
+    within : float
+        How much smaller than the largest gap those may be that are wanted [m].
 
     Returns
     -------
     points : Witnesses
     gaps, normals : ndarray, shapes (P, N) and (P, N, 3)
-        Along all normals [m], [-].
+        Along the normals of wanted gaps, and of others [m], [-].
     """
     back = pose_a[0].mT
     R = product(back, pose_b[0])
     t = rotated(back, pose_b[1] - pose_a[1])
-    gaps, normals = gaps_between(a, b.moved(R, t))
+    gaps, normals = gaps_between(a, b.moved(R, t), within)
     phi, alpha, beta, n = _closest(a, b, R, t, gaps, normals)
     turn = pose_a[0][:, None]
     alpha, beta, n = rotated(turn, np.stack([alpha, beta, n], axis=1)).swapaxes(0, 1)
@@ -66,7 +76,7 @@ def _closest(
     push = gap[:, None] * n
     # Of those in penetration: parted along n, they touch where they are deepest now.
     shift = np.where(apart[:, None], t, t - push)
-    on_a, on_b, miss = _nearest(a, b, R, shift, np.where(apart[:, None], push, 0.0), size)
+    on_a, on_b, miss = _nearest(a, b, R, shift, np.where(apart[:, None], push, 0.0), n, size)
     between = on_b - on_a
     distance = norm(between)
     edge = apart & (miss > OUTSIDE_FACE * size) & (distance > ON_SURFACE * size)
@@ -107,13 +117,15 @@ def _capsule_pair(a: Polytope, b: Polytope) -> Witnesses:
     return _with_margins(a, b, np.array([gap]), on_a, (n / norm(n))[None])
 
 
-def gaps_between(a: Polytope, b: Polytope) -> tuple[Array, Array]:
-    """Gaps along the normals of all faces of the Minkowski differences.
+def gaps_between(a: Polytope, b: Polytope, within: float) -> tuple[Array, Array]:
+    """Gaps along the normals of the faces of the Minkowski differences.
 
     Parameters
     ----------
     a, b : Polytope
         P of each, in one frame a pair.
+    within : float
+        As of :func:`polytope_pairs`.
 
     Returns
     -------
@@ -122,12 +134,26 @@ def gaps_between(a: Polytope, b: Polytope) -> tuple[Array, Array]:
     normals : ndarray, shape (P, N, 3)
         From a to b [-].
     """
-    along_a = product(a.normals, b.vertices.mT).min(axis=2) - a.offsets
-    along_b = product(b.normals, a.vertices.mT).min(axis=2) - b.offsets
+    corners_a = a.vertices.mT
+    corners_b = b.vertices.mT
+    normals_a = a.normals
+    normals_b = b.normals
+    offsets_a = a.offsets
+    offsets_b = b.offsets
+    if within < np.inf and are_fine(a, b):
+        near = near_features(a, b, within)
+        normals_a = normals_a[:, near.faces_a]
+        normals_b = normals_b[:, near.faces_b]
+        offsets_a = offsets_a[:, near.faces_a]
+        offsets_b = offsets_b[:, near.faces_b]
+        a = a.part(near.edges_a)
+        b = b.part(near.edges_b)
+    along_a = product(normals_a, corners_b).min(axis=2) - offsets_a
+    along_b = product(normals_b, corners_a).min(axis=2) - offsets_b
     pair, crossing, gaps = _crossing_edges(a, b)
     along_edges = padded(gaps, pair, len(along_a), -np.inf)
     crossing = padded(crossing, pair, len(along_a), 0.0)
-    normals = np.concatenate([a.normals, -b.normals, crossing], axis=1)
+    normals = np.concatenate([normals_a, -normals_b, crossing], axis=1)
     return np.concatenate([along_a, along_b, along_edges], axis=1), normals
 
 
@@ -191,27 +217,34 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Indices, Array, Array]:
 
 
 def _nearest(
-    a: Polytope, b: Polytope, R: Array, t: Array, way: Array, size: Array
+    a: Polytope, b: Polytope, R: Array, t: Array, way: Array, n: Array, size: Array
 ) -> tuple[Array, Array, Array]:
     """Closest points of cores that are apart or touch, and how far they miss ways (P, 3) [m].
+
+    The largest gap of each pair is along n, (P, 3) [-].
 
     They are a corner and a face, or an edge and an edge. Near a rim both are as near as each other
     in float64, and that which the way leads to is right.
     """
     every = np.arange(len(t))
     moved = b.moved(R, t)
-    phi_b, normal_a = a.core_distance(moved.vertices)
-    phi_a, normal_b = b.core_distance(product(a.vertices - t[:, None], R))
-    i = phi_b.argmin(axis=1)
-    j = phi_a.argmin(axis=1)
-    phi_b = phi_b[every, i]
-    phi_a = phi_a[every, j]
+    fine = are_fine(a, b)
+    gives = giving_way(a, moved) if fine else np.inf
+    i, phi_b, normal_a = _nearest_corner(a, moved.vertices, n, gives)
+    corners_in_b = product(a.vertices - t[:, None], R)
+    j, phi_a, normal_b = _nearest_corner(b, corners_in_b, rotated(R.mT, -n), gives)
     tip_b = moved.vertices[every, i]
     tip_a = a.vertices[every, j]
-    foot_a = tip_b - phi_b[:, None] * normal_a[every, i]
-    foot_b = tip_a - phi_a[:, None] * rotated(R, normal_b[every, j])
+    foot_a = tip_b - phi_b[:, None] * normal_a
+    foot_b = tip_a - phi_a[:, None] * rotated(R, normal_b)
     bound = np.maximum(np.minimum(phi_a, phi_b), 0.0)
-    pair, distance, on_a, on_b = _edge_distances(a, moved, bound)
+    some_a = a
+    if fine:
+        ways = np.concatenate([n, normal_a, -rotated(R, normal_b)])
+        edges_a, edges_b = edges_within(a, moved, ways, float(bound[0]) + gives)
+        some_a = a.part(edges_a)
+        moved = moved.part(edges_b)
+    pair, distance, on_a, on_b = _edge_distances(some_a, moved, bound)
     corners = np.stack([phi_b, phi_a], axis=1)
     distance = np.concatenate([corners, padded(distance, pair, len(t), np.inf)], axis=1)
     tips = padded(on_a, pair, len(t), 0.0)
@@ -225,6 +258,23 @@ def _nearest(
     other = as_near.any(axis=1) & ~as_near[every, best]
     best = np.where(other, as_near.argmax(axis=1), best)
     return on_a[every, best], on_b[every, best], miss[every, best]
+
+
+def _nearest_corner(
+    body: Polytope, corners: Array, n: Array, gives: float
+) -> tuple[Indices, Array, Array]:
+    """The nearest of corners (P, N, 3) [m]: its number, signed distance and normal, of P bodies.
+
+    All is in the frames of the bodies, out of which n points, (P, 3) [-]; bounds of distances of a
+    fine mesh give way by `gives` [m].
+    """
+    every = np.arange(len(corners))
+    number = np.arange(corners.shape[1])
+    if gives < np.inf and isinstance(body.shape, ConvexMesh):
+        number = near_corners(body.shape, corners[0], n[0], gives)
+    phi, normal = body.core_distance(corners[:, number])
+    first = phi.argmin(axis=1)
+    return number[first], phi[every, first], normal[every, first]
 
 
 def _edge_distances(a: Polytope, b: Polytope, bound: Array) -> tuple[Indices, Array, Array, Array]:

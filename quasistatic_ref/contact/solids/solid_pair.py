@@ -33,19 +33,23 @@ def solid_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     ContactError
         If the pair is of the last kind, and coal's refined answer fails a check.
     """
-    return pair_and_gaps(name, a, b)[0]
+    return pair_and_gaps(name, a, b, 0.0)[0]
 
 
 def pair_and_gaps(
-    name: str, a: ShapeInWorld, b: ShapeInWorld
+    name: str, a: ShapeInWorld, b: ShapeInWorld, within: float
 ) -> tuple[Witness, tuple[Array, Array] | None]:
-    """A :func:`solid_pair`; of two polytopes also gaps (N,) [m] along all normals (N, 3) [-]."""
+    """A :func:`solid_pair`; of two polytopes also gaps (N,) [m] along normals (N, 3) [-].
+
+    With all gaps that are within so much of the largest [m].
+    """
     P = polytope(a.shape)
     Q = polytope(b.shape)
     if P is None or Q is None:
         return _curved_pair(name, a, b), None
     pose_a = (a.R[None], a.t[None])
-    points, (gaps, normals) = polytope_pairs(P.alone, Q.alone, pose_a, (b.R[None], b.t[None]))
+    pose_b = (b.R[None], b.t[None])
+    points, (gaps, normals) = polytope_pairs(P.alone, Q.alone, pose_a, pose_b, within)
     phi, alpha, beta, n = points
     return Witness(float(phi[0]), alpha[0], beta[0], n[0]), (gaps[0], normals[0])
 

@@ -1,0 +1,101 @@
+"""Of fine meshes few faces and edges are looked at, and the answer has the same bits.
+
+``pytest tests/contact/solids/test_near_features.py --count 2000`` takes as many pairs.
+"""
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref import Box, Capsule, convex_hull
+from quasistatic_ref.contact.separations import rounding, tied_normals
+from quasistatic_ref.contact.solids import near_features, polytope_pair
+from quasistatic_ref.contact.solids.polytope import polytope
+from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
+from quasistatic_ref.formats.plain import bits
+from tests.contact.still import in_world
+
+KINDS = ("apart", "far", "touching", "flush", "crossing", "deep", "nearly aligned")
+UP = np.array([0.0, 0.0, 1.0])
+
+
+def random_mesh(rng):
+    """A smooth one, a prism with flush faces, or a cut block; up to some 80 corners."""
+    count = int(rng.integers(5, 80))
+    kind = rng.integers(3)
+    if kind == 0:
+        points = rng.normal(size=(count, 3))
+        points *= rng.uniform(0.5, 1.5, 3) / np.linalg.norm(points, axis=1, keepdims=True)
+    elif kind == 1:
+        turn = 2 * np.pi * np.arange(count // 2 + 3) / (count // 2 + 3)
+        ring = np.column_stack([np.cos(turn), np.sin(turn)])
+        ends = [np.column_stack([ring, np.full(len(ring), z)]) for z in (-0.7, 0.7)]
+        points = np.concatenate(ends)
+    else:
+        points = np.round(rng.uniform(-1, 1, (count, 3)) * 4) / 4
+        points = np.concatenate([points, np.eye(3), -np.eye(3)])
+    return convex_hull(0.05 * 10.0 ** rng.uniform(-2, 2) * points)
+
+
+def random_pair(seed):
+    """Two solids in the world, at least one a mesh."""
+    rng = np.random.default_rng(seed)
+    kind = KINDS[seed % len(KINDS)]
+    one = random_mesh(rng)
+    size = one.extent
+    other = random_mesh(rng)
+    other = convex_hull(other.vertices * (size / other.extent) * rng.uniform(0.3, 2.0))
+    if seed % 5 == 0:
+        other = Box(half_extents=size * rng.uniform(0.2, 1.0, 3))
+    if seed % 11 == 0:
+        other = Capsule(radius=0.3 * size, half_length=0.5 * size)
+    R_a, R_b = Rotation.random(2, rng=rng).as_matrix()
+    if kind in ("flush", "nearly aligned"):  # faces and edges of both in one direction
+        R_b = R_a
+    if kind == "nearly aligned":
+        R_b = R_b @ Rotation.from_rotvec(10.0 ** rng.uniform(-15, -3, 3)).as_matrix()
+    n = one.normals[rng.integers(len(one.normals))] if kind == "flush" else rng.normal(size=3)
+    n = R_a @ n / np.linalg.norm(n)
+    reach = one.support_value((R_a.T @ n)[None])[0] + other.support_value(-(R_b.T @ n)[None])[0]
+    gap = {"apart": 0.1, "far": 40.0, "crossing": -0.01, "deep": -0.5 * rng.uniform()}.get(kind, 0)
+    t = rng.normal(size=3) * size * 10.0 ** rng.uniform(-1, 3)
+    a, b = in_world(one, t, R_a), in_world(other, t + (reach + gap * size) * n, R_b)
+    return (b, a) if seed % 2 else (a, b)
+
+
+def found(a, b):
+    """Closest points of a pair, and the normals along which it is as deep."""
+    within = rounding(a, b)
+    nearest, every = pair_and_gaps("p", a, b, within)
+    return bits((*nearest, tied_normals(a, b, nearest, within, every)))
+
+
+def test_random_pairs_have_the_bits_of_a_search_of_all(monkeypatch, count):
+    fewer = 0
+    for seed in range(4 * count if count < 2000 else count):
+        a, b = random_pair(seed)
+        monkeypatch.setattr(polytope_pair, "are_fine", lambda *_: False)
+        whole = found(a, b)
+        monkeypatch.setattr(polytope_pair, "are_fine", lambda *_: True)
+        assert found(a, b) == whole, seed
+        P, Q = (polytope(solid.shape).alone for solid in (a, b))
+        R = (a.R.T @ b.R)[None]
+        near = near_features.near_features(P, Q.moved(R, ((b.t - a.t) @ a.R)[None]), 0.0)
+        fewer += len(near.edges_a) * len(near.edges_b) < len(P.edges) * len(Q.edges) / 4
+    assert fewer > seed / 3
+
+
+def test_a_fine_pair_is_looked_at_near_its_contact_alone(monkeypatch):
+    rng = np.random.default_rng(0)
+    points = rng.normal(size=(1200, 3))
+    ball = convex_hull(0.05 * points / np.linalg.norm(points, axis=1, keepdims=True))
+    P = polytope(ball).alone
+    for distance in (0.099, 0.101, 2.0):
+        Q = P.moved(np.eye(3)[None], distance * UP[None])
+        near = near_features.near_features(P, Q, 1e-12)
+        assert max(map(len, near)) < 200
+        assert len(near.faces_a) + len(near.faces_b) > 0
+        one, other = in_world(ball, np.zeros(3)), in_world(ball, distance * UP)
+        small = found(one, other)
+        with monkeypatch.context() as patch:
+            patch.setattr(polytope_pair, "are_fine", lambda *_: False)
+            assert found(one, other) == small
