@@ -34,13 +34,19 @@ from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.near_points import near_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.ranks import closest, rounded_gaps
-from quasistatic_ref.contact.separations import BISECTOR, UNIQUE_NORMAL, pair_normal, rounding
-from quasistatic_ref.contact.shape_in_world import Pose, ShapeInWorld, moved, poses_in_world
+from quasistatic_ref.contact.separations import BISECTOR, FAR, UNIQUE_NORMAL, pair_normal, rounding
+from quasistatic_ref.contact.shape_in_world import (
+    Pose,
+    ShapeInWorld,
+    moved,
+    on_plane,
+    poses_in_world,
+)
 from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
-from quasistatic_ref.shapes.placed_shape import PointCloud
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud
 from quasistatic_ref.tolerances import FILLED, ON_RIM, OVER_FACE, REPEATED, SAME_NORMAL, UPRIGHT
 
 SPANNED: Final = 1e-6
@@ -130,6 +136,34 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
         return _cloud_on_solid(pair, a, b)
     if isinstance(a.shape, PointCloud):
         return _cloud_on_solid(pair, b, a).swapped()
+    if isinstance(a.shape, HalfSpace):
+        return _from_foot(pair, a, b, a.shape)
+    if isinstance(b.shape, HalfSpace):
+        return _from_foot(pair, b, a, b.shape)
+    return _solid_on_solid(pair, a, b)
+
+
+def _from_foot(
+    pair: ContactPair, plane: ShapeInWorld, solid: ShapeInWorld, half_space: HalfSpace
+) -> ClosestPoints:
+    """The contacts of a solid on a half-space, far from the origin seen from its foot there."""
+    places = max(np.abs(plane.t).max(), np.abs(solid.t).max(), abs(half_space.offset))
+    foot = np.zeros(3)
+    far = not places < FAR * pair.size
+    if far:
+        pose = plane.R, plane.t
+        foot, of_plane, above = on_plane(half_space.normal, half_space.offset, pose, solid.t)
+        plane = plane._replace(t=of_plane)
+        solid = solid._replace(t=above)
+    sides = (plane, solid) if pair.alpha.shape is half_space else (solid, plane)
+    points = _solid_on_solid(pair, *sides)
+    if not far:
+        return points
+    return points._replace(alpha=points.alpha + foot, beta=points.beta + foot)
+
+
+def _solid_on_solid(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> ClosestPoints:
+    """The contacts of two solids."""
     nearest = nearest_of_solids(pair, a, b)
     if pair.n_c == 1:
         return nearest

@@ -27,6 +27,11 @@ TOUCHING_FACES: Final = 1e-9
 """Depth relative to the same at which bodies that are as deep along two normals touch [-]: with one
 between them. Deeper, the push-out along it would part them along neither."""
 
+FAR: Final = 1e3
+"""Places relative to a solid's size [-] up to which their rounding, 1e-16 of them, is far below the
+length to which distances are rounded, 1e-9 of the size. Beyond, what is over a half-space is seen
+from its foot there: its lowest corners rank as the closest pair does, and hold it in their hull."""
+
 UNIQUE_NORMAL, OF_PAIR, BISECTOR, OF_CLOUD = range(4)
 """How a normal was chosen: no tie; as the pair's; between equal gaps of zero; as a cloud's."""
 

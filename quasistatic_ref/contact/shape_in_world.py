@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.ordered import dot, product, rotated
 from quasistatic_ref.shapes.placed_shape import Shape
@@ -45,6 +47,30 @@ def poses_in_world(
     world[..., 3] += t[links]
     of_alpha, of_beta = world.swapaxes(0, -3)
     return (of_alpha[..., :3], of_alpha[..., 3]), (of_beta[..., :3], of_beta[..., 3])
+
+
+def on_plane(
+    normal: Array, offset: float | Array, plane: Pose, t: Array
+) -> tuple[Array, Array, Array]:
+    """Feet of places on planes, and where the planes' frames and the places are, seen from there.
+
+    A plane's frame may stand anywhere along it; all are of shape (..., 3), in the world's axes [m].
+
+    Parameters
+    ----------
+    normal : ndarray, shape (..., 3)
+        Of each half-space, in its frame [-].
+    offset : float or ndarray, shape (...)
+        Of each along its normal [m].
+    plane : tuple of ndarray
+        Poses of the half-spaces, (..., 3, 3) [-] and (..., 3) [m].
+    t : ndarray, shape (..., 3)
+        The places [m].
+    """
+    n = rotated(plane[0], normal)
+    height = np.asarray(offset)[..., None] * n
+    above = (dot(n, t - plane[1]) - offset)[..., None] * n
+    return t - above, -height, above
 
 
 class Witness(NamedTuple):

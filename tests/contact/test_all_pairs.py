@@ -10,6 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Capsule, ContactError, Cylinder, HalfSpace, Sphere, convex_hull
+from quasistatic_ref.contact import all_pairs
 from quasistatic_ref.contact.all_pairs import AllPairs
 from quasistatic_ref.formats.plain import bits
 from tests.contact.still import one_by_one, pair, placed_shape, standing_links
@@ -78,9 +79,27 @@ def scene(seed):
             for j, solid in enumerate(sides)
         ]
         pairs.append(pair(*on_links, k if rng.random() < 0.8 else 4))
-    spread = 1e6 if rng.random() < 0.05 else 0.0
-    poses = [(turn(rng), place(rng) + spread) for _ in range(2 * len(kinds))]
+    spread = rng.choice([0.0, 300.0, 1e6], p=[0.8, 0.1, 0.1])
+    alone = rng.random() < 0.5  # only beta's links are far away
+    poses = [(turn(rng), place(rng) + spread * (i % 2 or not alone)) for i in range(2 * len(kinds))]
     return pairs, standing_links(*poses)
+
+
+@pytest.mark.parametrize("upside_down", [False, True])
+def test_a_box_far_away_is_searched_as_one_at_the_origin(monkeypatch, upside_down):
+    """No pair singly, and to the last bit of what its place leaves."""
+    monkeypatch.setattr(all_pairs, "pair_closest_points", None)
+    n = (0.0, 0.0, -1.0 if upside_down else 1.0)
+    far = [[0.0, 0.0, 0.0], [2.0**10, 0.0, 0.0], [-(2.0**17), 2.0**15, 0.0]]
+    R = Rotation.from_euler("z", 0.3).as_matrix()
+    sides = placed_shape(HalfSpace(n, 0.0)), Box((0.04, 0.04, 0.04))
+    links = standing_links(*((R, np.add(t, [0.0, 0.0, 0.02])) for t in far))
+    pairs = [pair(sides[0], placed_shape(sides[1], i + 1), 4) for i in range(3)]
+    points = AllPairs(pairs).closest_points(links)
+    for i, t in enumerate(far):
+        assert bits(points.phi[4 * i :][:4]) == bits(points.phi[:4])
+        assert bits(points.point[4 * i :][:4]) == bits(points.point[:4])
+        assert np.abs(points.beta[4 * i :][:4] - t - points.beta[:4]).max() <= 2.0**-35
 
 
 def searched(search, *arguments):

@@ -7,24 +7,19 @@ pair follows from them.
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.contact.batches.batch import Batch, farthest_places
 from quasistatic_ref.contact.distance import ClosestPoints, contacts_over
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.separations import TIED_FACES, UNIQUE_NORMAL
+from quasistatic_ref.contact.separations import FAR, TIED_FACES, UNIQUE_NORMAL
+from quasistatic_ref.contact.shape_in_world import Pose, on_plane
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.ordered import dot, product, rotated
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Shape, Sphere
 from quasistatic_ref.shapes.rounded import Rounded, distance_to_rounded_box
 from quasistatic_ref.shapes.shape import DIRECTIONS
-
-FAR: Final = 1e3
-"""Places relative to the solid's size [-] up to which rounding, 1e-16 of them, is far below the
-length to which distances are rounded, 1e-9 of the size: the corners that are lowest then rank as
-the closest pair does, and hold it in their hull."""
 
 
 def points_of(solid: Shape) -> tuple[Array, float]:
@@ -64,7 +59,10 @@ class Balls(Batch):
 
     def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
         """The n_c points that rank first."""
-        solid, other = self.in_world(R, t)[:: self._turn]
+        return self.of_poses(*self.in_world(R, t)[:: self._turn])
+
+    def of_poses(self, solid: Pose, other: Pose) -> tuple[Mask, ClosestPoints]:
+        """The same from the poses of both sides."""
         back = solid[0].mT
         x = rotated(product(back, other[0])[:, None], self._points)
         x += rotated(back, other[1] - solid[1])[:, None]
@@ -86,6 +84,23 @@ class OnHalfSpaces(Balls):
         planes = [plane for plane in self._solids if isinstance(plane, HalfSpace)]
         self._normal = np.array([plane.normal for plane in planes])[:, None]
         self._offset = np.array([plane.offset for plane in planes])
+
+    def of_poses(self, solid: Pose, other: Pose) -> tuple[Mask, ClosestPoints]:
+        """The n_c points that rank first, of what is far away seen from its foot."""
+        far = ~self.known(self.size, farthest_places(solid, other))
+        if not far.any():
+            return super().of_poses(solid, other)
+        far = far[:, None]
+        foot, of_plane, above = on_plane(self._normal[:, 0], self._offset, solid, other[1])
+        known, points = super().of_poses(
+            (solid[0], np.where(far, of_plane, solid[1])),
+            (other[0], np.where(far, above, other[1])),
+        )
+        far = far[:, None]
+        foot = foot[:, None]
+        alpha = np.where(far, points.alpha + foot, points.alpha)
+        beta = np.where(far, points.beta + foot, points.beta)
+        return known, points._replace(alpha=alpha, beta=beta)
 
     def surface(self, x: Array) -> tuple[Array, Array]:
         """Heights (P, N) [m] over the planes, and their normals (P, N, 3), of `x` as of these."""
