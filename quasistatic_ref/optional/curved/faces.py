@@ -13,6 +13,7 @@ import numpy as np
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import crossed
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape
 
@@ -125,7 +126,7 @@ def curvature(solid: ShapeInWorld, n: Array) -> Array:
             around = np.array([-local[1], local[0], 0.0]) / (radial or 1.0)
             D = shape.radius * on_rim / (radial or np.inf) * np.outer(around, around)
         case _:
-            D = np.zeros((3, 3))
+            return np.zeros((3, 3))
     return np.asarray(solid.R @ D @ solid.R.T)
 
 
@@ -163,7 +164,7 @@ class Face(NamedTuple):
         x = first + away
         ways = np.roll(self.corners, -1, axis=0) - self.corners
         if len(self.corners) > 2:
-            inside = np.cross(ways, x - self.corners) @ self.n
+            inside = crossed(ways, x - self.corners) @ self.n
             if (inside >= 0).all():
                 return np.asarray(x)
         share = np.sum((x - self.corners) * ways, axis=1) / np.sum(ways * ways, axis=1)
@@ -212,5 +213,9 @@ def _polygon(solid: ShapeInWorld, n: Array) -> Array:
     top = vertices[height >= height.max() - FLAT * np.abs(vertices).max()]
     across = top - top.mean(axis=0)
     e1 = across[np.sum(across * across, axis=1).argmax()]
-    angle = np.arctan2(across @ np.cross(n, e1), across @ e1) if len(top) > 2 else np.zeros(1)
+    angle = (
+        np.arctan2(across @ crossed(n[None], e1[None])[0], across @ e1)
+        if len(top) > 2
+        else np.zeros(1)
+    )
     return np.asarray((top[np.argsort(angle)] if len(top) > 2 else top) + solid.t)
