@@ -3,30 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from quasistatic_ref.numbers.arrays import read_only
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
     from quasistatic_ref.certify.exact import ExactOptimum
-
-
-class Proof(NamedTuple):
-    """What a group was, where its search started, and what that ended with.
-
-    Parameters
-    ----------
-    part : StepData
-        The group as a step.
-    start : list of int
-        Rows of it.
-    optimum : ExactOptimum
-    """
-
-    part: StepData
-    start: list[int]
-    optimum: ExactOptimum
 
 
 class Proofs:
@@ -36,17 +19,18 @@ class Proofs:
     """
 
     def __init__(self) -> None:
-        self._every: dict[int, Proof] = {}
+        # Of each group: what it was as a step, the rows that its search started from, the end.
+        self._last: dict[int, tuple[StepData, list[int], ExactOptimum]] = {}
 
     def kept(self, i: int, part: StepData, start: Sequence[int]) -> ExactOptimum | None:
         """The optimum of the group number i, if that is what it was in the last step."""
-        last = self._every.get(i)
-        if last is None or last.start != [*start] or not part.same_as(last.part):
+        if i not in self._last:
             return None
-        return last.optimum
+        last, begun, optimum = self._last[i]
+        return optimum if begun == [*start] and part.same_as(last) else None
 
     def keep(self, i: int, part: StepData, start: Sequence[int], optimum: ExactOptimum) -> None:
         """Keep the proof of the group number i in place of that of the last step."""
         for array in (optimum.delta_q, optimum.lam, optimum.net):
             read_only(array)
-        self._every[i] = Proof(part, [*start], optimum)
+        self._last[i] = part, [*start], optimum
