@@ -33,11 +33,11 @@ POINTS: Final = 40
 
 
 class Near(NamedTuple):
-    """Numbers of faces and edges in ascending order, with the normal of a large gap.
+    """Numbers of faces and edges of both, each in ascending order.
 
     Parameters
     ----------
-    faces_a, faces_b, edges_a, edges_b : ndarray of int
+    faces_a, faces_b, edges_a, edges_b : ndarray of int, shape (N,)
     """
 
     faces_a: Indices
@@ -131,9 +131,19 @@ def near_features(a: Polytope, b: Polytope, within: float) -> Near:
 
 
 def near_corners(shape: ConvexMesh, corners: Array, n: Array, gives: float) -> Indices:
-    """Numbers of points (N, 3) [m], among which is the nearest to a mesh, in its frame.
+    """Numbers of corners among which is the nearest to a mesh, in whose frame all is.
 
-    A point is no nearer than the plane across n, (3,) [-], that the mesh reaches.
+    One is no nearer than the plane across n that the mesh reaches.
+
+    Parameters
+    ----------
+    shape : ConvexMesh
+    corners : ndarray, shape (N, 3)
+        [m].
+    n : ndarray, shape (3,)
+        [-].
+    gives : float
+        How much bounds give way [m].
     """
     bound = corners @ n - (shape.vertices @ n).max()
     first = corners[bound.argmin()][None]

@@ -125,7 +125,7 @@ def gaps_between(a: Polytope, b: Polytope, within: float) -> tuple[Array, Array]
     a, b : Polytope
         P of each, in one frame a pair.
     within : float
-        As of :func:`polytope_pairs`.
+        As of :func:`polytope_pairs` [m].
 
     Returns
     -------
