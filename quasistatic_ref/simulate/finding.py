@@ -22,6 +22,8 @@ class Finding(Plain):
         What to do, and why, with bodies and contacts.
     numbers : mapping of str to float
         What was measured [any unit], by names that end in their unit: ``{"depth_mm": 10.0}``.
+    of : str
+        What it is about, such as a body or a table of contacts.
 
     Examples
     --------
@@ -38,6 +40,7 @@ class Finding(Plain):
     remedy: str
     cause: str
     numbers: Mapping[str, float]
+    of: str = ""
 
     def __post_init__(self) -> None:
         numbers = {name: float(number) for name, number in self.numbers.items()}

@@ -38,6 +38,7 @@ from quasistatic_ref.optional.doctor.tolerances import NEAR
 from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.header import Header
+from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
@@ -241,18 +242,13 @@ def pair_accounts(
     """
     slots = np.array(run.pair_names)
     h = run.header.h
-    touch = _bears(run)
+    touch = touching(run, motion)
     slip = None
     turn = None
     if motion is not None:
         slips = contact_slips(run, motion)
         slip = np.hypot(slips[:, :, 0], slips[:, :, 1])
         turn = np.abs(slips[:, :, 2])
-        gap = gap_after(run["phi"], run["n"], motion)
-        slack = gap - slip_norm(contact_mu(run) * slips, run.header.cone)
-        touch &= slack <= NEAR
-        if cone(run.header.cone).polyhedral:
-            touch |= slack <= TOUCHES
     accounts = []
     for name, alpha, beta in named:
         of_pair = slots == name
@@ -279,6 +275,23 @@ def pair_accounts(
             )
         )
     return accounts
+
+
+def touching(run: Trajectory, motion: Array | None) -> Mask:
+    """Which contacts touch, shape (steps, n_c): a row of theirs has no slack, which is unique.
+
+    Of a motion J delta_q, shape (steps, n_c, 4) [m, m, m, rad]; without it those that press.
+    """
+    touch = _bears(run)
+    if motion is None:
+        return touch
+    rises = run.header.law == CONVEX
+    slips = slip_norm(contact_mu(run) * contact_slips(run, motion), run.header.cone)
+    slack = gap_after(run["phi"], run["n"], motion) - rises * slips
+    touch &= slack <= NEAR
+    if cone(run.header.cone).polyhedral:
+        touch |= slack <= TOUCHES
+    return touch
 
 
 def _mean(values: Array, on: Mask) -> Array:

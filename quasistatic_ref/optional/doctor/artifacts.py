@@ -74,6 +74,11 @@ def gap_after(phi: Array, n: Array, motion: Array) -> Array:
     return phi + dot(n, motion[:, :, :3])
 
 
+def ways_of(slid: Array) -> Array:
+    """Lengths of slips [m] and sizes of spins [rad], (..., 4), shape (..., 2)."""
+    return np.stack([np.linalg.norm(slid[..., :3], axis=-1), np.abs(slid[..., 3])], axis=-1)
+
+
 def boundary_layer(run: Run) -> float:
     """Largest gap [m] that a contact with load has after a step; 0 without load."""
     return float(np.nanmax(run.gap, where=pressing(run["wrench"][:, :, 2]), initial=0.0))

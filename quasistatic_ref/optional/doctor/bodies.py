@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify.groups import labels
+from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.doctor.start import FARTHEST
@@ -125,6 +126,14 @@ class Body:
         (force, slides), (torque, turns) = forces.tolist(), torques.tolist()
         amount = float(self.amount(M, r))
         return Missing(amount, force, torque, slides, turns, r, turning)
+
+    def named(self, lack: Missing) -> str:
+        """Its name, or those of its joints that lack something."""
+        if self.free:
+            return self.name
+        of = dict(zip(self.coordinates.tolist(), lack.r.tolist(), strict=True))
+        joints = [j.name for j in self.joints if any(of[i] for i in range(j.v.start, j.v.stop))]
+        return listed(joints)
 
     def moves(self, q: Array) -> tuple[float, float]:
         """How far it gets from where q, (n, n_q), starts: [m] and [rad]."""

@@ -107,9 +107,8 @@ OF_RUN = (
     Check(targets.joints_beyond),
     Check(unsupported.falling),
     Check(solving.backend_failures),
-    Check(statics.corners, has_own_terms, "artifacts of the model"),
-    Check(statics.drag, has_own_terms),
-    Check(statics.layer, has_own_terms),
+    Check(statics.corners, has_own_terms),
+    Check(statics.artifact, has_own_terms, "artifacts of the model"),
     Check(solving.unborne, is_beyond, "forces of single contacts"),
 )
 NO_STEPS = (Check(units.no_steps),)

@@ -1,126 +1,119 @@
-"""Steps of a run that are looked at, from numbers that every record has."""
+"""Steps of a run that are asked, from numbers that every record has, of all bodies at once."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.optional.doctor.artifacts import quotient
-from quasistatic_ref.optional.doctor.slowly import LITTLE, STICKS
-from quasistatic_ref.optional.doctor.start import slices
+from quasistatic_ref.optional.doctor.artifacts import quotient, ways_of
+from quasistatic_ref.optional.doctor.bodies import COUNTS
+from quasistatic_ref.optional.doctor.compared import SLID
+from quasistatic_ref.optional.doctor.start import least
+from quasistatic_ref.optional.doctor.stopped import LITTLE
 from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.step.cones import cone
 
 if TYPE_CHECKING:
     from quasistatic_ref.numbers.arrays import Array, Mask
+    from quasistatic_ref.optional.doctor.bodies import Body
     from quasistatic_ref.optional.doctor.run import Run
 
 RISES = 0.03
-"""What a layer may add to a force, and the part of friction lost to corners, that are asked [-]."""
-PROVED = 60
-"""Proofs after which no body is asked again, nor one that hardly moves."""
+"""What the layer under a body may add to its load without being asked [-]."""
+ALIKE = 0.5
+"""Part of the most of a number in a run that says as much [-]."""
+LOOKS = 12
+"""Steps that are asked either question, at most."""
+LEVER = 0.25
+"""Lever arm of a body's drag, over its size [-]."""
 
 
-class Asked(NamedTuple):
-    """A step that a body or a pair is looked at in.
+class Chosen:
+    """The steps that are asked.
 
     Parameters
     ----------
-    score : float
-        How much of it there is [-]: the largest first.
-    name : str
-        Of the body, or of the pair.
-    k : int
-    corners : bool
-        Whether that is because of the corners of the cone.
+    run : Run
+
+    Attributes
+    ----------
+    stops : dict of int to list of Body
+        After which targets and loads stop, and of which bodies.
+    compared : list of int
+        That are compared with themselves, taken slowly.
     """
 
-    score: float
-    name: str
-    k: int
-    corners: bool = False
+    def __init__(self, run: Run) -> None:
+        self._run = run
+        s = np.where(run.touches, slip_norm(run.scaled_slips, run.simulator.cone), 0.0)
+        self._adds = quotient(s, run.noted("gives")) * (run.simulator.law == CONVEX)
+        self._slips = np.where(run.touches, np.linalg.norm(run.slips[..., :2], axis=-1), 0.0)
+        asks: dict[Body, Mask] = {}
+        rows = [row for body in run.bodies_of for row in self._of_body(body, asks)]
+        steps = _covering([row for row in rows if row.any()])
+        self.stops = {k: [body for body in run.bodies_of if asks[body][k]] for k in steps}
+        rows = [row for i in range(len(run.pairs)) for row in self._of_pair(i)]
+        self.compared = _covering([row for row in rows if row.max() > COUNTS / 2])
+
+    def _of_body(self, body: Body, asks: dict[Body, Mask]) -> list[Array]:
+        """Scores of each step, (steps,) each; which steps the body is asked in goes into `asks`.
+
+        What inertia bears of its load, by the pairs that touch and by whether targets move; what
+        has slipped so far that inertia may bear it; and what the layer may have added.
+        """
+        run = self._run
+        of = body.contacts
+        load = run.loads[body]
+        drag = run.drags[body] / load
+        drag = np.where(drag > LITTLE, drag, 0.0)
+        layer = self._adds[:, of].max(axis=1, initial=0.0) / load
+        layer = np.where(layer > RISES, layer, 0.0)
+        slip = quotient(body.mass * self._slips[:, of].max(axis=1, initial=0.0), run.h**2 * load)
+        asks[body] = (drag > 0) | (layer > 0)
+        near = [run.touches[:, run.pair_of == i].any(axis=1) for i in np.unique(run.pair_of[of])]
+        _, of_set = np.unique([*near, run.targets_move], axis=1, return_inverse=True)
+        sets = [drag * (of_set.ravel() == i) for i in range(of_set.max() + 1)]
+        return [*sets, slip * (drag > 0), layer]
+
+    def _of_pair(self, i: int) -> list[Array]:
+        """Scores of each step in which a pair stays and targets move, (steps,) each.
+
+        What drag, and the layer, may change of its largest force; and how far it slips and spins.
+        """
+        run = self._run
+        pair = run.pairs[i]
+        of = run.pair_of == i
+        force = run.largest(of)
+        touches = run.touches[:, of].any(axis=1)
+        stays = touches & np.append(run.steps == 1, touches[:-1]) & run.targets_move
+        drag = np.zeros(run.steps)
+        for body in run.near[pair.name]:
+            turns = quotient(LEVER * body.size, pair.mu_omega) if pair.rows == 6 else 0.0
+            drag = np.maximum(drag, run.drags[body] * max(1.0, float(turns)))
+        layer = np.minimum(self._adds[:, of].max(axis=1, initial=0.0), force)
+        scores = [stays * quotient(x, force) for x in (drag, layer)]
+        added = (scores[0] > LITTLE) | (scores[1] > RISES)
+        ways = ways_of(run.slid(i))
+        far = run.ways(i) > SLID * np.array([least(pair), 1.0])
+        largest = quotient(far, ways.max(axis=0))
+        return [*scores, *(added[:, None] * ways * largest).T]
 
 
-def asked(run: Run) -> list[Asked]:
-    """All of them: the first of each body and pair, then the second of each."""
-    every: dict[str, list[Asked]] = {}
-    for one in (*_of_bodies(run), *_of_pairs(run)):
-        every.setdefault(one.name, []).append(one)
-    ranked = [sorted(each, key=lambda one: -one.score) for each in every.values()]
-    order = [(i, -one.score, one) for each in ranked for i, one in enumerate(each)]
-    return [one for *_, one in sorted(order, key=lambda x: x[:2])]
+def _covering(rows: list[Array]) -> list[int]:
+    """Few steps of which each row has one with much of its most, and the first and last of those.
 
-
-def _most(name: str, score: Array, least: float, corners: bool = False) -> Iterator[Asked]:
-    """The step of the largest score, (steps,), of a body or pair, if that is beyond the least.
-
-    It is the first of those that are the largest, up to a thousandth: equal steps are asked once.
+    One end of a fall may be in reach of what bears it.
     """
-    largest = float(score.max(initial=0.0))
-    if largest > least:
-        k = int((score >= (1 - LITTLE) * largest).argmax())
-        yield Asked(float(score[k]), name, k, corners)
-
-
-def has_corners(name: str) -> bool:
-    """Whether a cone has another friction in one direction than in another."""
-    return cone(name).polyhedral and name != "frictionless"
-
-
-def _of_bodies(run: Run) -> Iterator[Asked]:
-    """Of each set of contacts that a body touches: where it drags most, and where it slips most."""
-    ways = np.linalg.norm(run.slips[..., :2], axis=-1)
-    ways = np.where(run.presses & (ways > STICKS), ways, 0.0)
-    moves = run.targets_move & (np.arange(run.steps) > 0)
-    for body in run.bodies_of:
-        drags = run.drags[body] / run.loads[body]
-        slips = body.mass * ways[:, body.contacts].max(axis=1, initial=0.0)
-        slips = quotient(quotient(slips, run.h), run.h) / run.loads[body]
-        touches = run.live[:, body.contacts]
-        here = drags > LITTLE
-        if body.free:
-            here &= touches.any(axis=1)
-        _, of_set = np.unique(touches, axis=0, return_inverse=True)
-        for each in np.unique(of_set[here]):
-            same = here & (of_set == each)
-            for score in (drags, slips, moves * drags):
-                yield from _most(body.name, same * score, LITTLE)
-
-
-def _of_pairs(run: Run) -> Iterator[Asked]:
-    """Where the layer may add the largest share, and the largest force; where corners take most."""
-    s = np.where(run.presses, slip_norm(run.scaled_slips, run.simulator.cone), 0.0)
-    f_n = run["wrench"][:, :, 2]
-    gives = run.noted("gives") * (run.simulator.law == CONVEX)  # where none gives, no layer adds
-    adds = quotient(s, gives)
-    shares = quotient(adds, f_n)
-    lost = _lost(run) * f_n
-    later = np.arange(run.steps) >= min(1, run.steps - 1)
-    for pair, of_pair in slices(run.pairs):
-        stays = np.asarray(run.presses[:, of_pair].any(axis=1))
-        stays[1:] &= stays[:-1].copy()  # not where it comes to press
-        share = stays * later * shares[:, of_pair].max(axis=1, initial=0.0)
-        most = np.minimum(adds, f_n)[:, of_pair].max(axis=1, initial=0.0) * (share > RISES)
-        corner = stays * lost[:, of_pair].max(axis=1, initial=0.0)
-        size = float(f_n[:, of_pair].max(initial=0.0)) or 1.0
-        yield from _most(pair.name, share, RISES)
-        yield from _most(pair.name, most / size, 0.0)
-        yield from _most(pair.name, corner / size, RISES, corners=True)
-    for body in run.bodies_of:  # what slides below lifts against the spring above
-        stiff, loads, rises = (
-            x[:, body.contacts].max(axis=1, initial=0.0) for x in (quotient(1.0, gives), f_n, s)
-        )
-        yield from _most(body.name, quotient(rises * stiff, loads), RISES)
-
-
-def _lost(run: Run) -> Array:
-    """Part of the friction that does no work along the slip, because of corners, (steps, n_c)."""
-    scaled = run.scaled_slips
-    length = np.linalg.norm(scaled, axis=-1)
-    moves: Mask = run.presses & (length > RISES * length.max(axis=0, initial=0.0))
-    moves &= (np.abs(scaled) > STICKS).any(axis=-1) & has_corners(run.simulator.cone)
-    f = quotient(run["wrench"][:, :, [0, 1, 3]], run.mu)
-    return moves * (1 + quotient(np.vecdot(f, scaled), run["wrench"][:, :, 2] * length))
+    if not rows:
+        return []
+    shares = np.array([np.floor(100 * row / row.max()) / 100 for row in rows])
+    good = shares >= ALIKE
+    last = good.shape[1] - 1
+    ends = np.unique([good.argmax(axis=1), last - good[:, ::-1].argmax(axis=1)])
+    left = np.vstack([shares * good, ends[:, None] == np.arange(good.shape[1])])
+    steps: list[int] = []
+    while len(left) and len(steps) < LOOKS:
+        steps.append(int(left.sum(axis=0).argmax()))
+        left = left[left[:, steps[-1]] == 0]
+    return sorted(steps)

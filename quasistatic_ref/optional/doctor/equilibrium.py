@@ -5,7 +5,7 @@ that the generalised force of all contacts on the un-actuated coordinates is A_u
 in equilibrium if A_u' lam + tau_u = 0 for some lam. Where no lam does it, what is missing is the
 least r with A_u' lam + tau_u + r = 0, in the sum of sizes of L^-1 r, M_u = L L'.
 
-It agrees with the slow step (:mod:`~quasistatic_ref.optional.doctor.slowly`) where all sticks, and
+It agrees with the slow step (:mod:`~quasistatic_ref.optional.doctor.slow`) where all sticks, and
 says of a guide what that cannot: whether a body is borne without a squeeze.
 """
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
-from quasistatic_ref.optional.doctor.looks import COULOMB, SLOW
 from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.stopped import Scene, missing
 from quasistatic_ref.optional.doctor.start import least_mean, table
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.optional.doctor.tolerances import SLIPPED
@@ -31,7 +31,7 @@ def lost(run: Run) -> Iterator[Finding]:
     of_pairs = [run.driven[p.alpha.link] or run.driven[p.beta.link] for p in run.pairs]
     driven = np.array(of_pairs, dtype=bool)[run.pair_of]
     for body in run.bodies_of:
-        on = body.contacts & driven & run.presses
+        on = body.contacts & driven & run.touches
         slips = np.where(on, np.linalg.norm(run.slips[..., :2], axis=2), 0.0)
         turns = np.where(on, np.abs(run.noted("moved")[..., 3]), 0.0)
         if not _slips(run, slips, turns):
@@ -43,14 +43,12 @@ def lost(run: Run) -> Iterator[Finding]:
             continue
         scores = (slips / run.sizes / SLIPPED + turns / TURNED).max(axis=1)
         k = int(scores.argmax())
-        look = run.looking.alone(k, body, body.contacts & driven)
-        lacks = look.missing[SLOW].get(body.name)
+        alone = body.contacts & driven
+        lacks = missing(run, k, [body], contacts=alone).get(body)
         agrees = lacks is not None and _agreement(run, body, k, on[k], lacks) > AGREES
-        if not agrees and (run.presses[k] & body.contacts & ~driven).any():
+        if not agrees and (run.touches[k] & body.contacts & ~driven).any():
             continue  # it is stroked, and others bear it
-        known = look.knows(COULOMB, on[k])  # what the layer adds is none of the grip
-        forces = look.laws[COULOMB].forces if known else run["wrench"][k]
-        yield _finding(run, body, k, on[k], forces[:, 2], lacks, slips, turns)
+        yield _finding(run, body, k, on[k], _normal(run, k, alone), lacks, slips, turns)
 
 
 def _slips(run: Run, slips: Array, turns: Array) -> bool:
@@ -77,6 +75,20 @@ def _agreement(run: Run, body: Body, k: int, on: Mask, lacks: Missing) -> float:
     starts = np.linalg.solve(M, -lacks.r)
     sizes = float(np.sqrt((starts @ M @ starts) * (v @ M @ v)))
     return float(starts @ M @ v) / sizes if sizes > 0 else 0.0
+
+
+def _normal(run: Run, k: int, contacts: Mask) -> Array:
+    """Normal forces of some contacts alone in step k by Coulomb's law, (n_c,) [N].
+
+    What the layer adds is none of the grip; where no fixed point is found it is not left out.
+    """
+    normal = run["wrench"][k, :, 2].copy()
+    scene = Scene(run, k, run["q"][k], run["phi"][k], run.points_of(k), contacts=contacts)
+    for part in scene.parts():
+        one = part.slow.rung(run.h, part.slow.level)
+        if one is not None:
+            normal[part.contacts] = one.forces[:, 2]
+    return normal
 
 
 def _finding(

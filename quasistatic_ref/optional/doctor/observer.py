@@ -10,6 +10,7 @@ import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.formats.plain import field_values
+from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.account import scene_notes
@@ -163,6 +164,7 @@ def _looked_for(at: Start, failed: bool) -> tuple[tuple[Finding, ...], str]:
         checks += NO_STEPS
     every = findings(checks, at)
     skipped = [not_looked_at(checks, at)]
-    if isinstance(at, Run) and not at.own_terms:
-        skipped.append(at.looking.not_looked_at)
+    if isinstance(at, Run) and not at.own_terms and at.asked.unknown:
+        names = listed(sorted(at.asked.unknown))
+        skipped.append(f"equilibrium of {names}: no answer of a slow step, or too many touch")
     return tuple(every), "; ".join(filter(None, skipped))

@@ -17,13 +17,13 @@ from quasistatic_ref.optional.doctor.account import (
     contact_slips,
     pair_accounts,
     sides,
+    touching,
 )
 from quasistatic_ref.optional.doctor.accounts import PairAccount
-from quasistatic_ref.optional.doctor.artifacts import gap_after, quotient
+from quasistatic_ref.optional.doctor.artifacts import gap_after, quotient, ways_of
 from quasistatic_ref.optional.doctor.bodies import Body, bodies
-from quasistatic_ref.optional.doctor.looks import Looking
 from quasistatic_ref.optional.doctor.start import Start
-from quasistatic_ref.optional.doctor.tolerances import BEARS
+from quasistatic_ref.optional.doctor.asked import Asked
 from quasistatic_ref.parts import contact_forces, is_there, posed
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Recording
@@ -39,12 +39,10 @@ if TYPE_CHECKING:
 
 NOTED = ("tau", "moved", "momentum", "gives")
 """What of a recorder, which may go, is kept: loads of each step, and what the observer notes."""
-FAR = 0.1
-"""Way of a body over its size [-], or its turn [rad], that counts."""
 HELD = 1e-9
 """Change of a target that is none [m, rad, -]."""
-SAMPLED = 21
-"""Steps, spread over a run, between which the way of a body is taken."""
+ROUNDING = 1e-9
+"""Load that is none, over a body's weight [-]."""
 
 
 class Run(Start):
@@ -66,7 +64,6 @@ class Run(Start):
         self.steps = trajectory.steps
         self.complete = trajectory.failed is None
         self._last: RunStep | None = None
-        self.looking = Looking(self)
 
     @property
     def load_at_start(self) -> Array:
@@ -100,23 +97,37 @@ class Run(Start):
         return of_pair
 
     @cached_property
-    def presses(self) -> Mask:
-        """Which contacts press, (steps, n_c): a share of a body's weight or largest force."""
-        f_n = self["wrench"][:, :, 2]
-        most = np.zeros_like(f_n)
-        alone = np.ones(f_n.shape[1], dtype=bool)
-        for body in self.bodies_of:
-            alone &= ~body.contacts
-        weights = [(body.contacts, body.mass * self.g) for body in self.bodies_of]
-        for of, weight in (*weights, (alone, 0.0)):
-            largest = f_n[:, of].max(axis=1, initial=weight, keepdims=True)
-            most[:, of] = np.maximum(most[:, of], largest)
-        return np.asarray(f_n > BEARS * most)
+    def touches(self) -> Mask:
+        """Which contacts touch, (steps, n_c), with load or without: which bears may be open."""
+        return touching(self.trajectory, self.noted("moved"))
+
+    def largest(self, contacts: Mask) -> float:
+        """Largest sum of the normal forces of some contacts, after the first step [N]."""
+        sums = self["wrench"][:, contacts, 2].sum(axis=1)
+        return float(sums[min(1, self.steps - 1) :].max())
+
+    def slid(self, i: int) -> Array:
+        """Mean slip, as a vector of the world [m], and spin [rad] of a pair's contacts that touch.
+
+        In each step, shape (steps, 4); what goes up and down again has slid nowhere in their sum.
+        """
+        of = self.pair_of == i
+        on = self.touches[:, of, None]
+        moved = self.noted("moved")[:, of]
+        n = self["n"][:, of]
+        along = moved[..., :3] - np.vecdot(moved[..., :3], n)[..., None] * n
+        spins = np.where(self["rows"][of, None] == 6, moved[..., 3:], 0.0)
+        total = np.where(on, np.concatenate([along, spins], axis=2), 0.0).sum(axis=1)
+        return np.asarray(total / np.maximum(on.sum(axis=1), 1))
+
+    def ways(self, i: int) -> Array:
+        """How far a pair slid [m] and spun [rad] in the run, shape (2,)."""
+        return ways_of(self.slid(i).sum(axis=0))
 
     @cached_property
-    def live(self) -> Mask:
-        """Which contacts touch or press, shape (steps, n_c)."""
-        return self.touching(self["phi"]) | self.presses
+    def asked(self) -> Asked:
+        """What its bodies lack, and what the model adds."""
+        return Asked(self)
 
     @cached_property
     def mu(self) -> Array:
@@ -157,36 +168,19 @@ class Run(Start):
     def loads(self) -> dict[Body, Array]:
         """Each body's own load in each step, shape (steps,) [N].
 
-        It is what gravity and other loads are, or the largest force on it in the run.
+        It is what gravity and other loads are, or the largest force of a pair on it in the run. A
+        load below the rounding of its weight is none.
         """
         of_bodies = {}
         for body in self.bodies_of:
             M = body.inertia(self.M_u, self.system.n_a)
             tau = body.amount(M, self.noted("tau")[:, body.coordinates])
-            pressed = float(self["wrench"][:, body.contacts, 2].max(initial=0.0))
-            of_bodies[body] = np.maximum(tau, pressed or (0.0 if tau.any() else 1.0))
+            pairs = np.unique(self.pair_of[body.contacts]).tolist()
+            forces = [self["wrench"][:, self.pair_of == i, 2].sum(axis=1) for i in pairs]
+            least = ROUNDING * body.mass * self.g
+            pressed = float(np.max(forces, initial=least)) or (0.0 if tau.any() else 1.0)
+            of_bodies[body] = np.maximum(tau, pressed)
         return of_bodies
-
-    def delta_q_of(self, k: int, n_v: int) -> Array:
-        """delta_q of step k, with private rises that do not rise, shape (n_v,) [m, rad]."""
-        delta_q = self["delta_q"][k]
-        return np.pad(delta_q, (0, n_v - len(delta_q)))
-
-    def posed(self, k: int) -> StepData:
-        """Step k with the rows and private rises of its extension."""
-        extension = self.simulator.extension
-        step = self.at(k).step
-        return step if extension is None else posed(step, extension(self["q"][k]))[0]
-
-    def way(self, body: Body, first: int = 0) -> tuple[float, float]:
-        """How far a body gets from where a step starts: [m] and [rad]."""
-        steps = np.unique(np.linspace(first, self.steps, SAMPLED).round().astype(int))
-        return body.moves(self["q"][steps])
-
-    def gets_far(self, body: Body, first: int = 0) -> bool:
-        """Whether a body moves by more than a tenth of its size, or 0.1 rad, from a step on."""
-        length, angle = self.way(body, first)
-        return length > FAR * body.size or angle > FAR
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]

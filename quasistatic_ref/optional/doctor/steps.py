@@ -6,7 +6,6 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.optional.doctor.looks import SLOW
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
 from quasistatic_ref.optional.doctor.telling import amount
@@ -31,8 +30,7 @@ def leaps(run: Run) -> Iterator[Finding]:
     How far a body moves that is not in equilibrium says nothing: it has a finding of its own.
     """
     sides = run.sides
-    looks = [] if run.own_terms else run.looking.chosen
-    unbalanced = {name for look in looks for name in look.missing[SLOW]}
+    unbalanced = set() if run.own_terms else {body.name for body in run.asked.lacks}
     jumps = {
         track.joint.name: abs(float(track.values[0, 0] - run.q_start[track.joint.q][0]))
         for track in run.tracks

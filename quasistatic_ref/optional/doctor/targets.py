@@ -7,7 +7,7 @@ import numpy as np
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.doctor.account import drive, stiffness
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.slowly import SLOWLY
+from quasistatic_ref.optional.doctor.slow import SLOWLY
 from quasistatic_ref.optional.doctor.telling import amount, rounded
 from quasistatic_ref.optional.doctor.tolerances import BEYOND, IN_METRES
 from quasistatic_ref.simulate.finding import Finding

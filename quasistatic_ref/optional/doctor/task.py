@@ -296,7 +296,7 @@ def short(run: Run) -> Iterator[Finding]:
         J_n = frame_jacobian(at.contacts, at.contacts.J)[0][:, v]
         pushes = at.forces[:, 2] * (J_n @ lag[v]) / error  # what each contact exerts along the way
         if not scalar:
-            pushes[_carried(run, joint, lag[v], way)] = 0.0
+            pushes = _stopping(run, joint, lag[v] / error, way, pushes)
         unit = joint.coordinates[0].unit
         if -pushes.sum() > spring / 2 and not (
             scalar and _stalled(run, int(np.abs(pushes).argmax()), error, unit)
@@ -313,14 +313,26 @@ def short(run: Run) -> Iterator[Finding]:
         )
 
 
-def _carried(run: Run, base: Joint, error: Array, way: float) -> Mask:
-    """Contacts of what has come along with a base, shape (n_c,), whose error is along x, y, z."""
+def _stopping(run: Run, base: Joint, along: Array, way: float, pushes: Array) -> Array:
+    """What contacts exert on a base along its error, a unit vector of x, y, z, (n_c,) [N].
+
+    What it carries, which has come along by half of its way, does not stop it: only what presses
+    against that does, such as the wall to which a finger has pushed a box.
+    """
+    k = run.steps - 1
+    at = run.at(k)
     moved = run.moves[:, base.v].any(axis=1)
-    start, end = (run.system.kinematics(run["q"][j]).t[:, : len(error)] for j in (0, -1))
-    along = (end - start) @ error > np.linalg.norm(error) * way / 2
+    start, end = (run.system.kinematics(run["q"][j]).t[:, : len(along)] for j in (0, -1))
+    carried = ((end - start) @ along > way / 2) & ~moved
     links = np.array([[pair.alpha.link, pair.beta.link] for pair in run.pairs], dtype=int)
-    of_pairs = (along & ~moved)[links.reshape(-1, 2)].any(axis=1)
-    return np.asarray(of_pairs[run.pair_of])
+    alpha, beta = links.reshape(-1, 2)[run.pair_of].T
+    c = at.contacts
+    f = at.forces
+    on_beta = f[:, :1] * c.d1 + f[:, 1:2] * c.d2 + f[:, 2:3] * c.n
+    sign = np.where(carried[beta], 1.0, -1.0)
+    outside = (carried[alpha] != carried[beta]) & ~(moved[alpha] | moved[beta])
+    against = np.where(outside, sign * (on_beta[:, : len(along)] @ along), 0.0)
+    return np.where((carried | moved)[alpha] & (carried | moved)[beta], 0.0, pushes) + against
 
 
 def _at_a_stop(run: Run, joint: Joint) -> bool:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.accounts import Account, Drive, Motion, PairAccount, Stop
 from quasistatic_ref.tolerances import FILLED, UNMOVED
@@ -94,6 +95,11 @@ def measures(account: Account) -> dict[str, float]:
         for name, numbers in names.items()
         for word, value in numbers.items()
     }
+
+
+def table_of(pair: ContactPair) -> str:
+    """The name of the table that a pair is of."""
+    return pair.name.partition("(")[0]
 
 
 def amount(x: float, unit: str) -> str:

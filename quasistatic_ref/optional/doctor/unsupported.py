@@ -10,9 +10,9 @@ from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
-from quasistatic_ref.optional.doctor.looks import SLOW
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import SHORT, Start, joining, least
+from quasistatic_ref.optional.doctor.stopped import missing
 from quasistatic_ref.optional.doctor.tolerances import NEAR
 from quasistatic_ref.simulate.finding import Finding
 
@@ -136,9 +136,9 @@ def _yields(run: Run, name: str) -> bool:
     """Whether what touches a body in the last step bears it slowly, as a soft spring does."""
     if run.own_terms:
         return False
-    look = run.looking.at(run.steps - 1, name)
-    touches = bool((look.asked & run.of_body(name)).any())
-    return touches and name in look.bodies and name not in look.missing[SLOW]
+    k = run.steps - 1
+    body = next(body for body in run.bodies_of if body.name == name)
+    return bool((run.touches[k] & body.contacts).any()) and not missing(run, k, [body])
 
 
 def _remedy(of_body: Mask, run: Run, first: int) -> str:

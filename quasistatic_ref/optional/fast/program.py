@@ -117,19 +117,31 @@ class Workspace:
         self._b = b
         self._cold = np.zeros(len(b), np.int32)
         self._warm = False
-        self._H = H
+        self._options = options
         if len(b):
-            self._model: Any = daqp.Model()
-            self._model.settings = options
-            self._model.setup(H, f, A, np.full(len(b), np.inf), b, self._cold)
+            self._set_up(H)
+
+    def _set_up(self, H: Array) -> None:
+        """A workspace that has solved nothing yet."""
+        self._H = H
+        self._model: Any = daqp.Model()
+        self._model.settings = self._options
+        above = np.full(len(self._b), np.inf)
+        self._model.setup(H, self._f, self._A, above, self._b, self._cold)
 
     def reply(self, H: Array) -> Reply:
-        """Solve the program as it stands: from the answer before, if there is one, then cold."""
+        """Solve the program as it stands: from the answer before, if there is one, then cold.
+
+        A workspace that has had no finite answer may have none for ever: it is set up again.
+        """
         if not len(self._b):
             x = np.asarray(np.linalg.solve(H, -self._f), dtype=np.float64)
             return Reply(x, np.zeros(0), True, "optimal", 0)
         reply = self._solved(H, warm=True) if self._warm else None
         if reply is None or not reply.solved:
+            reply = self._solved(H, warm=False)
+        if not np.isfinite(reply.x).all():
+            self._set_up(H)
             reply = self._solved(H, warm=False)
         self._warm = reply.solved
         return reply

@@ -104,7 +104,7 @@ def wiper(d, rises, *found):
     v = rises * e / (d.mu * d.h)
     way = [{"t": t, "x": v * t, "z": -e} for t in (0.0, 10.0)]
     bodies = {"wiper": finger((0, 0, TIP_RADIUS), {"z": K}, way)}
-    numbers = {"normal_N": K * e * (1 + rises), "coulomb_N": K * e}
+    numbers = {"run_N": K * e * (1 + rises), "slowly_N": K * e}
     contacts = {"c": ("floor", "wiper/tip", d.mu, 1)}
     return d.scene(bodies, contacts, 20, dict.fromkeys(found, numbers))
 
@@ -234,7 +234,7 @@ def held_off_its_centre(d):
 
 def lacks(force, torque=0.0):
     """What is missing [N, N m]."""
-    return {"not in equilibrium": {"missing_N": force, "missing_Nm": torque}}
+    return {"equilibrium": {"missing_N": force, "missing_Nm": torque}}
 
 
 def pressed_on_a_wall(d):
@@ -272,7 +272,7 @@ def turns_in_its_grip(d):
     (m, c, w, N, inertia), *parts = bar(d, None)
     al = (m * G * c - 2 * w * N) / (inertia + m * c**2)
     hand = lacks(m * c * al, inertia * al)
-    return d.scene(*parts, 1, hand, ["corners of the cone"])
+    return d.scene(*parts, 1, hand, ["corners"])
 
 
 def steep(d):
@@ -318,13 +318,13 @@ def dragged_up(d):
     """A tray that goes up bears m g + m v / h."""
     v = d.between(0.3, 5.0) * G * d.h
     bodies = {"tray": plate(STIFF, (0, v)), "b": d.standing()}
-    numbers = {"normal_N": d.m * (G + v / d.h), "without_drag_N": d.m * G}
-    return d.scene(bodies, {"c": ("tray/tip", "b", d.mu, 4)}, 20, {"drag": numbers})
+    numbers = {"run_N": d.m * (G + v / d.h), "slowly_N": d.m * G}
+    return d.scene(bodies, {"c": ("tray/tip", "b", d.mu, 4)}, 20, {"artifact": numbers})
 
 
 def layer(d):
     """The layer raises K e by K mu v h, (R13)."""
-    return wiper(d, d.between(0.2, 3.0), "boundary layer")
+    return wiper(d, d.between(0.2, 3.0), "artifact")
 
 
 def between_the_axes(d):
@@ -340,7 +340,7 @@ def between_the_axes(d):
     size = (d.edge, d.edge, d.edge / 8)
     flat = free(block(d.m, size), (0, 0, d.edge / 16), (*push.tolist(), 0.0))
     hand = lacks(float(np.hypot(*rest)))
-    hand["corners of the cone"] = {"ellipsoid_N": float(np.hypot(*push)) - bears}
+    hand["corners"] = {"ellipsoid_N": float(np.hypot(*push)) - bears}
     return d.scene({"b": flat}, {"c": ("floor", "b", d.mu, 4)}, 3, hand)
 
 
