@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from quasistatic_ref.model.readers.mesh import Mesh
     from quasistatic_ref.model.system import System
     from quasistatic_ref.numbers.arrays import Array
-    from quasistatic_ref.optional.doctor.accounts import Account
     from quasistatic_ref.optional.extensions.extension import Extension, OfBodies
     from quasistatic_ref.scenario.bodies import BodyEntry
     from quasistatic_ref.simulate.finding import Finding
@@ -100,20 +99,32 @@ def coulomb_solution(step: StepData, solver: Solver, accuracy: float) -> StepSol
     return simulated_solution(step, solver, accuracy)
 
 
-def account(trajectory: Trajectory, forces: bool) -> Account:
-    """``account``: what happened in a run; `forces` are formed of a full record."""
-    with needing("account"):
-        from quasistatic_ref.optional.doctor.account import account_of
-    return account_of(trajectory, forces)
+def doctors(
+    printed: bool = False, notes: bool = False, ignore: Sequence[str] = ()
+) -> list[Observer]:
+    """The observer that notes a run's scene and finds at its end, perhaps printing its findings.
 
-
-def doctors(printed: bool = False) -> list[Observer]:
-    """The observer that notes a run's scene and finds at its end, perhaps printing its findings."""
+    Parameters
+    ----------
+    printed, notes : bool
+        Whether to print what is found, and whether to print what is not grave whole.
+    ignore : sequence of str
+        Names of findings that are not printed.
+    """
     if not is_there("doctor"):
         return []
     from quasistatic_ref.optional.doctor.observer import Doctor
 
-    return [Doctor(printed)]
+    return [Doctor(printed, notes, ignore)]
+
+
+def finding_names() -> frozenset[str]:
+    """``ignore``: the names that findings have; none without ``optional/doctor``."""
+    if not is_there("doctor"):
+        return frozenset()
+    from quasistatic_ref.optional.doctor.names import NAMES
+
+    return NAMES
 
 
 def findings_of_scene(simulator: Simulator, q: Array, force: Array) -> list[Finding]:
@@ -129,7 +140,7 @@ def findings_of_time(trajectory: Trajectory) -> list[Finding]:
         return []
     from quasistatic_ref.optional.doctor import checks
 
-    return checks.findings(checks.OF_TIME, trajectory)
+    return checks.looked(checks.OF_TIME, trajectory)[0]
 
 
 def pairs_by_coal(pairs: tuple[ContactPair, ...]) -> tuple[ContactPair, ...]:

@@ -220,7 +220,7 @@ def test_a_run_without_doctor_is_recorded_and_written(without, tmp_path, cli):
     without("optional/doctor")
     run = scenario.run()
     unknown = ("quasi_dynamic_number", "largest_boundary_layer")
-    nothing = {**dict.fromkeys(unknown), "findings": (), "scene": None}
+    nothing = {**dict.fromkeys(unknown), "findings": ()}
     assert run.header == replace(whole.header, **nothing)
     assert run.arrays.keys() == whole.arrays.keys()
     cli("run", "sphere_spin", "--set", "steps=2", "--out", tmp_path, "--quiet")

@@ -1,7 +1,8 @@
-"""One step by four laws: the force of a finger that wipes, and of two that lift, over h.
+"""A step, and the same step slowly: the force of a finger that wipes, and of two that lift.
 
 The finger is to press with 5 N; what slides rises, so that it presses with more, (R13). The two
 press with 12 N each and lift 1 kg: drag makes it slip, what slips rises, and both add to friction.
+Without drag it sticks, and nothing rises.
 """
 
 from typing import Any
@@ -17,7 +18,7 @@ from quasistatic_ref.step.data import StepData
 
 TIMES = np.array([2e-3, 5e-3, 10e-3, 20e-3, 50e-3, 100e-3])
 V, MU_V, SLOWLY = 0.05, 0.5, 10.0
-STYLES = {"run": "o", "Coulomb's law": "^", "slowly": "s", "in the ellipsoid, too": "x"}
+STYLES = {"run": "o", "slowly": "^", "slowly, by Coulomb's law": "s"}
 PEN: dict[str, Any] = {"color": "black", "markerfacecolor": "none", "linewidth": 0.9}
 FINGERS = {
     "wiper": (2e4, [0, 0, 0.01], [0, 0, 0.00975], [V, 0, 0]),
@@ -54,10 +55,9 @@ def last_step(h: float, lifts: bool) -> StepData:
 
 
 def forces(step: StepData) -> list[Array]:
-    """The force of the first contact by each law, shape (4,) [N, N, N, N m]."""
+    """The force of the first contact in each of `STYLES`, shape (4,) [N, N, N, N m]."""
     slow = step.replace(h=SLOWLY)
-    round_one = slow.replace(cone="ellipsoid")
-    solutions = [qr.solve_step(step), *map(qr.coulomb_step, (step, slow, round_one))]
+    solutions = [qr.solve_step(step), qr.solve_step(slow), qr.coulomb_step(slow)]
     return [solution.wrench[0] for solution in solutions]
 
 

@@ -19,7 +19,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.parts import is_there, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.finding import finding_table
+from quasistatic_ref.simulate.finding import finding_table, severity
 from quasistatic_ref.step.cones import cone
 
 READ_AS = "a fixed base, all joints actuated"
@@ -101,19 +101,17 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     record["tied"] = tied_at_start(scenario)
-    record |= {"time_step": {}, "findings": [], "not_looked_at": ""}
+    record |= {"findings": [], "not_looked_at": ""}
     if is_there("doctor"):
         from quasistatic_ref.optional.doctor import checks
         from quasistatic_ref.optional.doctor.start import Start
-        from quasistatic_ref.optional.doctor.time_step import time_step_record
 
-        record["time_step"] = time_step_record(scenario)
         q = scenario.system.q_start
         force = None if scenario.force is None else scenario.force(0.0, q)
         start = Start(scenario.simulator(), q, force)
-        findings = checks.findings(checks.OF_SCENE, start)
-        record["findings"] = [finding_table(finding) for finding in findings]
-        record["not_looked_at"] = checks.not_looked_at(checks.OF_SCENE, start)
+        findings, record["not_looked_at"] = checks.looked(checks.OF_SCENE, start)
+        ignored = scenario.ignored_findings
+        record["findings"] = [finding_table(one) for one in findings if one.name not in ignored]
     record["fields"] = named_fields(scenario.path)
     return record
 
@@ -195,14 +193,13 @@ def _print(record: dict[str, Any]) -> None:
         shared.print_rows(rows, notes)
         variables, constraints = record["size"]
         print(f"\neach step: {variables} variables, {constraints} rows; h = {record['h']:g} s")
-        if record["time_step"]:
-            from quasistatic_ref.optional.doctor.time_step import time_step_words
-
-            shared.print_wrapped(time_step_words(record["time_step"]))
         print(f"solved by {record['backend']}")
         shared.print_wrapped(f"steps are taken by {record['steps_by']}", "")
     _print_list("normals that are one of several at the start", record.get("tied", []))
-    findings = [finding["sentence"] for finding in record.get("findings", [])]
+    findings = [
+        f"{severity(one['grave'])}: {one['sentence']} [{one['name']}]"
+        for one in record.get("findings", [])
+    ]
     _print_list("findings, before a run", findings)
     if record.get("not_looked_at"):
         shared.print_wrapped(f"not looked at: {record['not_looked_at']}")

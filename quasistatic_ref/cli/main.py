@@ -25,7 +25,6 @@ COMMANDS = {
     "run": "simulate a scenario and write its trajectory",
     "solve": "solve one step file",
     "verify": "re-check an answer and its certificate without any solver",
-    "account": "print what happened in a run: numbers of its bodies, joints and contacts",
     "inspect": "show what a URDF or a scenario holds, and what the model ignores",
     "body": "make a body of a scenario from a scan, a point cloud or a mesh",
     "opinion": "say whether the contacts of a MuJoCo scene hold, next to the exact answer",

@@ -51,6 +51,12 @@ OPTIONS: Final[dict[str, dict[str, Any]]] = {
         "dest": "roots",
         "help": "folder from which robots are read, too, and in which package:// is looked for",
     },
+    "--ignore": {
+        "action": "append",
+        "default": [],
+        "metavar": "NAME",
+        "help": "do not say findings of this name, nor count them for --strict; also NAME,NAME",
+    },
     "--json": {"action": "store_true", "help": "print one JSON object, nothing else"},
 }
 SOLVER: Final = ("--backend", "--fast", "--cone", "--certify")
@@ -96,6 +102,10 @@ def scenario_settings(options: argparse.Namespace) -> list[str]:
         if value is not None and value is not False:  # a flag that is not given
             written = f"--{word}" if value is True else f"--{word} {shlex.quote(value)}"
             settings.append(OptionChange(f"{name}={json_text(value)}", written))
+    if words := getattr(options, "ignore", []):
+        names = [name for word in words for name in word.split(",")]
+        written = " ".join(f"--ignore {shlex.quote(word)}" for word in words)
+        settings.append(OptionChange(f"findings.ignore={json_text(names)}", written))
     if roots := getattr(options, "roots", []):
         folders = json_text([os.path.abspath(root) for root in roots])
         written = " ".join(f"--root {shlex.quote(str(root))}" for root in roots)

@@ -33,7 +33,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "(.xml)",
     )
     shared.add(parser, "--out", default="results")
-    shared.add(parser, *shared.SOLVER, "--law", "--set", "--root", "--json")
+    shared.add(parser, *shared.SOLVER, "--law", "--set", "--root", "--ignore", "--json")
     parser.add_argument(
         "--targets",
         metavar="FILE.csv|KEY,KEY,...",
@@ -55,6 +55,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--strict", action="store_true", help="end with status 1 if a finding is grave"
+    )
+    parser.add_argument(
+        "--notes", action="store_true", help="print findings that are not grave as sentences, too"
     )
     parser.add_argument(
         "--table",
@@ -92,7 +95,7 @@ def run(options: argparse.Namespace) -> int:
         print(f"quasistatic-ref: {unknown}", file=sys.stderr)
     failure: RunFailed | None = None
     try:
-        trajectory: Trajectory = scenario.run(progress=not options.quiet)
+        trajectory: Trajectory = scenario.run(progress=not options.quiet, notes=options.notes)
     except RunFailed as error:
         failure = error
         trajectory = error.trajectory
@@ -112,19 +115,18 @@ def run(options: argparse.Namespace) -> int:
         view = save_view(path.with_suffix(".html"), scenario, trajectory)
         summary["view"] = str(view)
         written.append(view)
-    account = None
+    numbers: Mapping[str, Any] = {}
     if is_there("doctor"):
         from quasistatic_ref.optional.doctor import telling
 
-        account = trajectory.account(forces=False)
+        numbers = telling.numbers_of(trajectory, scenario)
     if options.json:
-        numbers = {} if account is None else {"account": account.numbers}
-        shared.print_json(summary | numbers)
+        shared.print_json(summary | {"numbers": numbers})
     else:
         _print(summary)
-        if account is not None:
+        if numbers:
             print(_artifacts(trajectory.header))
-            for line in telling.lines(account, telling.PRINTED):
+            for line in telling.lines(numbers):
                 shared.print_wrapped(line, "    ")
         times = summary["milliseconds_per_step"].items()
         print(f"ms per step: {', '.join(f'{stage} {ms:.2f}' for stage, ms in times)}")
@@ -165,6 +167,7 @@ def summary_record(scenario: Scenario, trajectory: Trajectory, path: Path) -> di
             stage: 1e3 * float(seconds.mean()) for stage, seconds in trajectory.seconds.items()
         },
         "findings": [finding_table(finding) for finding in trajectory.findings],
+        "ignored_findings": [finding_table(one) for one in trajectory.ignored_findings],
         "not_looked_at": header.not_looked_at,
     }
     if scenario.law == COULOMB:

@@ -22,9 +22,9 @@ from quasistatic_ref.formats.quoting import no_formula
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.parallel import workers as workers_here
-from quasistatic_ref.optional.doctor.telling import measures
+from quasistatic_ref.optional.doctor.telling import by_name, numbers_of
 from quasistatic_ref.scenario.overrides import parsed
-from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory, save_trajectory
@@ -185,13 +185,14 @@ def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Traje
     KeyboardInterrupt
         If the user ended it.
     """
+    loaded = load_scenario(scenario, changes)
     try:
-        trajectory = load_scenario(scenario, changes).run(progress=False, findings=False)
+        trajectory = loaded.run(progress=False, findings=False)
     except RunFailed as failure:
         if isinstance(failure.__cause__, KeyboardInterrupt):
             raise KeyboardInterrupt from None
         trajectory = failure.trajectory
-    return file, trajectory, _row(trajectory)
+    return file, trajectory, _row(trajectory, loaded)
 
 
 def _new_folder(folder: Path) -> Path:
@@ -207,34 +208,36 @@ def _new_folder(folder: Path) -> Path:
     return folder
 
 
-def _row(trajectory: Trajectory) -> Row:
+def _row(trajectory: Trajectory, scenario: Scenario) -> Row:
     outcome = DONE if trajectory.failed is None else ENDED_EARLY
     outcome_fields = {"outcome": outcome, "reason": trajectory.failed}
     findings = [finding.name for finding in trajectory.findings]
     return outcome_fields | {
         "findings": findings,
         "not_looked_at": trajectory.header.not_looked_at,
-        "measures": outcomes(trajectory),
+        "measures": outcomes(trajectory, scenario),
     }
 
 
-def outcomes(trajectory: Trajectory) -> dict[str, float | None]:
+def outcomes(trajectory: Trajectory, scenario: Scenario) -> dict[str, float | None]:
     """Measured outcomes of one run.
 
     Parameters
     ----------
     trajectory : Trajectory
+    scenario : Scenario
+        Of which it is a run.
 
     Returns
     -------
     dict
-        What :func:`.telling.measures` gives of its account, ``boundary_layer_um``,
+        Numbers of its bodies, joints and pairs, :func:`.telling.by_name`, ``boundary_layer_um``,
         ``quasi_dynamic_number``, ``steps`` and ``exact`` (share of steps certified exactly).
     """
     Pi = trajectory.header.quasi_dynamic_number
     exact = trajectory["certificate"] == "exact" if trajectory.steps else np.ones(1)
     return {
-        **measures(trajectory.account(forces=False)),
+        **by_name(numbers_of(trajectory, scenario)),
         LAYER: 1e6 * (trajectory.header.largest_boundary_layer or 0.0),
         "quasi_dynamic_number": None if Pi is None else float(Pi),
         "steps": float(trajectory.steps),

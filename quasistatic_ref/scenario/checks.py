@@ -10,18 +10,28 @@ from typing import Any, Final
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.errors import ScenarioError, about_field
 from quasistatic_ref.formats.quoting import known_names, nearest_name
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import System
 from quasistatic_ref.scenario.overrides import ESSENTIAL
-from quasistatic_ref.scenario.scenario_table import TABLES, fields_of
+from quasistatic_ref.scenario.scenario_table import FINDINGS, TABLES, fields_of
+from quasistatic_ref.simulate.finding import check_finding_name
 from quasistatic_ref.tolerances import LARGE
 
 WELDED: Final = 1e-12
 """Largest relative velocity, per unit of any coordinate [-], of two links that count as one.
 
 Chains of rotations leave 1e-15 a link; a joint between them moves one of them by 1."""
+
+
+def ignored_findings(table: TableReader) -> tuple[str, ...]:
+    """The names in a table [findings] that are not said; ScenarioError if one is no finding."""
+    names = tuple(checked_fields(table, FINDINGS)("ignore"))
+    for name in names:
+        with about_field(table.name("ignore")):
+            check_finding_name(name)
+    return names
 
 
 def checked_fields(table: TableReader, kind: str) -> Callable[..., Any]:

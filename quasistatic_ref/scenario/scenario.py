@@ -9,7 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from quasistatic_ref.errors import BackendError, InputError, ScenarioError, about_file
+from quasistatic_ref.errors import (
+    BackendError,
+    InputError,
+    ScenarioError,
+    about_file,
+)
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.resources import scenario_path
@@ -25,7 +30,13 @@ from quasistatic_ref.scenario.bodies import (
     joint_tracks,
     stiffness,
 )
-from quasistatic_ref.scenario.checks import check_made, check_motion, check_sizes, checked_fields
+from quasistatic_ref.scenario.checks import (
+    check_made,
+    check_motion,
+    check_sizes,
+    checked_fields,
+    ignored_findings,
+)
 from quasistatic_ref.scenario.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.scenario.overrides import Changes, about_changes, apply_settings
 from quasistatic_ref.scenario.paths import OwnWord, folders_in
@@ -75,6 +86,8 @@ class Scenario(Settings, Plain, Shown):
         Whether a :class:`~quasistatic_ref.optional.fast.simulator.FastSimulator` takes its steps.
     bodies : mapping of str to Body
         Those of its system, by their names.
+    ignored_findings : tuple of str
+        Names of findings that its runs do not say.
     of_bodies : callable, optional
         What tables of bodies add to each step: friction of joints and of supports, joint limits.
     settings
@@ -94,6 +107,7 @@ class Scenario(Settings, Plain, Shown):
     record: Record = "full"
     fast: bool = False
     bodies: Mapping[str, Body] = field(default_factory=dict)
+    ignored_findings: tuple[str, ...] = ()
     of_bodies: OfBodies | None = None
 
     def simulator(self, extension: ExtensionOfQ | None = None) -> Simulator:
@@ -122,7 +136,8 @@ class Scenario(Settings, Plain, Shown):
             If there is no ``optional/doctor``.
         """
         force = None if self.force is None else self.force(0.0, self.system.q_start)
-        return self.simulator().findings(force=force)
+        every = self.simulator().findings(force=force)
+        return tuple(one for one in every if one.name not in self.ignored_findings)
 
     def run(
         self,
@@ -130,6 +145,7 @@ class Scenario(Settings, Plain, Shown):
         observers: Sequence[Observer] = (),
         *,
         findings: bool = True,
+        notes: bool = False,
     ) -> Trajectory:
         """Simulate the whole scenario.
 
@@ -137,7 +153,7 @@ class Scenario(Settings, Plain, Shown):
         ----------
         progress : bool
         observers : sequence of Observer
-        findings : bool
+        findings, notes : bool
             As :func:`~quasistatic_ref.simulate.rollout.rollout` takes them.
 
         Raises
@@ -159,6 +175,8 @@ class Scenario(Settings, Plain, Shown):
             record=self.record,
             progress=progress,
             findings=findings,
+            notes=notes,
+            ignore=self.ignored_findings,
             observers=observers,
         )
 
@@ -243,6 +261,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
         check_closed(distances)
     of_limits = checked_fields(read("limits"), LIMITS)
     limits = Limits(of_limits("penetration"), of_limits("reach"))
+    ignored = ignored_findings(read("findings"))
 
     tables = read("bodies")
     if (count := len(tables.names_left())) > MOST_BODIES:
@@ -303,6 +322,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
             bodies={name: entry.body for name, entry in entries.items()},
             fast=fast,
             of_bodies=of_bodies,
+            ignored_findings=ignored,
             law=law,
             distances=distances,
         )

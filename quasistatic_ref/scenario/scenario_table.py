@@ -25,6 +25,7 @@ MOST_STEPS = 10_000_000
 TOP = "the top of the file"
 SOLVER = "[solver]"
 LIMITS = "[limits]"
+FINDINGS = "[findings]"
 BODY = "[bodies.NAME]"
 CONTACT = "[contacts.NAME]"
 WRENCH = "[[bodies.NAME.wrenches]]"
@@ -83,6 +84,7 @@ TABLES = Tables({
         ),
         "solver": Field("table", "the backend, and what is proved", default={}, of=SOLVER),
         "limits": Field("table", "where a run ends early", default={}, of=LIMITS),
+        "findings": Field("table", "what is not said", default={}, of=FINDINGS),
         "roots": Field(
             "list of words", "folders from which robots are read besides their own, and in which "
             "package:// is looked for; --root FOLDER names them", default=[],
@@ -106,6 +108,9 @@ TABLES = Tables({
         "reach": Field(
             "number", "farthest that a link may come from the origin", "m", Limits.reach, above=0.0,
         ),
+    },
+    FINDINGS: {
+        "ignore": Field("list of words", "names of findings that are not said", default=[]),
     },
     BODY: {
         "urdf": Field("text", "file in the scenario's folder, or package://NAME/PATH of a robot",

@@ -1,11 +1,14 @@
 """What is wrong with a scene, or doubtful in a run, in the words of physics."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.parts import finding_names
 
 
 @dataclass(frozen=True, eq=False)
@@ -15,11 +18,11 @@ class Finding(Plain):
     Parameters
     ----------
     name : str
-        Of its kind, such as ``"free fall"``.
+        Of its kind, a word of the page: ``"free-fall"``.
     grave : bool
         Whether the run is not what was meant; ``--strict`` fails on such a finding only.
     remedy, cause : str
-        What to do, and why, with bodies and contacts.
+        What to do, if anything, and why, with bodies and contacts.
     numbers : mapping of str to float
         What was measured [any unit], by names that end in their unit: ``{"depth_mm": 10.0}``.
     of : str
@@ -32,7 +35,7 @@ class Finding(Plain):
     >>> run = qr.rollout(qr.Simulator(system, [], h=0.01, K_q=1.0), system.q_start, [], 3,
     ...                  progress=False)
     >>> [finding.name for finding in run.findings]
-    ['unsupported body']
+    ['unsupported-body']
     """
 
     name: str
@@ -47,16 +50,62 @@ class Finding(Plain):
         object.__setattr__(self, "numbers", numbers)
 
     @property
+    def severity(self) -> str:
+        """``"grave"`` or ``"note"``."""
+        return severity(self.grave)
+
+    @property
     def sentence(self) -> str:
-        """The remedy, then the cause."""
-        return f"{self.remedy}: {self.cause}"
+        """The cause, then the remedy, where there is one."""
+        return f"{self.cause}; {self.remedy}" if self.remedy else self.cause
 
     def __str__(self) -> str:
-        return self.sentence
+        return f"{self.severity}: {self.sentence} [{self.name}]"
+
+
+def check_finding_name(name: str) -> None:
+    """Refuse a name that no finding has: InputError. Without ``optional/doctor`` any will do."""
+    known = finding_names()
+    if known and name not in known:
+        raise InputError(
+            f"is no finding{suggestion(name, sorted(known))}", field="ignore", value=name
+        )
+
+
+def severity(grave: bool) -> str:
+    """Of a finding in one word."""
+    return "grave" if grave else "note"
+
+
+def told(findings: Sequence[Finding], ignored: Sequence[Finding], notes: bool) -> Iterator[str]:
+    """The lines in which findings are printed: grave ones whole, and others in one line.
+
+    Parameters
+    ----------
+    findings, ignored : sequence of Finding
+        What was found, and what of it the user has asked not to hear.
+    notes : bool
+        Whether what is not grave is printed whole, too.
+    """
+    quiet = [] if notes else [finding for finding in findings if not finding.grave]
+    yield from (str(finding) for finding in findings if finding not in quiet)
+    if quiet:
+        plural = "s" * (len(quiet) > 1)
+        shows = f"--notes shows the sentence{plural}"
+        yield f"{len(quiet)} note{plural}: {_named(quiet)}; {shows}"
+    if ignored:
+        yield f"ignored: {_named(ignored)}"
+
+
+def _named(findings: Sequence[Finding]) -> str:
+    """Names of findings, and what they are about."""
+    return ", ".join(f"{one.name} ({one.of})" if one.of else one.name for one in findings)
 
 
 def finding_table(finding: Finding) -> dict[str, Any]:
-    """A finding as it stands in files: ``name``, ``grave``, ``sentence``, ``remedy``, ``numbers``.
+    """A finding as it stands in files.
+
+    Its fields are ``name``, ``grave``, ``sentence``, ``remedy``, ``numbers`` and ``of``.
 
     Parameters
     ----------
@@ -68,11 +117,14 @@ def finding_table(finding: Finding) -> dict[str, Any]:
         "sentence": finding.sentence,
         "remedy": finding.remedy,
         "numbers": dict(finding.numbers),
+        "of": finding.of,
     }
 
 
 def finding_read(table: object, where: str) -> Finding:
     """A finding as it stands in the header of a trajectory.
+
+    In older files the remedy comes first in its sentence, and nothing says what it is about.
 
     Raises
     ------
@@ -86,8 +138,9 @@ def finding_read(table: object, where: str) -> Finding:
         name=fields.text("name"),
         grave=fields.boolean("grave"),
         remedy=remedy,
-        cause=fields.text("sentence").removeprefix(f"{remedy}: "),
+        cause=fields.text("sentence").removeprefix(f"{remedy}: ").removesuffix(f"; {remedy}"),
         numbers={name: numbers.number(name) for name in numbers.names_left()},
+        of=fields.text("of", ""),
     )
     fields.close()
     return finding

@@ -59,8 +59,8 @@ class Header(Plain):
         The steps in which the backend gave no answer.
     not_looked_at : str
         What the findings leave out, and why.
-    scene : mapping, optional
-        See :func:`~quasistatic_ref.optional.doctor.account.scene_notes`.
+    ignore : tuple of str
+        Names of findings that the user has asked not to hear.
     """
 
     h: float
@@ -85,7 +85,7 @@ class Header(Plain):
     alone: bool = True
     unanswered: tuple[int, ...] = ()
     not_looked_at: str = ""
-    scene: Any = None
+    ignore: tuple[str, ...] = ()
 
 
 def header_table(header: Header) -> dict[str, Any]:
@@ -141,8 +141,9 @@ def header_read(top: TableReader, n_q: int, n_c: int) -> Header:
         alone=top.boolean("alone", True),
         unanswered=tuple(top.sequence("unanswered", [])),
         not_looked_at=top.text("not_looked_at", ""),
-        scene=top.take("scene", None),  # the account reads it
+        ignore=tuple(top.words("ignore", [])),
     )
+    top.take("scene", None)  # of files from when accounts of runs were made of them
     top.close()
     return header
 

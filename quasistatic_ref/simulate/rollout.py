@@ -13,6 +13,7 @@ from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError, QuasistaticError, check_kind
 from quasistatic_ref.parts import doctors
 from quasistatic_ref.simulate.failures import RunFailed
+from quasistatic_ref.simulate.finding import check_finding_name
 from quasistatic_ref.simulate.header import Record
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer
@@ -41,6 +42,8 @@ def rollout(
     record: Record = "full",
     progress: bool = True,
     findings: bool = True,
+    notes: bool = False,
+    ignore: Sequence[str] = (),
     observers: Sequence[Observer] = (),
 ) -> Trajectory:
     """Step after step, recorded.
@@ -70,6 +73,11 @@ def rollout(
         Whether to print there, at the end of a run, its findings
         (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.findings`). Findings that are not
         printed are looked for when they are first read, saved or pickled.
+    notes : bool
+        Whether to print what is not grave as sentences, too, and not in one line.
+    ignore : sequence of str
+        Names of findings that are neither printed nor in `findings`, but in
+        :attr:`~quasistatic_ref.simulate.trajectory.Trajectory.ignored_findings`.
     observers : sequence of Observer
         What else watches the run: before each step, after it, and at the end.
 
@@ -80,8 +88,8 @@ def rollout(
     Raises
     ------
     InputError
-        If the target or the force takes other arguments than these, q is no configuration, or steps
-        no whole number.
+        If the target or the force takes other arguments than these, q is no configuration, steps no
+        whole number, or a name to ignore none of a finding.
     RunFailed
         If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
         trajectory so far, and the failing step.
@@ -97,7 +105,9 @@ def rollout(
     check_kind(simulator, Simulator, "simulator", "a Simulator")
     if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
         raise InputError("must be a whole number, 0 or more", field="steps", value=steps)
-    watch = [*doctors(printed=findings), *observers]
+    for name in ignore:
+        check_finding_name(name)
+    watch = [*doctors(findings, notes, ignore), *observers]
     recorder = Recorder(simulator, q, record, watch, target)
     q_bar_a_at = target_function(simulator.system, simulator.h, target, steps)
     force_at = force_function(simulator.system, force)

@@ -33,7 +33,6 @@ from quasistatic_ref.step.data import Contacts, Extra, StepData, no_rows
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from quasistatic_ref.optional.doctor.accounts import Account
     from quasistatic_ref.simulate.scene import Scene
 
 WHAT = "a trajectory written by this program"
@@ -141,8 +140,18 @@ class Trajectory(Plain, HasPage):
         """What is wrong with its scene or doubtful in it: causes first, then what comes of them.
 
         There are none without ``optional/doctor``, nor in files from before there were findings;
-        what is found of ``seconds`` is kept in memory only, as they are.
+        what is found of ``seconds`` is kept in memory only, as they are. Those of
+        :attr:`ignored_findings` are left out.
         """
+        return tuple(one for one in self._findings if one.name not in self.header.ignore)
+
+    @property
+    def ignored_findings(self) -> tuple[Finding, ...]:
+        """Findings that the scene, or the user, has asked not to hear."""
+        return tuple(one for one in self._findings if one.name in self.header.ignore)
+
+    @property
+    def _findings(self) -> tuple[Finding, ...]:
         of_time = parts.findings_of_time(self) if self.seconds else ()
         return (*self.header.findings, *of_time)
 
@@ -311,21 +320,6 @@ class Trajectory(Plain, HasPage):
     def pair_names(self) -> list[str]:
         """The pair of each contact, shape (n_c,); numbers, of a file that has no names."""
         return [slot.rpartition("/")[0] for slot in self.header.slots]
-
-    def account(self, forces: bool = True) -> Account:
-        """What happened.
-
-        Parameters
-        ----------
-        forces : bool
-            Whether to form :attr:`forces`, where they are not recorded.
-
-        Raises
-        ------
-        InputError
-            If there is no ``optional/doctor``, or the file has no names or no scene.
-        """
-        return parts.account(self, forces)
 
     def _scene(self, scene: Scene | None) -> Scene:
         if scene is None:

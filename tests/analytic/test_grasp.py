@@ -77,7 +77,7 @@ def test_the_bunny_starts_at_rest_and_drag_is_small_ever_after(runs, demo, case)
     run = runs[case]
     assert np.abs(run["delta_q"][:20, 7:]).max() < AT_REST
     assert_relative(run["wrench"][0, :5, 2].sum(), 0.2 * 9.81, 1e-3)
-    swings = {"with_torsion": [], "without_torsion": ["lost grip", "not in equilibrium"]}
+    swings = {"with_torsion": [], "without_torsion": ["lost-grip", "not in equilibrium"]}
     assert [finding.name for finding in run.findings] == swings[case]
     _, _, errors = demo
     assert "drag" not in errors

@@ -5,15 +5,12 @@ import json
 import numpy as np
 import pytest
 
-from quasistatic_ref import load_scenario
 from quasistatic_ref.cli.options import WIDTH
-from quasistatic_ref.optional.doctor.time_step import time_step_record, time_step_words
-from tests.closeness import assert_relative, assert_within
+from tests.closeness import assert_within
 from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, urdf_of_text
-from tests.optional.doctor.words import block, slides
 from tests.pages import flat
-from tests.scenes import RAIL, SWING, written_scenario
+from tests.scenes import RAIL
 
 
 @pytest.fixture
@@ -134,84 +131,6 @@ def test_inspect_shows_inertias_along_the_axes_of_their_link(tmp_path, cli, insp
 def test_findings_are_listed_before_a_run(cli, inspected):
     scene = "block_push", "--set", "contacts.floor.k=1"
     printed = flat(cli("inspect", *scene).out)
-    assert "findings, before a run: - raise k of contacts.floor to 4: block lies flat" in printed
+    assert "findings, before a run: - grave: block lies flat" in printed
     (found,) = inspected(*scene)["findings"]
-    assert (found["name"], found["grave"]) == ("too few points", True)
-
-
-@pytest.fixture
-def record_and_words(cli, inspected):
-    """What is printed of the time step, as JSON, and the whole page in one line."""
-    return lambda *arguments: (
-        inspected(*arguments)["time_step"],
-        flat(cli("inspect", *arguments).out),
-    )
-
-
-def test_inspect_says_from_which_time_step_on_drag_is_small(scene, record_and_words):
-    """(R13): m v / h < mu_v m g / 10 where h > 10 v / (mu_v g)."""
-    record, text = record_and_words(scene)
-    v, mu_v, g = 0.02 / 0.1, 0.3, 9.81  # the plate's way and time, and the smaller mu_v
-    assert_relative(record["target_speed"], v)
-    assert_relative(record["small_drag_from"], 10 * v / (mu_v * g))
-    assert record["target_turn"] == 0.0  # the wheel turns, and touches nothing
-    assert record["between_waypoints"] == 0.1
-    assert "move by up to 0.2 m/s; drag is below a tenth of friction" in text
-    assert "on a body's weight from h = 0.68 s on; waypoints are at least 0.1 s apart" in text
-    weightless, text = record_and_words(scene, "--set", "gravity=[0,0,0]")
-    assert weightless == record | {"small_drag_from": None}
-    assert "drag" not in text
-
-
-def pressed(depth, speed, mu_v, on="floor"):
-    """A finger that wipes over a floor or a block, its target `depth` [m] inside."""
-    ways = [{"t": 0.0, "x": 0.0, "z": 0.0}, {"t": 0.1, "z": -depth, "x": 0.0},
-            {"t": 1.1, "x": speed, "z": -depth}]  # fmt: skip
-    tables = {"rows": 4, "k": 1}
-    return {
-        "h": 0.01,
-        "steps": 120,
-        "bodies": {
-            "finger": {"urdf": slides("xz", "<sphere radius='0.01'/>"), "actuated": ["x", "z"],
-                       "K_q": {"x": 1e4, "z": 1e4}, "targets": ways,
-                       "pose": {"xyz": [0, 0, 0.01] if on == "floor" else [1, 0, 0.03]}},
-            "block": {"urdf": block(0.1, (0.02, 0.02, 0.02)), "base": "floating",
-                      "pose": {"xyz": [1, 0, 0.01]}},
-        },
-        "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
-        "contacts": {"wipe": {**tables, "alpha": on, "beta": "finger/tip", "mu_v": mu_v},
-                     "rest": {**tables, "alpha": "floor", "beta": "block", "mu_v": 0.9}},
-    }  # fmt: skip
-
-
-@pytest.mark.parametrize(("depth", "speed", "mu_v"), [(0.25e-3, 0.05, 0.5), (2e-3, 0.01, 0.3)])
-def test_inspect_bounds_the_time_step_by_the_layer_of_what_is_pressed(depth, speed, mu_v):
-    """N = K_q (e + mu_v h v), (R13): K_q e to a tenth up to h = e / (10 mu_v v), 1 ms and 67 ms.
-
-    A finger alone feels no drag, which would ask for 102 ms.
-    """
-    record = time_step_record(load_scenario(pressed(depth, speed, mu_v)))
-    assert record["small_layer_to"] == pytest.approx(depth / (10 * mu_v * speed), rel=1e-9)
-    assert f"up to h = {record['small_layer_to']:.3g} s" in time_step_words(record)
-    alone = pressed(depth, speed, mu_v)
-    del alone["bodies"]["block"], alone["contacts"]["rest"]
-    assert time_step_record(load_scenario(alone)) == record | {"small_drag_from": None}
-    for still in (pressed(depth, 0.0, mu_v), pressed(depth, speed, 0.0)):
-        assert time_step_record(load_scenario(still))["small_layer_to"] is None
-
-
-def test_what_targets_carry_bounds_the_time_step_where_it_slides_first():
-    """2 mm deep at 20 mm/s: 20 ms. From then on the block may go along."""
-    record = time_step_record(load_scenario(pressed(2e-3, 0.02, 0.5, on="block")))
-    assert record["small_layer_to"] == pytest.approx(0.02, rel=1e-9)
-
-
-def test_inspect_says_how_far_a_target_turns_in_a_step(tmp_path, record_and_words):
-    """270 degrees in 10 ms and h = 2 ms: 54 degrees a step, a chord of 2 r sin(27 deg)."""
-    club = str(written_scenario(tmp_path, SWING))
-    record, text = record_and_words(club, "--set", "h=0.002", "--set", "steps=30")
-    turn = 1.5 * np.pi / 5
-    r = 0.2
-    assert_relative(record["target_turn"], turn)
-    assert_relative(record["target_speed"], 2 * r * np.sin(turn / 2) / 0.002)
-    assert "targets turn by up to 0.9425 rad a step; waypoints are at least 0.01 s apart" in text
+    assert (found["name"], found["grave"]) == ("too-few-points", True)

@@ -196,9 +196,9 @@ def test_a_collision_keeps_its_name_and_contacts_may_use_it(tmp_path):
 
 def test_findings_of_a_step_that_starts_deep_or_that_nothing_holds():
     deep = SYSTEM.placed({"block": {"xyz": (0, 0, -0.01)}})
-    assert [one.name for one in SIMULATOR.findings(deep)] == ["initial penetration"]
+    assert [one.name for one in SIMULATOR.findings(deep)] == ["initial-penetration"]
     assert SIMULATOR.findings() == ()
-    assert "unsupported body" in [one.name for one in scene(contacts={}).findings()]
+    assert "unsupported-body" in [one.name for one in scene(contacts={}).findings()]
 
 
 def test_stiffness_in_each_form_is_the_same_matrix():

@@ -197,6 +197,6 @@ def test_a_sweep_has_a_column_of_findings(tmp_path):
     scenes_written(tmp_path)
     varied = {"contacts.grip.mu_v": [0.01, 0.6], "solver.certify": ["off"]}
     rows = swept(tmp_path / "grasp.toml", tmp_path / "map", **varied)
-    assert [row["findings"] for row in rows] == [["lost grip"], []]
+    assert [row["findings"] for row in rows] == [["lost-grip"], []]
     table = list(csv.DictReader((tmp_path / "map" / TABLE).read_text().splitlines()))
-    assert [row["findings"] for row in table] == ["lost grip", ""]
+    assert [row["findings"] for row in table] == ["lost-grip", ""]

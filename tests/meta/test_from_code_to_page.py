@@ -36,9 +36,9 @@ def test_every_finding_is_on_its_page():
     assert_alike(
         names_of_findings("doctor"),
         GRAVE,
-        'The finding "{}" has no line: add - **{}**: ... to docs/findings.md, and a scene to '
+        'The finding "{}" has no row: add | `{}` | ... to docs/findings.md, and a scene to '
         "tests/optional/doctor/finding_scenes.py",
-        'docs/findings.md tells of the finding "{}", which no code gives: remove its line',
+        'docs/findings.md tells of the finding "{}", which no code gives: remove its row',
     )
     file = "docs/guides/does_my_contact_hold.md"
     table = text(file).partition("| finding | when |\n|---|---|\n")[2].partition("\n\n")[0]

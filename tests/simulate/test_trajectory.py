@@ -14,6 +14,7 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.certify import solution
 from quasistatic_ref.cli.run import worst_residual
+from quasistatic_ref.optional.doctor.telling import numbers_of
 from quasistatic_ref.optional.fast import joined
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.header import header_table
@@ -86,8 +87,8 @@ def test_a_recorded_step_of_many_bodies_is_the_one_that_was_solved(name, tmp_pat
     run = scenario.run()
     assert {*every} - {*run} == {"H", "g", "A", "b"}
     assert run["J"].size == 4 * run["column"].size <= every["J"].size
-    moved = run.account(forces=False).numbers
-    assert moved["pairs"] == every.account(forces=False).numbers["pairs"]
+    moved, all_moved = (numbers_of(each, scenario)["pairs"] for each in (run, every))
+    assert moved == all_moved
     path = save_trajectory(tmp_path / "run.npz", run)
     back = load_trajectory(path)
     for k in range(3):
@@ -167,7 +168,7 @@ def test_a_run_of_no_steps_is_a_trajectory(tmp_path, folder):
 
 
 def test_a_record_of_forces_is_kept_where_those_of_one_step_are_not_found(tmp_path, monkeypatch):
-    """And read back, and accounted for; its torque grows by 7e-4 N m a step."""
+    """And read back; its torque grows by 7e-4 N m a step."""
     found = solution.contact_forces
 
     def fails(step, near):
@@ -181,4 +182,3 @@ def test_a_record_of_forces_is_kept_where_those_of_one_step_are_not_found(tmp_pa
     run = load_trajectory(save_trajectory(tmp_path / "run.npz", scene.run()))
     assert np.isnan(run.forces).any(axis=(1, 2)).tolist() == [False, False, True, False]
     assert np.isnan(run.imbalance).tolist() == [False, False, True, False]
-    assert "the forces are not known in 1 steps, first in 2" in run.account(forces=True).missing

@@ -106,7 +106,7 @@ def make_backend_lie(monkeypatch, spoil):
 LIES = {
     "a motion a little off": lambda a: {"x": a.x + 1e-4},
     "no multipliers": lambda a: {"lam": 0 * a.lam},
-    "no motion": lambda a: {"x": 0 * a.x},
+    "no-motion": lambda a: {"x": 0 * a.x},
     "not a number": lambda a: {"x": np.nan * a.x},
 }
 
@@ -121,7 +121,7 @@ def test_an_optimal_status_is_not_evidence(spoil, monkeypatch, step):
 
 
 def test_certify_off_takes_the_solver_s_word_and_says_so(monkeypatch, step):
-    make_backend_lie(monkeypatch, LIES["no motion"])
+    make_backend_lie(monkeypatch, LIES["no-motion"])
     answer = solve_step(step, certify="off")
     assert answer.certificate.kind == "none"
     assert not answer.certificate.residuals

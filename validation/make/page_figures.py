@@ -20,7 +20,6 @@ from docs.drawings import (
     cone_surfaces,
     contact_geometry,
     corner_loads,
-    four_laws,
     free_body,
     friction_and_slip,
     grasp_map,
@@ -31,6 +30,7 @@ from docs.drawings import (
     opinion,
     phi_and_j_of_a_cloud,
     sliding_block,
+    slow_step,
     the_program,
     turn_and_step,
     two_moving_bodies,
@@ -44,10 +44,10 @@ from validation.tools.scripts import RESULTS, script_options
 
 Record = Mapping[str, Any]
 DRAWN = (
-    both_laws, cone_and_dual, cone_surfaces, contact_geometry, corner_loads, four_laws,
+    both_laws, cone_and_dual, cone_surfaces, contact_geometry, corner_loads,
     free_body, friction_and_slip, grasp_map, limit_surface_and_twist, many_bodies,
     mass_of_a_free_body, metres, opinion,
-    phi_and_j_of_a_cloud, sliding_block, the_program, turn_and_step,
+    phi_and_j_of_a_cloud, sliding_block, slow_step, the_program, turn_and_step,
     two_moving_bodies, where_no_gradient_is, wrenches_of_a_grip,
 )  # fmt: skip
 """Each is the figure of its name."""

@@ -45,6 +45,7 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json({"cases": report, "figures": written})
         return 0
     shared.print_rows(_table(report))
+    print("without torsion the bunny is meant to slip and turn in the grip: this is what it shows")
     for case, turned in rotations_by_case().items():
         least, middle, most = np.quantile(turned, (0.0, 0.5, 1.0))
         print(

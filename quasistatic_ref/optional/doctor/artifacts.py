@@ -43,22 +43,21 @@ def pressing(normal: Array) -> Mask:
 
 
 def quasi_dynamic_number(run: Run) -> float | None:
-    """The largest Pi = v / (mu_v g h) of its steps: the drag m v / h over the friction mu_v m g.
+    """The largest Pi of its free bodies: the drag m v / h over the friction sum mu_v N.
 
-    mu_v m g is the friction of a body that rests by its own weight, not of a body that is held. v
-    is the speed of the fastest un-actuated floating base, mu_v the least of the contacts that rub.
-    None where nothing floats, nothing rubs or nothing weighs, or where float64 has no number for
+    N are the normal forces on a body, whether its weight or a grip presses. Of each body the steps
+    count in which its contacts can bear half of the most friction that they can bear in the run.
+    None where nothing is free, nothing rubs or nothing presses, or where float64 has no number for
     it, as with a mu_v of 1e-323.
     """
-    mu_v = run.simulator.layout.mu_v
-    if not (run.free_bases and mu_v.any() and run.g > 0):
-        return None
-    at = [base.v.start for base in run.free_bases.values()]
-    ways = [without_warnings(norm, run["delta_q"][:, i : i + 3]) for i in at]
-    speed = quotient(np.max(ways, axis=0), run.h, np.nan)
-    Pi = quotient(speed, float(mu_v[mu_v > 0].min()) * run.g * run.h, np.nan)
-    known = Pi[np.isfinite(Pi)]
-    return float(known.max()) if known.size else None
+    known: list[float] = []
+    for body in (body for body in run.bodies_of if body.free):
+        friction = run["wrench"][:, body.contacts, 2] @ run["mu_v"][body.contacts]
+        momentum = run.noted("momentum")[:, body.coordinates[:3] - run.system.n_a]
+        drag = quotient(quotient(without_warnings(norm, momentum), run.h), run.h, np.nan)
+        Pi = quotient(drag, friction, np.nan)[friction >= friction.max() / 2]
+        known += Pi[np.isfinite(Pi)].tolist()
+    return max(known, default=None)
 
 
 def gap_after(phi: Array, n: Array, motion: Array) -> Array:

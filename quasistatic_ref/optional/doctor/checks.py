@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
+from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor import (
     contradictions,
@@ -116,8 +117,10 @@ OF_TIME = (Check(solving.proofs),)
 """Of wall time, which is no part of a trajectory's file."""
 
 
-def findings(checks: Iterable[Check], of: Start | Trajectory) -> list[Finding]:
-    """What each line of a table finds, in its order.
+def looked(checks: Iterable[Check], of: Start | Trajectory) -> tuple[list[Finding], str]:
+    """What each line of a table finds, in its order; and what was not looked at, and why.
+
+    Whatever fails in a check costs what it would have found, and never the run.
 
     Parameters
     ----------
@@ -126,24 +129,26 @@ def findings(checks: Iterable[Check], of: Start | Trajectory) -> list[Finding]:
     of : Start, Run or Trajectory
         The scene at its start, the run at its end, or the trajectory of a run that has steps.
     """
-    return [finding for check in checks if not check.unless(of) for finding in check.findings(of)]
-
-
-def not_looked_at(checks: Iterable[Check], of: Start) -> str:
-    """One line on what the lines of a table do not look at, and why; empty if they look at all.
-
-    Parameters
-    ----------
-    checks : iterable of Check
-    of : Start or Run
-    """
-    names: dict[str, list[str]] = {}
+    found: list[Finding] = []
+    skipped: dict[str, list[str]] = {}
     for check in checks:
-        if check.name and (reason := check.unless(of)):
-            names.setdefault(reason, []).append(check.name)
-    return "; ".join(f"{', '.join(each)}: {reason}" for reason, each in names.items())
+        name = check.name
+        try:
+            reason = check.unless(of)
+            found += [] if reason else check.findings(of)
+        except Exception as error:
+            name = name or check.findings.__name__.replace("_", " ")
+            reason = failure(error)
+        if name and reason:
+            skipped.setdefault(reason, []).append(name)
+    return found, "; ".join(f"{', '.join(names)}: {why}" for why, names in skipped.items())
+
+
+def failure(error: Exception) -> str:
+    """What failed, in a line."""
+    return one_line(f"{type(error).__name__} {error}".rstrip())
 
 
 def scene_findings(simulator: Simulator, q: Array, force: Array | None = None) -> list[Finding]:
     """The findings on a scene that is to start at q, (n_q,), under a force, (n_v,) [N, N m]."""
-    return findings(OF_SCENE, Start(simulator, q, force))
+    return looked(OF_SCENE, Start(simulator, q, force))[0]

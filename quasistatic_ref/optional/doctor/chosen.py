@@ -70,7 +70,7 @@ class Chosen:
         layer = self._adds[:, of].max(axis=1, initial=0.0) / load
         layer = np.where(layer > RISES, layer, 0.0)
         slip = quotient(body.mass * self._slips[:, of].max(axis=1, initial=0.0), run.h**2 * load)
-        asks[body] = (drag > 0) | (layer > 0)
+        asks[body] = np.asarray((drag > 0) | (layer > 0))
         near = [run.touches[:, run.pair_of == i].any(axis=1) for i in np.unique(run.pair_of[of])]
         _, of_set = np.unique([*near, run.targets_move], axis=1, return_inverse=True)
         sets = [drag * (of_set.ravel() == i) for i in range(of_set.max() + 1)]
@@ -85,7 +85,7 @@ class Chosen:
         pair = run.pairs[i]
         of = run.pair_of == i
         force = run.largest(of)
-        touches = run.touches[:, of].any(axis=1)
+        touches = np.asarray(run.touches[:, of].any(axis=1))
         stays = touches & np.append(run.steps == 1, touches[:-1]) & run.targets_move
         drag = np.zeros(run.steps)
         for body in run.near[pair.name]:

@@ -45,7 +45,7 @@ class Change(NamedTuple):
     Parameters
     ----------
     share : float
-        How much of it drag or the layer adds or takes, whichever is more [-].
+        How much of it changes, and by drag or the layer alone [-].
     k, pair : int
     what : int
         Normal force, friction, torque, slip or spin.
@@ -85,7 +85,7 @@ def _changes(run: Run, k: int, part: Part) -> Iterator[Change]:
     slow = _landed(part.slow, (run.touches[k] & before & (k > 0))[at])
     rungs = [slow.last] if slow.last else slow.climbed
     last = rungs[-1] if rungs else None
-    if last is None or last.T < slow.end:
+    if last is None or slow.end > last.T:
         return
     if np.abs(last.delta_q[slow.step.n_a :]).max(initial=0.0) > FALLS * last.T**2:
         return
@@ -93,7 +93,7 @@ def _changes(run: Run, k: int, part: Part) -> Iterator[Change]:
     delta_q, forces = slow.convex(slow.end, slow.level)
     motion = contacts.motion(last.delta_q)
     laws = (
-        (run["wrench"][k, at], run.noted("moved")[k, at]),
+        (run.at(k).forces[at], run.noted("moved")[k, at]),
         (forces, contacts.motion(delta_q)),
         (last.forces, motion),
     )
@@ -117,9 +117,8 @@ def _changes(run: Run, k: int, part: Part) -> Iterator[Change]:
         sizes = np.array([force, force, arm, *here[SLIP:]])
         drag = here - convex
         layer = convex - slowly
-        parts = np.maximum(np.abs(drag), np.abs(layer))  # those of a force may cancel
-        parts[SLIP:] = np.abs(here - slowly)[SLIP:]
-        shares = counts * quotient(parts, sizes)
+        change = np.minimum(np.abs(here - slowly), np.maximum(np.abs(drag), np.abs(layer)))
+        shares = counts * quotient(change, sizes)
         j = int(shares.argmax())
         amounts = (float(x[j]) for x in (here, slowly, drag, layer))
         yield Change(float(shares[j]), k, i, j, *amounts)

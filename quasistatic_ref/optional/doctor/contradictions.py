@@ -60,7 +60,8 @@ def density(start: Start) -> Iterator[Finding]:
                 "density",
                 True,
                 f"check mass and size of {name}",
-                f"{mass:.3g} kg in {1e6 * volume:.3g} cm^3 are {mass / volume:.3g} kg/m^3, and "
+                f"{name} has {mass:.3g} kg in {1e6 * volume:.3g} cm^3, {mass / volume:.3g} "
+                "kg/m^3, and "
                 f"bodies have {DENSITIES[0]:g} to {DENSITIES[1]:,.0f}",
                 {"density_kg_per_m3": mass / volume},
             )
@@ -119,8 +120,10 @@ def inertia(start: Start) -> Iterator[Finding]:
                 "inertia",
                 True,
                 f"check the inertia of {name}",
-                f"a moment of {largest:.3g} kg m^2 is {share:.2g} times m r^2, with {mass:.3g} kg "
-                f"and at most r = {1e3 * radius:.3g} mm from the centre of mass; a ball has 0.4",
+                f"the largest moment of inertia of {name}, {largest:.3g} kg m^2, is {share:.2g} "
+                "times "
+                f"m r^2, with {mass:.3g} kg and at most r = {1e3 * radius:.3g} mm from the "
+                "centre of mass; a ball has 0.4",
                 {"share": share},
             )
 
@@ -139,11 +142,12 @@ def centre(start: Start) -> Iterator[Finding]:
         extent = hull.extent
         if away > (1.0 if _are_feet(shapes, hull) else OUTSIDE) * extent:
             yield Finding(
-                "centre of mass",
+                "centre-of-mass",
                 True,
                 f"check the centre of mass of {name}, or the origin of its shapes",
-                f"it is {1e3 * away:.3g} mm outside of its shapes, which are {1e3 * extent:.3g} mm "
-                "long; both are in the frame of the link",
+                f"the centre of mass of {name} is {1e3 * away:.3g} mm outside of its shapes, "
+                "which are "
+                f"{1e3 * extent:.3g} mm long; both are in the frame of the link",
                 {"outside_mm": 1e3 * away},
             )
 
@@ -162,7 +166,7 @@ def sizes_apart(start: Start) -> Iterator[Finding]:
     large = max(largest, key=largest.__getitem__)
     if largest[large] > RATIO * largest[small]:
         yield Finding(
-            "sizes apart",
+            "sizes-apart",
             True,
             f"check the units of {large} and {small}",
             f"lengths are in metres, and {large} is {largest[large]:.3g} m long, {small} "

@@ -63,6 +63,8 @@ def bearing(step: StepData, touching: Mask, at_most: Array | float = np.inf) -> 
     from scipy.optimize import linprog  # takes as long as a short run
 
     n_u = step.n_u
+    if not n_u:
+        return np.zeros(0), np.zeros(step.contacts.n_c)
     rows, contact = _cone_rows(step, touching)
     root = np.linalg.cholesky(step.M_u)  # of a free body forces, and torques about its centre
     along = np.linalg.solve(root, np.column_stack([rows[:, step.n_a :].T, step.tau_u]))

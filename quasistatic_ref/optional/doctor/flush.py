@@ -98,7 +98,7 @@ def _finding(start: Start, ahead: Side, on: Side, how: str, numbers: dict[str, f
     cause = f"{name} lies on {one}, with which {other} is flush, {how}: closest points at an edge "
     cause += "of this face have a normal along it"
     remedy = f"make {one} and {other} one shape, or set {other} 10 um lower"
-    return Finding("flush shapes", False, remedy, cause, numbers)
+    return Finding("flush-shapes", False, remedy, cause, numbers, name)
 
 
 def _sides(

@@ -7,8 +7,8 @@ import numpy as np
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.stopped import Scene, missing
 from quasistatic_ref.optional.doctor.start import least_mean, table
+from quasistatic_ref.optional.doctor.stopped import Scene, missing
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.optional.doctor.tolerances import SLIPPED
 from quasistatic_ref.simulate.finding import Finding
@@ -121,7 +121,7 @@ def _finding(
         does = f"slips by {length(way)} along {holders}"
         says += f"its friction bears {float(normal[on] @ run.mu[on, 0]):.3g} N"
     return Finding(
-        "lost grip",
+        "lost-grip",
         True,
         remedy,
         f"{body.name} {does}; at {run['t'][k]:.2f} s {says}{more}",

@@ -171,7 +171,7 @@ def guided(start: Start) -> Iterator[Finding]:
                 f"{unit}/s, whatever the force"
             )
         yield Finding(
-            "guided friction",
+            "guided-friction",
             True,
             _remedy(start, guide, step),
             cause,
@@ -271,7 +271,7 @@ def locked(run: Run) -> Iterator[Finding]:
         unit = "N" if coordinate.unit == "m" else "N m"
         moved = amount(abs(float(run["delta_q"][k, n_a + i])), coordinate.unit)
         yield Finding(
-            "locked guide",
+            "locked-guide",
             True,
             _remedy(run, guide, at_rest(run, run["q"][k], contacts)),
             f"{coordinate.name} moves by {moved} under {abs(force[i]):.3g} {unit} in step {k}, "

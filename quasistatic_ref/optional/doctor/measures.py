@@ -1,84 +1,154 @@
-"""The account of a run, from its file alone: what each pair, body and joint did.
+"""What each pair, body and joint did in a run."""
 
-What it needs of a scene stands in the header of the file, as :func:`scene_notes` writes it.
-"""
+from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
-from functools import cache
-from typing import Any, Final
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.certify.solution import UNKNOWN
-from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.model.joints import BASES, JOINTS
+from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.optional.doctor.accounts import (
-    Account,
-    Drive,
-    Loads,
-    Motion,
-    PairAccount,
-    Stop,
-)
 from quasistatic_ref.optional.doctor.artifacts import gap_after, pressing
-from quasistatic_ref.optional.doctor.telling import (
-    drive_numbers,
-    motion_numbers,
-    pair_numbers,
-    stop_numbers,
-)
 from quasistatic_ref.optional.doctor.tolerances import NEAR
 from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.shapes.placed_shape import PlacedShape
-from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import friction_coefficients
+
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.settings import Settings
 
 TOUCHES: Final = 1e-9
 """Slack of a row of a contact that touches, at most [m]: certified steps leave rounding, 1e-16, and
 a spring of 1e5 N/m presses 1e-9 m with 0.1 mN."""
 
 SLIDES: Final = 1e-4
-"""Slip of a contact that an account says slides, at least [m/s]: 1 mm in ten seconds."""
+"""Slip of a pair that slides, at least [m/s]: 1 mm in ten seconds."""
 
 SPINS: Final = 1e-3
-"""Turn about its normal of a contact that an account says spins, at least [rad/s]: 0.6 deg in ten
+"""Turn about its normal of a pair that spins, at least [rad/s]: 0.6 deg in ten
 seconds."""
 
 SMALL = 1e-6
 """Angle of a rotation whose axis is rounding [rad]."""
 
 
-def scene_notes(recorder: Recording) -> dict[str, Any]:
-    """Names and constants that the arrays of a trajectory do not hold.
+@dataclass(frozen=True, eq=False)
+class PairMeasures(Plain):
+    """What two shapes did.
 
-    Returns
-    -------
-    dict
-        ``pairs`` (of each its name, what alpha is and what beta is: a link, or a shape of the
-        world), ``stiffness`` (the diagonal of K_q, empty where K_q has other entries) and
-        ``gravity`` [m/s^2].
+    Parameters
+    ----------
+    name : str
+    table : str
+        The table of contacts that it is of.
+    phi : ndarray, shape (steps,)
+        Least distance where a step starts [m].
+    touches : ndarray of bool, shape (steps,)
+        Whether a contact has a row without slack: phi + n'J delta_q is then the least that its slip
+        allows, which is unique. Without J, only what has a positive multiplier is known to touch.
+    slip : ndarray, shape (steps,), or None
+        Mean slip of the contacts that touch [m]; None where the record has no J.
+    turn : ndarray, shape (steps,), or None
+        Mean turn about the normals of the contacts that touch [rad], likewise.
+    slides, spins : ndarray of bool, shape (steps,)
+        Whether these are fast; never where they are not known.
     """
-    return {
-        "gravity": [float(x) for x in recorder.simulator.gravity],
-        "pairs": [sides(recorder.system, pair) for pair in recorder.simulator.pairs],
-        "stiffness": stiffness(recorder.simulator.K_q).tolist(),
-    }
+
+    name: str
+    table: str
+    phi: Array
+    touches: Mask
+    slip: Array | None
+    turn: Array | None
+    slides: Mask
+    spins: Mask
 
 
-def sides(system: System, pair: ContactPair) -> list[str]:
-    """A pair's name, and the names of what touches."""
-    return [pair.name, side(system, pair.alpha), side(system, pair.beta)]
+@dataclass(frozen=True, eq=False)
+class Motion(Plain):
+    """How a body that nothing drives moved, or a joint of it.
+
+    Parameters
+    ----------
+    of : Joint
+    moved : ndarray, shape (steps + 1, 3)
+        From the start, along the world's axes [m]; of a prismatic joint its position, along x.
+    turned : ndarray, shape (steps + 1,)
+        From the start, whole turns counted [rad].
+    turned_in : dict of str to ndarray, shape (steps + 1,)
+        The same of a free body as each driven base that moves freely sees it, such as a hand [rad].
+    """
+
+    of: Joint
+    moved: Array
+    turned: Array
+    turned_in: dict[str, Array]
+
+
+@dataclass(frozen=True, eq=False)
+class Drive(Plain):
+    """What an actuated joint or base did.
+
+    Parameters
+    ----------
+    of : Joint
+    unit : str
+        Of its error, ``"m"`` or ``"rad"``.
+    error : ndarray, shape (steps,)
+        Distance from its target at the end of each step [m], of a joint that turns [rad].
+    way : float
+        How far its target goes from where it starts, at most [m], of a joint that turns [rad].
+    spring : ndarray, shape (steps,), or None
+        Force of its spring where a step ends, K_q times that [N, N m]; None of a base, and where
+        K_q is not diagonal.
+    """
+
+    of: Joint
+    unit: str
+    error: Array
+    way: float
+    spring: Array | None
+
+
+@dataclass(frozen=True, eq=False)
+class Measures(Plain):
+    """What happened in a run, without forces.
+
+    Parameters
+    ----------
+    pairs : tuple of PairMeasures
+    motions : tuple of Motion
+        Of what nothing drives.
+    drives : tuple of Drive
+    """
+
+    pairs: tuple[PairMeasures, ...]
+    motions: tuple[Motion, ...]
+    drives: tuple[Drive, ...]
+
+
+def measures(trajectory: Trajectory, settings: Settings) -> Measures:
+    """What happened in a run of a scenario or simulator."""
+    system = settings.system
+    joints = system.joints
+    hands = [joint for joint in joints if joint.actuated and joint.free]
+    K = stiffness(settings.K_q)
+    driven = [joint for joint in joints if joint.actuated and trajectory.steps]
+    return Measures(
+        pairs=tuple(pair_measures(trajectory) if trajectory.steps else ()),
+        motions=tuple(
+            _motion(joint, trajectory["q"], hands) for joint in joints if not joint.actuated
+        ),
+        drives=tuple(drive(joint, trajectory, K) for joint in driven),
+    )
 
 
 def side(system: System, placed: PlacedShape) -> str:
@@ -94,109 +164,6 @@ def stiffness(K_q: Array) -> Array:
     """The diagonal of K_q, shape (n_a,) [N/m, N m/rad]; empty where K_q has other entries."""
     diagonal = np.diag(K_q)
     return diagonal if np.array_equal(K_q, np.diag(diagonal)) else np.zeros(0)
-
-
-def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
-    """The account of a run.
-
-    Parameters
-    ----------
-    trajectory : Trajectory
-    forces : bool
-        Whether to form the forces of a full record.
-
-    Raises
-    ------
-    InputError
-        If the file has no names of its positions or no scene, or its scene is none.
-    """
-    header = trajectory.header
-    scene = _scene(header)
-    K = np.array(scene.sequence("stiffness"), dtype=np.float64)
-    joints = list(joints_of(list(header.positions), header.n_a))
-    missing: list[str] = []
-    pairs: list[PairAccount] = []
-    drives: list[Drive] = []
-    if trajectory.steps:
-        motion = _motion_of_contacts(trajectory)
-        if motion is None:
-            missing.append(
-                f"a {header.record} record has no slips, and what touches without a positive "
-                "multiplier is not known"
-            )
-        wrench = _forces(trajectory, forces, missing)
-        pairs = pair_accounts(trajectory, scene.sequence("pairs"), motion, wrench)
-        drives = [drive(joint, trajectory, K) for joint in joints if joint.actuated]
-    hands = [joint for joint in joints if joint.actuated and joint.free]
-    motions = [_motion(joint, trajectory["q"], hands) for joint in joints if not joint.actuated]
-    stops = list(_stops(trajectory, {joint.name for joint in joints}))
-    t = trajectory["t"]
-    h = header.h
-    down = np.array(scene.sequence("gravity"), dtype=np.float64)
-    down = down if down.any() else np.array([0.0, 0.0, -1.0])
-    up = -down / np.linalg.norm(down)
-    return Account(
-        t=t,
-        h=h,
-        pairs=tuple(pairs),
-        motions=tuple(motions),
-        drives=tuple(drives),
-        stops=tuple(stops),
-        missing=tuple(missing),
-        numbers={
-            "bodies": {
-                each.of.name.removesuffix("/base"): motion_numbers(each, up) for each in motions
-            },
-            "joints": {one.of.name: drive_numbers(one) for one in drives},
-            "stops": {one.name: stop_numbers(one, h) for one in stops},
-            "pairs": {one.name: pair_numbers(one, t, h) for one in pairs},
-        },
-    )
-
-
-def _scene(header: Header) -> TableReader:
-    if header.scene is None:
-        problem = "has no scene: it is from before there were accounts; run it again"
-        raise InputError(problem, field="scene")
-    return TableReader(header.scene, "scene")
-
-
-def joints_of(positions: list[str], n_a: int) -> Iterator[Joint]:
-    """The bases and joints of a file, by the names of its entries of q.
-
-    Parameters
-    ----------
-    positions : list of str, length n_q
-        Such as ``arm/elbow [rad]`` and ``mug.z [m]``.
-    n_a : int
-
-    Raises
-    ------
-    InputError
-        If a name is none of a base or joint.
-    """
-    q = 0
-    v = 0
-    while q < len(positions):
-        joint = _first_joint(positions[q:], v < n_a)
-        n_q = len(joint.positions)
-        n_v = len(joint.coordinates)
-        yield replace(joint, q=slice(q, q + n_q), v=slice(v, v + n_v))
-        q += n_q
-        v += n_v
-
-
-def _first_joint(positions: list[str], actuated: bool) -> Joint:
-    """The joint to which the first of some entries of q belong."""
-    entry = positions[0].rpartition(" [")[0]  # a unit is the last of a heading
-    owner = entry.rpartition(".")[0]
-    for kind in (*BASES.values(), *JOINTS.values()):
-        for name in (owner if "/" in owner else f"{owner}/base", entry):
-            joint = kind(name, actuated, slice(0), slice(0))
-            headings = [position.heading for position in joint.positions]
-            if headings == positions[: len(headings)]:
-                return joint
-    raise InputError("is no entry of a base or joint", field="positions", value=positions[0])
 
 
 def _turns(joint: Joint, q: Array, q_0: Array) -> Array:
@@ -222,24 +189,16 @@ def _turned(turns: Array) -> Array:
     return np.asarray(np.linalg.norm(turned, axis=1))
 
 
-def pair_accounts(
-    run: Trajectory,
-    named: Sequence[Sequence[str]],
-    motion: Array | None,
-    wrench: Array | None,
-) -> list[PairAccount]:
-    """The accounts of the pairs of a run that has steps.
+def pair_measures(run: Trajectory, motion: Array | None = None) -> list[PairMeasures]:
+    """What the pairs of a run that has steps did.
 
     Parameters
     ----------
     run : Trajectory
-    named : sequence of sequence of str
-        Of each pair its name, what alpha is and what beta is.
-    motion : ndarray, shape (steps, n_c, 4), or None
-        J delta_q [m, m, m, rad].
-    wrench : ndarray, shape (steps, n_c, 4), or None
-        Forces of single contacts [N, N m].
+    motion : ndarray, shape (steps, n_c, 4), optional
+        J delta_q [m, m, m, rad], where it is known; by default that of a record that has it.
     """
+    motion = _motion_of_contacts(run) if motion is None else motion
     slots = np.array(run.pair_names)
     h = run.header.h
     touch = touching(run, motion)
@@ -249,32 +208,40 @@ def pair_accounts(
         slips = contact_slips(run, motion)
         slip = np.hypot(slips[:, :, 0], slips[:, :, 1])
         turn = np.abs(slips[:, :, 2])
-    accounts = []
-    for name, alpha, beta in named:
+    never = np.zeros(run.steps, dtype=bool)
+    pairs = []
+    for name in dict.fromkeys(run.pair_names):
         of_pair = slots == name
-        if not of_pair.any():
-            continue
         on = touch[:, of_pair]
-        touches = np.asarray(on.any(axis=1))
         slid = None if slip is None else _mean(slip[:, of_pair], on)
         turned = None if turn is None else _mean(turn[:, of_pair], on)
-        never = np.zeros(run.steps, dtype=bool)
-        accounts.append(
-            PairAccount(
+        pairs.append(
+            PairMeasures(
                 name=name,
-                alpha=alpha,
-                beta=beta,
                 table=name.partition("(")[0],
                 phi=run["phi"][:, of_pair].min(axis=1),
-                touches=touches,
+                touches=np.asarray(on.any(axis=1)),
                 slip=slid,
                 turn=turned,
                 slides=never if slid is None else slid > SLIDES * h,
                 spins=never if turned is None else turned > SPINS * h,
-                loads=None if wrench is None else _loads(run, wrench[:, of_pair], of_pair),
             )
         )
-    return accounts
+    return pairs
+
+
+def _motion_of_contacts(run: Trajectory) -> Array | None:
+    """J delta_q, shape (steps, n_c, 4) [m, m, m, rad], of a record that has it."""
+    if "motion" in run.arrays:
+        return run["motion"]
+    if "J" not in run.arrays:
+        return None
+    delta_q = run["delta_q"]
+    if "column" in run:
+        every = np.pad(delta_q, ((0, 0), (0, 1)))[:, None]
+        of_columns = np.take_along_axis(every, run["column"], axis=-1)
+        return np.asarray(np.einsum("kciv,kcv->kci", run["J"], of_columns))
+    return np.asarray(np.einsum("kciv,kv->kci", run["J"][..., : delta_q.shape[1]], delta_q))
 
 
 def touching(run: Trajectory, motion: Array | None) -> Mask:
@@ -298,85 +265,6 @@ def _mean(values: Array, on: Mask) -> Array:
     """Mean over the contacts that are on, shape (steps,); 0 where none is."""
     total = np.where(on, values, 0.0).sum(axis=1)
     return np.asarray(total / np.maximum(on.sum(axis=1), 1))
-
-
-def _loads(run: Trajectory, wrench: Array, of_pair: Mask) -> Loads:
-    """Sums over the contacts of a pair, of wrenches (steps, n, 4) [N, N m]."""
-    normal = wrench[:, :, 2].sum(axis=1)
-    needs = gauge(run.header.cone, wrench, contact_mu(run)[of_pair]).sum(axis=1)
-    return Loads(
-        normal=normal,
-        friction=np.hypot(wrench[:, :, 0], wrench[:, :, 1]).sum(axis=1),
-        torque=np.abs(wrench[:, :, 3]).sum(axis=1),
-        share=np.divide(needs, normal, out=np.zeros_like(needs), where=normal > 0),
-    )
-
-
-def gauge(name: str, wrench: Array, mu: Array) -> Array:
-    """The normal force that contacts need for their friction and torsion, shape (..., n_c) [N].
-
-    It is the gauge of the cone's base: in the pyramid (|f_1| + |f_2|) / mu_v + |tau| / mu_omega, in
-    the ellipsoid the length of these three, in other polyhedral cones the least sum of multipliers.
-    Terms whose coefficient is 0 are left out.
-
-    Parameters
-    ----------
-    name : str
-        Of the cone.
-    wrench : ndarray, shape (..., n_c, 4)
-        (f_d1, f_d2, f_n, tau_n) [N, N m].
-    mu : ndarray, shape (n_c, 3)
-        (mu_v, mu_v, mu_omega) [-, -, m].
-    """
-    parts = wrench[..., [0, 1, 3]]
-    needs = np.divide(parts, mu, out=np.zeros_like(parts), where=mu > 0)
-    if not cone(name).polyhedral:
-        return np.asarray(np.linalg.norm(needs, axis=-1))
-    return np.asarray((needs @ _facets(name).T).max(axis=-1, initial=0.0))
-
-
-@cache
-def _facets(name: str) -> Array:
-    """Of the hull of a cone's directions the facets a, shape (F, 3), where it is a . x <= 1."""
-    from scipy.spatial import ConvexHull  # takes as long as a short run
-
-    directions = cone(name).matrix[:, 1:]
-    if not directions.any():
-        return np.zeros((0, 3))
-    equations = ConvexHull(directions).equations
-    return np.asarray(equations[:, :3] / -equations[:, 3:])
-
-
-def _motion_of_contacts(run: Trajectory) -> Array | None:
-    """J delta_q, shape (steps, n_c, 4) [m, m, m, rad], of a record that has it."""
-    if "motion" in run.arrays:
-        return run["motion"]
-    if "J" not in run.arrays:
-        return None
-    delta_q = run["delta_q"]
-    if "column" in run:
-        every = np.pad(delta_q, ((0, 0), (0, 1)))[:, None]
-        of_columns = np.take_along_axis(every, run["column"], axis=-1)
-        return np.asarray(np.einsum("kciv,kcv->kci", run["J"], of_columns))
-    return np.asarray(np.einsum("kciv,kv->kci", run["J"][..., : delta_q.shape[1]], delta_q))
-
-
-def _forces(run: Trajectory, wanted: bool, missing: list[str]) -> Array | None:
-    if "forces" in run.arrays or (wanted and run.header.record == "full"):
-        try:
-            forces = run.forces
-        except InputError:
-            missing.append(UNKNOWN)
-            return None
-        without = np.flatnonzero(np.isnan(forces).any(axis=(1, 2)))
-        if not without.size:
-            return forces
-        missing.append(f"the forces are not known in {without.size} steps, first in {without[0]}")
-    elif run.header.record == "full":
-        missing.append("the forces are not formed here: 'quasistatic-ref account' does that")
-    else:
-        missing.append("a light record holds no forces: run again with record = 'forces'")
-    return None
 
 
 def _bears(run: Trajectory) -> Mask:
@@ -419,16 +307,6 @@ def _angle_in(body: Joint, hand: Joint, q: Array) -> Array:
     of_body, of_hand = (Rotation.from_quat(q[:, one.q][:, one.lengths :]) for one in (body, hand))
     seen = of_hand.inv() * of_body
     return _turned((seen * seen[0].inv()).as_rotvec())
-
-
-def _stops(run: Trajectory, joints: set[str]) -> Iterator[Stop]:
-    """The limits that a joint came to; they are rows of an extension, by their names."""
-    for i, name in enumerate(run.header.extra):
-        joint, at, end = name.rpartition(" at its ")
-        if at and end.endswith(" limit") and joint in joints:
-            force = run["lam_extra"][:, i] / run.header.h
-            if (force > 0).any():
-                yield Stop(name, force)
 
 
 def drive(joint: Joint, run: Trajectory, K: Array) -> Drive:

@@ -8,24 +8,22 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.doctor.account import scene_notes
 from quasistatic_ref.optional.doctor.artifacts import boundary_layer, gives, quasi_dynamic_number
 from quasistatic_ref.optional.doctor.checks import (
     NO_STEPS,
     OF_RUN,
     OF_SCENE,
     Check,
-    findings,
-    not_looked_at,
+    failure,
+    looked,
 )
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Start
-from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.finding import Finding, told
 from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.observer import Observer, Recording
 from quasistatic_ref.simulate.result import StepArrays, StepResult
@@ -39,12 +37,18 @@ class Doctor(Observer):
     ----------
     printed : bool
         Whether to print the findings on standard error, too.
+    notes : bool
+        Whether what is not grave is printed whole.
+    ignore : sequence of str
+        Names of findings that are not said.
     """
 
     notes = ("moved", "momentum", "gives")
 
-    def __init__(self, printed: bool) -> None:
+    def __init__(self, printed: bool, notes: bool = False, ignore: Sequence[str] = ()) -> None:
         self.printed = printed
+        self.shows_notes = notes
+        self.ignore = tuple(ignore)
 
     def after(
         self, recorder: Recording, results: Sequence[StepResult], arrays: StepArrays
@@ -53,7 +57,7 @@ class Doctor(Observer):
 
         J delta_q, shape (steps, n_c, 4) [m, m, m, rad], of which a light record holds nothing; M_u
         delta_q_u, (steps, n_u) [kg m, kg m^2]; what springs give along n, (steps, n_c) [m/N].
-        Nothing where there is no room for it: that costs the findings, and not the run.
+        Nothing where that fails, as without room: it costs the findings, and not the run.
         """
         try:
             return {
@@ -61,14 +65,14 @@ class Doctor(Observer):
                 "momentum": _momentum(recorder.system, results, arrays["delta_q"]),
                 "gives": gives([result.step for result in results]),
             }
-        except MemoryError:
+        except Exception:
             return {}
 
     def end(self, recorder: Recording, trajectory: Trajectory, interrupted: bool) -> Trajectory:
         """The trajectory with its findings: unless they are printed, they are looked for late."""
         known = field_values(trajectory.header) | {
-            "scene": scene_notes(recorder),
             "largest_boundary_layer": 0.0,
+            "ignore": self.ignore,
         }
         lost = ""
         noted = len(recorder.noted("gives"))
@@ -80,8 +84,8 @@ class Doctor(Observer):
                 at = run = Run(recorder, trajectory)
                 known["quasi_dynamic_number"] = quasi_dynamic_number(run)
                 known["largest_boundary_layer"] = boundary_layer(run)
-        except MemoryError as error:
-            lost = _lost(error)
+        except Exception as error:
+            lost = f"findings: {failure(error)}"
         header = Header(**known | {"not_looked_at": lost})
         if not lost:
             del known["findings"], known["not_looked_at"]
@@ -89,8 +93,8 @@ class Doctor(Observer):
         if not self.printed:
             return replace(trajectory, header=header)
         trajectory = replace(trajectory, header=Header(**field_values(header)))
-        for finding in trajectory.findings:
-            print(f"quasistatic-ref: {finding}", file=sys.stderr)
+        for line in told(trajectory.findings, trajectory.ignored_findings, self.shows_notes):
+            print(f"quasistatic-ref: {line}", file=sys.stderr)
         if header.not_looked_at:
             print(f"quasistatic-ref: not looked at: {header.not_looked_at}", file=sys.stderr)
         return trajectory
@@ -129,11 +133,8 @@ class LateHeader(Header):
 
     @cached_property
     def _diagnosis(self) -> tuple[tuple[Finding, ...], str]:
-        """Findings, and what was not looked at: an error costs the findings, and not the run."""
-        try:
-            return _looked_for(self.at, self.failed is not None)
-        except (MemoryError, QuasistaticError) as error:
-            return (), _lost(error)
+        """Findings, and what was not looked at."""
+        return _looked_for(self.at, self.failed is not None)
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
@@ -144,11 +145,6 @@ class LateHeader(Header):
     def not_looked_at(self) -> str:
         """As of a header."""
         return self._diagnosis[1]
-
-
-def _lost(error: Exception) -> str:
-    """The findings, as not looked at because of an error."""
-    return f"findings: {type(error).__name__} {error}".rstrip()
 
 
 def _header(values: dict[str, Any]) -> Header:
@@ -162,9 +158,9 @@ def _looked_for(at: Start, failed: bool) -> tuple[tuple[Finding, ...], str]:
         checks += OF_RUN
     elif not failed:
         checks += NO_STEPS
-    every = findings(checks, at)
-    skipped = [not_looked_at(checks, at)]
-    if isinstance(at, Run) and not at.own_terms and at.asked.unknown:
+    found, skipped = looked(checks, at)
+    if isinstance(at, Run) and not at.own_terms and "asked" in vars(at) and at.asked.unknown:
         names = listed(sorted(at.asked.unknown))
-        skipped.append(f"equilibrium of {names}: no answer of a slow step, or too many touch")
-    return tuple(every), "; ".join(filter(None, skipped))
+        open_ones = f"equilibrium of {names}: no answer of a slow step, or too many touch"
+        skipped = "; ".join(filter(None, (skipped, open_ones)))
+    return tuple(found), skipped

@@ -45,7 +45,8 @@ def gravity(start: Start) -> Iterator[Finding]:
                 "gravity",
                 True,
                 "check the direction of gravity",
-                f"it is ({x:g}, {y:g}, {z:g}) m/s^2, and does not press {name} on what it lies on, "
+                f"gravity is ({x:g}, {y:g}, {z:g}) m/s^2, and does not press {name} on what it "
+                "lies on, "
                 f"{pair.name}",
                 {"upwards": up},
             )
@@ -68,16 +69,16 @@ def in_the_air(start: Start) -> Iterator[Finding]:
             pair, gap = min(falls, key=lambda x: x[1])
             if np.isfinite(gap):
                 yield Finding(
-                    "starts in the air",
+                    "starts-in-the-air",
                     True,
                     f"lower {name} by {1e3 * gap:.4g} mm, or check its origin",
-                    f"it starts in the air, {1e3 * gap:.4g} mm above what may bear it "
+                    f"{name} starts in the air, {1e3 * gap:.4g} mm above what may bear it "
                     f"({pair.name})",
                     {"gap_mm": 1e3 * gap},
                 )
             else:
                 yield Finding(
-                    "unsupported body",
+                    "unsupported-body",
                     True,
                     joining(start, f"{name} and what should bear it"),
                     f"nothing that may touch {name} is below it: it falls past "
@@ -97,7 +98,7 @@ def penetration(start: Start) -> Iterator[Finding]:
         deeper = name not in deepest or 1e3 * depth > deepest[name].numbers["depth_mm"]
         if depth > SUNK * least(pair) and deeper:
             deepest[name] = Finding(
-                "initial penetration",
+                "initial-penetration",
                 True,
                 f"start {pair.alpha.name} and {pair.beta.name} {1e3 * depth:.3g} mm farther apart",
                 f"{pair.name} is {1e3 * depth:.3g} mm deep at the start, and a step undoes that at "
@@ -129,12 +130,14 @@ def inside(start: Start) -> Iterator[Finding]:
             depth = -float(hull.signed_distance((middle - t[link])[None] @ R[link])[0][0])
             if depth > 0:
                 yield Finding(
-                    "starts inside",
+                    "starts-inside",
                     False,
                     f"start {side.name} outside of {name}",
-                    f"its middle is {1e3 * depth:.3g} mm inside of the hull of {name}, none of "
+                    f"the middle of {side.name} is {1e3 * depth:.3g} mm inside of the hull of "
+                    f"{name}, none of "
                     "which it touches: what is between the points or shapes of a body is empty",
                     {"depth_mm": 1e3 * depth},
+                    side.name,
                 )
 
 

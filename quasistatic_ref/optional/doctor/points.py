@@ -61,7 +61,7 @@ def few_points(start: Start) -> Iterator[Finding]:
             more = [len(some) - len(few) for few, some in zip(kept, every, strict=True)]
             lacks = int(np.argmax(more))
             yield Finding(
-                "too few points",
+                "too-few-points",
                 True,
                 more_points(start, of_body[lacks][0], len(every[lacks])),
                 f"{name} lies flat on {len(of_all)} points, of which {len(of_kept)} are kept, and "
@@ -106,13 +106,14 @@ def strays(start: Start) -> Iterator[Finding]:
             places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * points[:SHOWN]]
             more = ["..."] if len(points) > SHOWN else []
             yield Finding(
-                "stray points",
+                "stray-points",
                 False,
-                f"leave {len(points)} stray points out of the cloud of {name}, or make it by "
-                "quasistatic-ref body",
-                f"they lie at {', '.join(places + more)} mm, apart from the {len(shape.points)} "
+                "leave them out, or make the cloud by quasistatic-ref body",
+                f"{len(points)} points of the cloud of {name} lie at {', '.join(places + more)} "
+                f"mm, apart from the {len(shape.points)} "
                 "points of its surface",
                 {"strays": len(points)},
+                name,
             )
 
 

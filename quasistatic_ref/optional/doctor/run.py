@@ -12,18 +12,18 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
-from quasistatic_ref.optional.doctor.account import (
+from quasistatic_ref.optional.doctor.artifacts import gap_after, quotient, ways_of
+from quasistatic_ref.optional.doctor.asked import Asked
+from quasistatic_ref.optional.doctor.bodies import Body, bodies
+from quasistatic_ref.optional.doctor.measures import (
+    PairMeasures,
     contact_mu,
     contact_slips,
-    pair_accounts,
-    sides,
+    pair_measures,
+    side,
     touching,
 )
-from quasistatic_ref.optional.doctor.accounts import PairAccount
-from quasistatic_ref.optional.doctor.artifacts import gap_after, quotient, ways_of
-from quasistatic_ref.optional.doctor.bodies import Body, bodies
 from quasistatic_ref.optional.doctor.start import Start
-from quasistatic_ref.optional.doctor.asked import Asked
 from quasistatic_ref.parts import contact_forces, is_there, posed
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Recording
@@ -71,16 +71,15 @@ class Run(Start):
         return np.asarray(self.noted("tau")[0])
 
     @cached_property
-    def pair_accounts(self) -> list[PairAccount]:
-        """What its pairs did, whatever the record holds; without forces."""
-        named = [sides(self.system, pair) for pair in self.pairs]
-        return pair_accounts(self.trajectory, named, self.noted("moved"), None)
+    def pair_measures(self) -> list[PairMeasures]:
+        """What its pairs did, whatever the record holds."""
+        return pair_measures(self.trajectory, self.noted("moved"))
 
     def held_by(self, i: int) -> tuple[str, str]:
         """What is free in a pair, and what acts on it."""
-        account = self.pair_accounts[i]
-        names = account.alpha, account.beta
-        return names if self.free[self.pairs[i].alpha.link] else names[::-1]
+        pair = self.pairs[i]
+        names = side(self.system, pair.alpha), side(self.system, pair.beta)
+        return names if self.free[pair.alpha.link] else names[::-1]
 
     @cached_property
     def bodies_of(self) -> tuple[Body, ...]:
@@ -277,11 +276,11 @@ class RunStep:
         """delta_q, shape (n_v,) [m, rad], and forces of contacts, (n_c, 4) [N, N m], of the run."""
         return self.run["delta_q"][self.k], self.run["wrench"][self.k]
 
-    @property
+    @cached_property
     def forces(self) -> Array:
         """Forces of single contacts, shape (n_c, 4) [N, N m].
 
-        Where they cannot be formed, what the multipliers of the step combine to.
+        They are unique. Where they cannot be formed, what the multipliers of the step combine to.
         """
         compliant = self.compliant
         return np.asarray(self.run["wrench"][self.k]) if compliant is None else compliant.wrench

@@ -24,10 +24,11 @@ from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.parts import is_there
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.solve.units import StepInBothUnits, Units, in_si
+from quasistatic_ref.solve.units import ScaledStep, in_si
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian
+from quasistatic_ref.step.units import Units
 from quasistatic_ref.tolerances import ACCURACY
 
 SLOWLY = 10.0
@@ -99,7 +100,8 @@ class Slow:
         self._solver: Solver | None = None
         of, axis = np.nonzero(contacts.mu > 0)
         self._axes = 2 * len(of)
-        self._tangents = np.concatenate([of, of]), np.concatenate([np.eye(3)[axis], -np.eye(3)[axis]])
+        u = np.eye(3)[axis]
+        self._tangents = np.concatenate([of, of]), np.concatenate([u, -u])
 
     def convex(self, T: float, s: Array) -> tuple[Array, Array]:
         """delta_q, (n_v,), and forces, (n_c, 4) [N, N m], of the convex step at T [s] with phi + s.
@@ -109,7 +111,7 @@ class Slow:
         contacts = self.step.contacts
         raised = contacts.with_fields(phi=read_only(contacts.phi + s))
         step = self.step.with_fields(h=T, contacts=raised)
-        units = StepInBothUnits(step).units
+        units = ScaledStep(step).units
         if not self.polyhedral:
             return self._round(step, units)
         delta_q, lam = self._floats(step, units)
@@ -120,9 +122,7 @@ class Slow:
         """delta_q, (n_v,), and lam, (m,), of a step in some units, by a backend's word alone."""
         if self._solver is None or not self._solver.fits(step):
             self._solver = solver_for(step, fast=is_there("fast"))
-        both = StepInBothUnits(step)
-        both.units = units
-        reply = self._solver.answer(both, ACCURACY)
+        reply = self._solver.answer(ScaledStep(step, units), ACCURACY)
         if not reply.solved:
             raise StepNotSolved(self._solver.name, reply.status, step, reply.accuracy)
         return in_si(*reply.answer, units)
@@ -199,7 +199,7 @@ class Slow:
         while True:
             one = self.rung(T, _ahead(kept, T) if kept else self.level)
             kept += [] if one is None else [one]
-            if T >= self.end:
+            if self.end <= T:
                 return kept
             T = min(3 * T, self.end)
 

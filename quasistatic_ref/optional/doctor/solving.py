@@ -65,7 +65,7 @@ def backend_failures(run: Run) -> Iterator[Finding]:
     errors = f"failed in {failed} of {run.steps} steps" if failed else ""
     fewer = f"had fewer than the {wanted:g} digits that were asked for in {short}" if short else ""
     yield Finding(
-        "failing backend",
+        "failing-backend",
         True,
         remedy,
         f"{simulator.backend} {' and '.join(filter(None, (errors, fewer)))}, the first of them "
@@ -94,11 +94,12 @@ def proofs(trajectory: Trajectory) -> Iterator[Finding]:
     proof = float(trajectory.seconds["proof"].sum())
     if total > WORTH and proof > SHARE * total:
         yield Finding(
-            "time of proof",
+            "time-of-proof",
             False,
             'take certify = "residual", which judges each step by its residuals in less time',
             f"proofs took {proof:.0f} s of the {total:.0f} s of these steps",
             {"proof_s": proof, "total_s": total},
+            "run",
         )
 
 
@@ -117,11 +118,12 @@ def unborne(run: Run) -> Iterator[Finding]:
         return
     if compliant.imbalance > BORNE:
         yield Finding(
-            "uncertain forces",
+            "uncertain-forces",
             False,
             "read wrench in the place of forces, or raise mu_v or mu_omega",
             f"forces of single contacts leave {compliant.imbalance:.1e} of the load",
             {"left": compliant.imbalance},
+            "forces",
         )
     bits = np.spacing(np.abs(run["beta"][k]).max(axis=1))
     bit = float(bits.max(initial=0.0))
@@ -130,12 +132,13 @@ def unborne(run: Run) -> Iterator[Finding]:
     noise = _noise(run.at(k), compliant, bits)
     if noise > SURE:
         yield Finding(
-            "uncertain forces",
+            "uncertain-forces",
             False,
             "read the sum of forces of each pair in the place of single ones, or take a softer K_q",
             f"rounding of a gap, by {bit:.1e} m, changes forces of single contacts by {noise:.1e} "
             "of the largest of their group",
             {"noise": noise},
+            "forces",
         )
 
 

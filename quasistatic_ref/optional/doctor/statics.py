@@ -56,7 +56,7 @@ def corners(run: Run) -> Iterator[Finding]:
     held = {body.name: asked.lacks[body][0] for body in asked.round if asked.in_corners(body)}
     if held:
         k = min(held.values())
-        cause = f"the ellipsoid, whose friction is the same in all directions, holds "
+        cause = "the ellipsoid, whose friction is the same in all directions, holds "
         cause += f"{listed([*held])}, and the {here} does not (step {k})"
         yield Finding("corners", False, remedy, cause, {"step": k}, listed([*held]))
         return

@@ -100,7 +100,7 @@ def crossed(run: Run) -> Iterator[Finding]:
         cause = f"{run.pairs[j].name} comes from beyond the margin to {depth:.3g} mm deep in step "
         cause += f"{k}, which had no row for it"
         numbers = {"depth_mm": depth, "step": k}
-        yield Finding("crossed margin", True, "raise margin, or take a smaller h", cause, numbers)
+        yield Finding("crossed-margin", True, "raise margin, or take a smaller h", cause, numbers)
 
 
 def _surprise(run: Run, pair: ContactPair, slots: slice) -> Finding | None:
@@ -130,4 +130,4 @@ def _surprise(run: Run, pair: ContactPair, slots: slice) -> Finding | None:
         remedy = f"take a smaller h or move slower{more}"
         cause = f"{what} {number[i]} of {pair.name} is {deep}; the step before, which is right to "
         cause += f"first order, left it at {1e3 * predicted[i]:.3g} mm"
-    return Finding("sunk contact", True, remedy, cause, numbers)
+    return Finding("sunk-contact", True, remedy, cause, numbers)

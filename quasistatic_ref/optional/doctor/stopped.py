@@ -13,6 +13,8 @@ What comes to rest, but not on a straight way, goes a straight way first, and is
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from contextlib import suppress
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -176,10 +178,12 @@ class Member:
         return end >= before and sizes[-1] > NOISE * self.least
 
     def missing(self, rungs: list[Rung]) -> Missing:
-        """What goes with T^2 from one T to the next: the first on which two agree, or of the last
-        that are straight. A joint that stays needs none: what it has of M a is a reaction."""
-        steps = zip(rungs, rungs[1:], strict=False)
-        each = [self.r(y.delta_q - x.delta_q, y.T**2 - x.T**2) for x, y in steps]
+        """What goes with T^2 from one T to the next.
+
+        It is the first on which two agree, or that of the last which are straight. A joint that
+        stays needs none: what it has of M a is a reaction.
+        """
+        each = [self.r(y.delta_q - x.delta_q, y.T**2 - x.T**2) for x, y in pairwise(rungs)]
         changes = np.diff(each, axis=0, prepend=0.0)
         alike = self.body.amount(self.M, changes) <= SAME * self.body.amount(self.M, np.array(each))
         straight = sum(one.moves <= 1 for one in rungs[1:])
@@ -232,7 +236,7 @@ def missing(
             rungs = _rungs(part, members, straight)
             if rungs and _held(rungs[-1], members, straight):
                 continue
-            ends = rungs and (rungs[-1].T >= part.slow.end or rungs[-1].moves > 1)
+            ends = rungs and (part.slow.end <= rungs[-1].T or rungs[-1].moves > 1)
             if len(rungs) < 2 or not ends:
                 lacks |= dict.fromkeys(here)
                 continue
@@ -242,7 +246,8 @@ def missing(
                 if lack.amount > member.least:
                     lacks[member.body] = lack
             if not falls and rungs[-1].moves > straight:
-                first = {member.body: member.missing(rungs) for member in members} | first
+                for member in members:
+                    first.setdefault(member.body, member.missing(rungs))
                 goes_on |= here.keys()
                 way[part.group.coordinates] = rungs[-1].delta_q * (straight / rungs[-1].moves)
         left &= goes_on
@@ -256,14 +261,12 @@ def missing(
 def _rungs(part: Part, members: list[Member], straight: float) -> list[Rung]:
     """The last answer of a group that is held, else all of its climb; none if it is too large."""
     slow = part.slow
-    if part.large:
-        return []
-    try:
-        if slow.last is not None and _held(slow.last, members, straight):
-            return [slow.last]
-        return slow.climbed
-    except QuasistaticError:
-        return []
+    rungs: list[Rung] = []
+    with suppress(QuasistaticError):  # no solution, or no float64
+        if not part.large:
+            held = slow.last is not None and _held(slow.last, members, straight)
+            rungs = [slow.last] if slow.last is not None and held else slow.climbed
+    return rungs
 
 
 def _held(one: Rung, members: list[Member], straight: float) -> bool:

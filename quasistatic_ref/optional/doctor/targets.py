@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.optional.doctor.account import drive, stiffness
+from quasistatic_ref.optional.doctor.measures import drive, stiffness
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.slow import SLOWLY
 from quasistatic_ref.optional.doctor.telling import amount, rounded
@@ -26,11 +26,11 @@ def beyond_limits(run: Run) -> Iterator[Finding]:
     for joint, unit, target, limit, k in _beyond(run, "q_bar_a"):
         if unit == "rad" or abs(target) <= IN_METRES:  # else its unit is doubted already
             yield Finding(
-                "target beyond a limit",
+                "target-beyond-a-limit",
                 True,
-                f"change the target of {joint.name}, {target:.6g} {unit} at step {k}, or the "
-                f"limit in its URDF, {limit:.6g} {unit}",
-                "the model ignores limits, the robot does not",
+                "change the target, or the limit in the URDF",
+                f"the target of {joint.name} is {target:.6g} {unit} at step {k}, beyond its limit, "
+                f"{limit:.6g} {unit}: the model ignores limits, the robot does not",
                 {f"target_{unit}": target, f"limit_{unit}": limit, "step": k},
             )
 
@@ -39,7 +39,7 @@ def idle_columns(run: Run) -> Iterator[Finding]:
     """Columns of a table of targets whose numbers change, and no force does."""
     for name in run.idle_columns:
         yield Finding(
-            "target without effect",
+            "target-without-effect",
             True,
             f"drive another actuator than {name}, or look at its gain, ranges and group",
             f"the column {name} of the targets changes, and the forces of the scene at its start "
@@ -55,7 +55,7 @@ def joints_beyond(run: Run) -> Iterator[Finding]:
         if joint not in targeted:
             body = joint.name.partition("/")[0]
             yield Finding(
-                "joint beyond a limit",
+                "joint-beyond-a-limit",
                 True,
                 f'say bodies.{body}.joint_limits = "urdf", for stops at the limits',
                 f"{joint.name} is at {position:.6g} {unit} at step {k}, beyond its limit, "
@@ -86,13 +86,14 @@ def beyond_effort(run: Run) -> Iterator[Finding]:
             remedy = f"carry less by {joint.name}, or correct its effort in the URDF to {needed}"
             why = "; no K_q changes what it bears"
         yield Finding(
-            "force beyond a limit",
+            "force-beyond-a-limit",
             bool(did.spring[k] > GROSS * joint.effort),
             remedy,
-            f"its spring pushes with {did.spring[k]:.3g} {unit} at step {k}, "
+            f"the spring of {joint.name} pushes with {did.spring[k]:.3g} {unit} at step {k}, "
             f"{amount(did.error[k], did.unit)} from its target, and its motor with "
             f"{joint.effort:.3g} {unit} at most, which the model ignores{why}",
             {"force": float(did.spring[k]), "effort": joint.effort, "step": k},
+            joint.name,
         )
 
 

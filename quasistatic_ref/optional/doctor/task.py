@@ -12,8 +12,8 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.optional.doctor.account import side
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.doctor.measures import side
 from quasistatic_ref.optional.doctor.placed import inside
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import joining, least
@@ -57,13 +57,13 @@ def acting(run: Run) -> dict[str, list[int]]:
     for i, pair in enumerate(run.pairs):
         links = [pair.alpha.link, pair.beta.link]
         if run.driven[links].any() and run.free[links].any():
-            by_table.setdefault(run.pair_accounts[i].table, []).append(i)
+            by_table.setdefault(run.pair_measures[i].table, []).append(i)
     return by_table
 
 
 def touched(run: Run, pairs: list[int]) -> bool:
     """Whether one of some pairs ever touched."""
-    return any(run.pair_accounts[i].touches.any() for i in pairs)
+    return any(run.pair_measures[i].touches.any() for i in pairs)
 
 
 def first_ways(run: Run) -> dict[str, float]:
@@ -87,7 +87,7 @@ def late(run: Run) -> Iterator[Finding]:
         return
     joint = min(first, key=first.__getitem__)
     yield Finding(
-        "late waypoints",
+        "late-waypoints",
         True,
         "raise steps or h, or check the times of waypoints, which are in seconds",
         f"the run ends at {end:.4g} s ({run.steps} steps of {run.h:g} s), before the "
@@ -110,12 +110,13 @@ def still(run: Run) -> Iterator[Finding]:
         bodies = sorted({j.name.partition("/")[0] for j in run.system.joints if j.actuated})
         where = "--targets" if run.system.of_mjcf else f"[[bodies.{bodies[0]}.targets]]"
         yield Finding(
-            "no motion",
+            "no-motion",
             not run.system.of_mjcf,
             f"add targets, {where}",
             f"all targets are where {listed(bodies)} starts, so that nothing is driven, and no "
             f"pair of {next(iter(tables))} ever touches",
             {"steps": run.steps},
+            listed(bodies),
         )
 
 
@@ -147,10 +148,11 @@ def through(run: Run) -> Iterator[Finding]:
         key = frozenset(name.partition("/")[0] for name in names)
         if key not in deepest or deepest[key].numbers["depth_mm"] < 1e3 * depth:
             deepest[key] = Finding(
-                "passes through",
+                "passes-through",
                 True,
                 joining(run, listed(names)) + ", or keep them apart",
-                f"nothing lets them touch, and they pass through each other, {length(depth)} deep "
+                f"nothing lets {listed(names)} touch, and they pass through each other, "
+                f"{length(depth)} deep "
                 f"at {steps[i] * run.h:.2f} s",
                 {"depth_mm": 1e3 * depth, "step": steps[i] - 1},
             )
@@ -215,17 +217,18 @@ def idle(run: Run) -> Iterator[Finding]:
             joint, way = astray
             named = True
             yield Finding(
-                "idle contacts",
+                "idle-contacts",
                 True,
                 f"check the axis of {joint.name}, or the sign of its targets",
-                f"it leads {name} away from {run.held_by(touch[0])[0]}, by {length(way)}, and no "
+                f"{joint.name} leads {name} away from {run.held_by(touch[0])[0]}, by "
+                f"{length(way)}, and no "
                 f"pair of contacts.{table} that {name} is in ever touches",
                 {"away_mm": 1e3 * way},
             )
         if named or len(idle) < len(fingers):
             continue
-        i = min(pairs, key=lambda i: float(run.pair_accounts[i].phi.min()))
-        near = run.pair_accounts[i]
+        i = min(pairs, key=lambda i: float(run.pair_measures[i].phi.min()))
+        near = run.pair_measures[i]
         k = int(near.phi.argmin())
         apart = "none comes near enough to have a distance"
         numbers: dict[str, float] = {}
@@ -235,7 +238,7 @@ def idle(run: Run) -> Iterator[Finding]:
             )
             numbers = {"least_distance_mm": 1e3 * float(near.phi[k]), "step": k}
         yield Finding(
-            "idle contacts",
+            "idle-contacts",
             True,
             "check where {} stands and how far {} moves".format(*run.held_by(i)),
             f"no pair of contacts.{table} ever touches; {apart}",
@@ -248,8 +251,8 @@ def _astray(run: Run, pairs: list[int], others: list[int]) -> tuple[Joint, float
 
     Joints that move the fingers of `others` as well are those of an arm.
     """
-    i = min(pairs, key=lambda i: float(run.pair_accounts[i].phi[0]))
-    phi = run.pair_accounts[i].phi
+    i = min(pairs, key=lambda i: float(run.pair_measures[i].phi[0]))
+    phi = run.pair_measures[i].phi
     if phi[0] >= FILLED or phi.min() < phi[0] / 2:
         return None
     at = np.flatnonzero(run.pair_of == i)
@@ -304,10 +307,10 @@ def short(run: Run) -> Iterator[Finding]:
             continue
         needed = rounded(spring / (LAGS * way), np.ceil)
         yield Finding(
-            "far from target",
+            "far-from-target",
             True,
             f"raise K_q of {joint.name} to {needed:.3g} or more",
-            f"it ends {amount(error, unit)} from its last target, with {spring:.3g} "
+            f"{joint.name} ends {amount(error, unit)} from its last target, with {spring:.3g} "
             f"{'N' if unit == 'm' else 'N m'} on its spring",
             {f"error_{unit}": error, "K_q": needed},
         )
@@ -321,7 +324,7 @@ def _stopping(run: Run, base: Joint, along: Array, way: float, pushes: Array) ->
     """
     k = run.steps - 1
     at = run.at(k)
-    moved = run.moves[:, base.v].any(axis=1)
+    moved = np.asarray(run.moves[:, base.v].any(axis=1))
     start, end = (run.system.kinematics(run["q"][j]).t[:, : len(along)] for j in (0, -1))
     carried = ((end - start) @ along > way / 2) & ~moved
     links = np.array([[pair.alpha.link, pair.beta.link] for pair in run.pairs], dtype=int)
@@ -345,7 +348,7 @@ def _stalled(run: Run, contact: int, error: float, unit: str) -> bool:
     """Whether what a contact pushes has not moved, though the target is far inside of it."""
     i = int(run.pair_of[contact])
     pair = run.pairs[i]
-    table = acting(run).get(run.pair_accounts[i].table)
+    table = acting(run).get(run.pair_measures[i].table)
     if not table or unit != "m" or error <= STALLED * least(pair) or _grips_at_the_end(run, table):
         return False
     link = pair.alpha.link if run.free[pair.alpha.link] else pair.beta.link
@@ -355,7 +358,7 @@ def _stalled(run: Run, contact: int, error: float, unit: str) -> bool:
 
 def _grips_at_the_end(run: Run, pairs: list[int]) -> bool:
     """Whether two contacts of some pairs that touch in the last step face each other."""
-    touching = [i for i in pairs if run.pair_accounts[i].touches[-1]]
+    touching = [i for i in pairs if run.pair_measures[i].touches[-1]]
     n = run["n"][-1]
     n = np.where(run.free[run.simulator.layout.link_alpha][:, None], -n, n)
     n = n[np.isin(run.pair_of, touching)]

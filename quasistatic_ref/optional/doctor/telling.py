@@ -1,22 +1,26 @@
 """The most telling numbers of a run, and how they are printed."""
 
-from collections.abc import Callable, Iterator
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.doctor.accounts import Account, Drive, Motion, PairAccount, Stop
+from quasistatic_ref.optional.doctor.measures import Drive, Motion, PairMeasures, measures
 from quasistatic_ref.tolerances import FILLED, UNMOVED
 
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.settings import Settings
+    from quasistatic_ref.simulate.trajectory import Trajectory
+
 PRINTED = 4
-"""Lines of a kind in a short table."""
+"""Lines of a kind that are printed."""
 
-
-def stop_numbers(stop: Stop, h: float) -> dict[str, float]:
-    """How long a stop bears a joint, with steps of `h` [s], and its largest force."""
-    bears = h * float((stop.force > 0).sum())
-    return {"bears_s": bears, "largest_force": float(stop.force.max())}
+Numbers = Mapping[str, Mapping[str, Mapping[str, float]]]
+"""By kind, name and word [any unit]."""
 
 
 def motion_numbers(motion: Motion, up: Array) -> dict[str, float]:
@@ -42,8 +46,8 @@ def drive_numbers(drive: Drive) -> dict[str, float]:
     return numbers
 
 
-def pair_numbers(pair: PairAccount, t: Array, h: float) -> dict[str, float]:
-    """When a pair touched, slid and spun, in steps of `h` [s] that end at `t` [s]; its loads."""
+def pair_numbers(pair: PairMeasures, t: Array, h: float) -> dict[str, float]:
+    """When a pair touched, slid and spun, in steps of `h` [s] that end at `t` [s]."""
     least = float(pair.phi.min())
     numbers = {} if least >= FILLED else {"least_distance_m": least}  # else it is a filler's
     numbers["touches_s"] = h * float(pair.touches.sum())
@@ -56,44 +60,45 @@ def pair_numbers(pair: PairAccount, t: Array, h: float) -> dict[str, float]:
         numbers["slip_m"] = float(pair.slip.sum())
         numbers["spins_s"] = h * float(pair.spins.sum())
         numbers["turn_deg"] = float(np.degrees(pair.turn.sum()))
-    if pair.loads is not None:
-        numbers["largest_normal_N"] = float(pair.loads.normal.max())
-        numbers["largest_friction_N"] = float(pair.loads.friction.max())
-        numbers["largest_torque_Nm"] = float(pair.loads.torque.max())
-        numbers["largest_share"] = float(pair.loads.share.max())
     return numbers
 
 
-def lines(account: Account, most: int | None = None) -> Iterator[str]:
-    """The table as text, a line a name, and what the record does not hold.
+def numbers_of(trajectory: Trajectory, settings: Settings) -> Numbers:
+    """The most telling numbers of a run of a scenario or simulator.
 
-    Parameters
-    ----------
-    account : Account
-    most : int, optional
-        Lines of a kind, the others being counted; by default all.
+    Of each kind (``"bodies"``, ``"joints"``, ``"pairs"``) and each of its names, by words that end
+    in their unit [any unit]. Where something is not known its word is missing.
     """
-    for kind, names in account.numbers.items():
-        for name, numbers in list(names.items())[:most]:
-            each = ", ".join(f"{word} {value:.4g}" for word, value in numbers.items())
-            yield f"{name}: {each}"
-        if most is not None and len(names) > most:
-            yield f"{len(names) - most} more {kind}: see quasistatic-ref account"
-    yield from (f"missing: {sentence}" for sentence in account.missing)
+    did = measures(trajectory, settings)
+    down = np.array(settings.gravity)
+    down = down if down.any() else np.array([0.0, 0.0, -1.0])
+    up = -down / np.linalg.norm(down)
+    t = trajectory["t"]
+    return {
+        "bodies": {
+            each.of.name.removesuffix("/base"): motion_numbers(each, up) for each in did.motions
+        },
+        "joints": {one.of.name: drive_numbers(one) for one in did.drives},
+        "pairs": {one.name: pair_numbers(one, t, settings.h) for one in did.pairs},
+    }
 
 
-def measures(account: Account) -> dict[str, float]:
-    """Each number by its owner and name, such as ``bunny.largest_rise_mm``.
+def lines(numbers: Numbers) -> Iterator[str]:
+    """A few numbers of each kind as text, a line a name, the others being counted."""
+    for kind, names in numbers.items():
+        for name, each in list(names.items())[:PRINTED]:
+            yield f"{name}: {', '.join(f'{word} {value:.4g}' for word, value in each.items())}"
+        if len(names) > PRINTED:
+            yield f"{len(names) - PRINTED} more {kind}: see --json"
 
-    Parameters
-    ----------
-    account : Account
-    """
+
+def by_name(numbers: Numbers) -> dict[str, float]:
+    """Each number by its owner and name, such as ``bunny.largest_rise_mm`` [any unit]."""
     return {
         f"{name.removesuffix('/base')}.{word}": value
-        for names in account.numbers.values()
-        for name, numbers in names.items()
-        for word, value in numbers.items()
+        for names in numbers.values()
+        for name, each in names.items()
+        for word, value in each.items()
     }
 
 

@@ -25,7 +25,7 @@ def long_step(start: Start) -> Iterator[Finding]:
     """A time step of more than a second."""
     if start.h > LONGEST:
         yield Finding(
-            "unit of h",
+            "unit-of-h",
             True,
             "check the unit of h",
             f"times are in seconds, and a step of {start.h:g} s is one straight motion between "
@@ -43,10 +43,11 @@ def long_shapes(start: Start) -> Iterator[Finding]:
         name = max(long, key=long.__getitem__)
         others = f" ({len(long) - 1} more are as suspect)" if len(long) > 1 else ""
         yield Finding(
-            "unit of a shape",
+            "unit-of-a-shape",
             True,
             f"check the unit of {name}",
-            f"lengths are in metres, and it is {long[name]:.3g} m long; scale it by 0.001 if that "
+            f"lengths are in metres, and {name} is {long[name]:.3g} m long; scale it by 0.001 if "
+            "that "
             f"is meant in millimetres{others}",
             {"length_m": long[name]},
         )
@@ -57,10 +58,11 @@ def large_mu_omega(start: Start) -> Iterator[Finding]:
     rough = [pair for pair in start.pairs if pair.mu_omega > least(pair)]
     for name, pair in {table(start, pair): pair for pair in rough}.items():
         yield Finding(
-            "unit of mu_omega",
+            "unit-of-mu-omega",
             True,
             f"check the unit of mu_omega of {name}",
-            f"it is a length in metres, and {pair.mu_omega:.3g} m is more than the size of the "
+            f"mu_omega of {name} is a length in metres, and {pair.mu_omega:.3g} m is more than "
+            "the size of the "
             f"smaller body, {least(pair):.3g} m",
             {"mu_omega_m": pair.mu_omega, "size_m": least(pair)},
         )
@@ -75,10 +77,11 @@ def far_targets(run: Run) -> Iterator[Finding]:
             k = int(length.argmax())
             if length[k] > IN_METRES:
                 yield Finding(
-                    "unit of a target",
+                    "unit-of-a-target",
                     True,
                     f"check the unit of the targets of {joint.name}",
-                    f"lengths are in metres, and that of step {k} is {length[k]:.3g} m",
+                    f"lengths are in metres, and the target of {joint.name} in step {k} is "
+                    f"{length[k]:.3g} m",
                     {"length_m": float(length[k]), "step": k},
                 )
 
@@ -88,11 +91,11 @@ def friction(start: Start) -> Iterator[Finding]:
     rough = {table(start, pair): pair.mu_v for pair in start.pairs if pair.mu_v > ROUGH}
     for name, mu_v in rough.items():
         yield Finding(
-            "no friction coefficient",
+            "no-friction-coefficient",
             True,
             f"check mu_v of {name}",
-            f"a friction coefficient is the ratio of two forces, of rubber on asphalt 1, and this "
-            f"is {mu_v:g}",
+            f"a friction coefficient is the ratio of two forces, of rubber on asphalt 1, and mu_v "
+            f"of {name} is {mu_v:g}",
             {"mu_v": mu_v},
         )
 
@@ -103,10 +106,11 @@ def angle(start: Start) -> Iterator[Finding]:
         largest = float(np.abs(body.rpy).max())
         if largest > 2 * np.pi:
             yield Finding(
-                "no angle",
+                "no-angle",
                 True,
                 f"check the unit of rpy of {body.name}",
-                f"angles are in radians, {largest:g} rad are {np.degrees(largest):.4g} degrees, "
+                f"angles are in radians: the {largest:g} rad in rpy of {body.name} are "
+                f"{np.degrees(largest):.4g} degrees, "
                 f"and {largest:g} degrees are {np.radians(largest):.4g} rad",
                 {"angle_rad": largest},
             )
@@ -117,10 +121,11 @@ def count(start: Start) -> Iterator[Finding]:
     beyond = {table(start, pair): pair for pair in start.pairs if pair.k > MANY * pair.candidates}
     for name, pair in beyond.items():
         yield Finding(
-            "no count",
+            "no-count",
             True,
             f"lower k of {name}",
-            f"it is {pair.k}, and {pair.name} has {pair.candidates} points, all of which are "
+            f"k of {name} is {pair.k}, and {pair.name} has {pair.candidates} points, all of "
+            "which are "
             "contacts of every step",
             {"k": pair.k, "points": pair.candidates},
         )
@@ -128,4 +133,4 @@ def count(start: Start) -> Iterator[Finding]:
 
 def no_steps(start: Start) -> Iterator[Finding]:
     """A run of no steps."""
-    yield Finding("no motion", True, "raise steps", "it is 0, and nothing happens", {"steps": 0})
+    yield Finding("no-motion", True, "raise steps", "steps is 0, and nothing happens", {"steps": 0})

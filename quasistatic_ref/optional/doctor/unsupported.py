@@ -66,7 +66,7 @@ def unsupported(start: Start) -> Iterator[Finding]:
         others = " but to bodies that fall as well" if touches else ""
         weight = start.system.mass(name) * start.g
         yield Finding(
-            "unsupported body",
+            "unsupported-body",
             True,
             joining(start, f"{name} and what should bear it"),
             f"no {joint} joins {name}, which weighs {weight:.3g} N, to anything{others}: it falls",
@@ -79,7 +79,7 @@ def falling(run: Run) -> Iterator[Finding]:
     most = run.h**2 * run.g
     for name, fall in falls(run).items():
         yield Finding(
-            "free fall",
+            "free-fall",
             True,
             _remedy(fall.contacts, run, fall.first),
             f"nothing bears {name} from step {fall.first} to the end, and it falls by "

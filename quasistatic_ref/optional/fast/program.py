@@ -140,7 +140,7 @@ class Workspace:
         reply = self._solved(H, warm=True) if self._warm else None
         if reply is None or not reply.solved:
             reply = self._solved(H, warm=False)
-        if not np.isfinite(reply.x).all():
+        if not np.isfinite(reply.answer[0]).all():
             self._set_up(H)
             reply = self._solved(H, warm=False)
         self._warm = reply.solved

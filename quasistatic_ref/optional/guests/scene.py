@@ -21,6 +21,7 @@ from quasistatic_ref.optional.guests.places import overlapped_children
 from quasistatic_ref.optional.guests.settled import settled
 from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
 from quasistatic_ref.parts import fast_backend, fast_simulator
+from quasistatic_ref.scenario.checks import ignored_findings
 from quasistatic_ref.scenario.overrides import Changes, about_changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.scenario.scenario_table import LIMITS, SOLVER, TOP, fields_of
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
 MARGIN = 0.05
 """Gap up to which MuJoCo looks for contacts, by default [m]."""
 START: dict[str, Any] = {"h": 0.01, "steps": 100}
-RUN = ("h", "steps", "cone", "fast", "record", "solver", "limits")
+RUN = ("h", "steps", "cone", "fast", "record", "solver", "limits", "findings")
 FIELDS = (*RUN, "margin", "stiffness", "roots")
 
 
@@ -93,6 +94,7 @@ class MujocoScenario(Scenario):
         observers: Sequence[Observer] = (),
         *,
         findings: bool = True,
+        notes: bool = False,
     ) -> Trajectory:
         """Simulate the whole scene, as :meth:`.Scenario.run`.
 
@@ -102,7 +104,7 @@ class MujocoScenario(Scenario):
             If a step fails; of the first one the scene's notes say more.
         """
         try:
-            return super().run(progress, observers, findings=findings)
+            return super().run(progress, observers, findings=findings, notes=notes)
         except RunFailed as failure:
             if failure.trajectory.steps or not self.drive.system.notes:
                 raise
@@ -184,6 +186,7 @@ def _scenario_of(
         raise ScenarioError("must name joints: stiffness.JOINT=VALUE", field="stiffness")
     of_solver = fields_of(read("solver"), SOLVER)
     of_limits = fields_of(read("limits"), LIMITS)
+    ignored = ignored_findings(read("findings"))
     if data is None:
         keys = () if callable(targets) or isinstance(targets, str | Path) else targets
         data = settled(model, 0.0, keys[0] if keys else None)
@@ -227,6 +230,7 @@ def _scenario_of(
         fast=fast,
         cone=cone,
         limits=Limits(of_limits("penetration"), of_limits("reach")),
+        ignored_findings=ignored,
         drive=drive_of(system, data, steps * h, targets),
     )
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.formats.quoting import no_formula
+from quasistatic_ref.numbers.arrays import Mask
 from quasistatic_ref.optional.show.loads import shown_forces
 from quasistatic_ref.parts import needed_package
 
@@ -30,13 +31,8 @@ CONTACT: Final[Mapping[str, tuple[str, ...]]] = {
     **{name: tuple(f"{name}.{axis} [-]" for axis in "xyz") for name in ("n", "d1", "d2")},
 }
 """Columns of a contact, by array."""
-SUMS: Final[Mapping[str, str]] = {
-    "normal": "normal force [N]",
-    "friction": "friction [N]",
-    "torque": "torque [N m]",
-    "share": "share of the limit [-]",
-}
-"""Columns of a pair, by what an account knows of its loads."""
+SUMS: Final = ("normal force [N]", "friction [N]", "torque [N m]")
+"""Columns of a pair, of sums over its contacts."""
 STEP: Final = {"certificate": "certificate", "worst_residual": "worst residual [-]",
                "digits": "digits [-]"}  # fmt: skip
 """Columns of a step, by array."""
@@ -131,17 +127,29 @@ def _wide(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:
     columns |= {f"target {name}": values for name, values in targets}
     moves = zip(header.coordinates, header.units, trajectory["delta_q"].T, strict=True)
     columns |= {f"delta_q {name} [{unit}]": values for name, unit, values in moves}
-    for pair in trajectory.account().pairs if header.scene is not None else ():
-        columns[f"{pair.name}.phi [m]"] = pair.phi
-        if pair.slip is not None:
-            columns[f"{pair.name}.slip [m]"] = pair.slip
-        if pair.loads is not None:
-            columns |= {f"{pair.name}.{label}": getattr(pair.loads, name)
-                        for name, label in SUMS.items()}  # fmt: skip
+    slots = np.array(trajectory.pair_names)
+    for pair in dict.fromkeys(trajectory.pair_names):
+        of_pair = slots == pair
+        columns[f"{pair}.phi [m]"] = trajectory["phi"][:, of_pair].min(axis=1)
+        columns |= _sums(trajectory, pair, of_pair)
     if header.extra:
         extra = zip(header.extra, trajectory["lam_extra"].T, strict=True)
         columns |= {f"lam of {name}": values for name, values in extra}
     return columns | {label: trajectory[name] for name, label in STEP.items()}
+
+
+def _sums(trajectory: "Trajectory", pair: str, of_pair: Mask) -> dict[str, NDArray[Any]]:
+    """Sums of the forces of a pair's contacts, shape (steps,) each; none where they are not known.
+
+    Of f_n [N], of the lengths of (f_d1, f_d2) [N], and of the sizes of tau_n [N m].
+    """
+    try:
+        f_1, f_2, f_n, torque = np.moveaxis(trajectory.forces[:, of_pair], -1, 0)
+    except InputError:
+        return {}
+    sums = (f_n, np.hypot(f_1, f_2), np.abs(torque))
+    labels = zip(SUMS, sums, strict=True)
+    return {f"{pair}.{label}": each.sum(axis=1) for label, each in labels}
 
 
 def _of_contacts(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:

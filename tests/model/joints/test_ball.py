@@ -14,6 +14,7 @@ from quasistatic_ref import (
     load_scenario,
     verify_answer,
 )
+from quasistatic_ref.optional.doctor.measures import measures
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
 from tests.tolerances import ROUNDING
@@ -93,7 +94,7 @@ def test_runs_are_exact_and_have_the_same_bits_at_both_speeds(base):
     assert simulator.by_c
     assert verify_answer(step.step, step.solution.delta_q, step.solution.certificate.active)
     assert (run.forces[:, 0, 2] > 0).all()  # the floor carries a part of the weight
-    (motion,) = run.account().motions
+    (motion,) = measures(run, simulator).motions
     assert motion.of.name == ("arm/base" if base else "arm/ball")
     ends = Rotation.from_quat(run["q"][[0, -1]])
     turned = (ends[0].inv() * ends[1]).magnitude()

@@ -98,7 +98,7 @@ def test_a_guide_is_named_as_undetermined_and_stays_locked():
     """Each iterate with clearance c raises s by c: X mu / c of them lead to Coulomb's slip."""
     locked = slot(0.0)
     (found,) = scene_findings(locked, locked.system.q_start)
-    assert found.name == "guided friction"
+    assert found.name == "guided-friction"
     assert "where Coulomb's law has many solutions" in found.sentence
     result = locked.step(locked.system.q_start, [], PUSH)
     assert not result.solution.delta_q.any()

@@ -247,7 +247,7 @@ def pressed_on_a_wall(d):
     bodies = {"b": d.cube(d.edge / 2, 0, 0), "f": tip}
     contacts = {"wall": ("wall", "b", d.mu, 4), "f": ("f/tip", "b", d.mu, 1)}
     hand = lacks(d.m * G - 2 * d.mu * N)
-    also = ["uncertain forces"]  # of its four corners on the wall
+    also = ["uncertain-forces"]  # of its four corners on the wall
     return d.scene(bodies, contacts, 3, hand, also, shapes=wall)
 
 

@@ -163,27 +163,27 @@ def over_a_joint(*right, steps=200):
     )
 
 
-# %% unsupported body: two boxes touch each other and nothing else
+# %% unsupported-body: two boxes touch each other and nothing else
 found = findings([box(), box(name="top", xyz=(0, 0, 0.15))], [("box", "top", 0.5, 4)])
 
-# %% initial penetration: the origin of a box is its middle, and it was set on the floor
+# %% initial-penetration: the origin of a box is its middle, and it was set on the floor
 found = findings([box(xyz=(0, 0, 0.04))])
 
-# %% initial penetration: a box in a gap narrower than itself, where no step has a solution
+# %% initial-penetration: a box in a gap narrower than itself, where no step has a solution
 found = findings([box()], [("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)], walls(0.09))
 
-# %% guided friction: a door on its hinge that grazes the floor
+# %% guided-friction: a door on its hinge that grazes the floor
 door = Body("door", joint("revolute", "0 0 1"), xyz=(0, 0, 0.05))
 found = findings([door], lies("door", mu_v=0.3))
 
-# %% guided friction: a turntable with friction under it
+# %% guided-friction: a turntable with friction under it
 table = Body("table", joint("continuous", "0 0 1"), xyz=(0, 0, 0.05))
 found = findings([table], lies("table", mu_v=0.3, k=1), mu_omega=0.02)
 
-# %% guided friction: a slot as wide as its block
+# %% guided-friction: a slot as wide as its block
 found = findings([box()], IN_SLOT, walls(0.1), push={"box": (50, 0, 0)})
 
-# %% guided friction: a rod in a shaft with three walls, no two of which are opposite
+# %% guided-friction: a rod in a shaft with three walls, no two of which are opposite
 rod = Body.of_shape("rod", Sphere(0.05), 0.3, xyz=(0, 0, 0))
 walls = [
     (f"wall{i}", HalfSpace((np.cos(a), np.sin(a), 0.0), -0.05), (0, 0, 0))
@@ -191,18 +191,18 @@ walls = [
 ]
 found = findings([rod], [(f"wall{i}", "rod", 0.5, 1) for i in range(3)], walls)
 
-# %% guided friction, locked guide: a planar base cannot rise, under 165 N
+# %% guided-friction, locked-guide: a planar base cannot rise, under 165 N
 found = findings([box(base="planar")], push={"box": (165, 0, 0)})
 
-# %% guided friction, locked guide: a drawer on its joint also touches a rail, under 87 N
+# %% guided-friction, locked-guide: a drawer on its joint also touches a rail, under 87 N
 found = findings([DRAWER], [("rail", "drawer", 0.2, 4)], [RAIL], gravity=(43.5, 0, -9.81))
 
-# %% guided friction, locked guide: a slot with a clearance of 0.1 mm, under 100 N
+# %% guided-friction, locked-guide: a slot with a clearance of 0.1 mm, under 100 N
 found = findings([box()], IN_SLOT, walls(0.1001), push={"box": (100, 0, 0)}, steps=5)
-(locked,) = (x for x in found if x.name == "locked guide")
+(locked,) = (x for x in found if x.name == "locked-guide")
 assert "box/base.x moves by 0.2 mm under 100 N" in locked.cause
 
-# %% locked guide: a finger that pushes a drawer which touches its rail
+# %% locked-guide: a finger that pushes a drawer which touches its rail
 finger = motor("finger", size=TIP, xyz=(-0.06, 0, 0))
 found = findings(
     [DRAWER, finger],
@@ -211,75 +211,75 @@ found = findings(
     target=[0.05],
 )
 
-# %% too few points: five of the hundred points below a cloud
+# %% too-few-points: five of the hundred points below a cloud
 found = findings([box()], lies(k=5), cloud={"box": FACE})
 
-# %% too few points: a cylinder on its end
+# %% too-few-points: a cylinder on its end
 found = findings([TIN], lies("tin", k=2))
 
-# %% too few points: the table is named on which it lies, not the wall beside it, which comes first
+# %% too-few-points: the table is named on which it lies, not the wall beside it, which comes first
 wall = ("wall", Box(size=(0.1, 0.1, 0.1)), (0.15, 0, 0.05))
 found = findings([box()], [("wall", "box", 0.5, 1), ("floor", "box", 0.5, 3)], [wall])
 assert [x.remedy for x in found] == ["raise k of contacts.floor_box to 4"]
 
-# %% flush shapes: a crate stops at the next table, which bears 1 N along and 1 N up
+# %% flush-shapes: a crate stops at the next table, which bears 1 N along and 1 N up
 found = over_a_joint(TABLE, (0.25, 0, -0.025))
-(joint_of_two,) = (x for x in found if x.name == "flush shapes")
+(joint_of_two,) = (x for x in found if x.name == "flush-shapes")
 assert joint_of_two.numbers["along_N"] == pytest.approx(1.0)
 assert joint_of_two.remedy == "make left and right one shape, or set right 10 um lower"
 
-# %% flush shapes: before a run
+# %% flush-shapes: before a run
 found = over_a_joint(TABLE, (0.25, 0, -0.025), steps=0)
 
-# %% flush shapes: the next table is a mesh
+# %% flush-shapes: the next table is a mesh
 corners = [(x, y, z) for x in (0, 0.5) for y in (-0.3, 0.2) for z in (-0.05, 0)]
 found = over_a_joint(convex_hull(corners))
 
-# %% flush shapes: the next table is turned by a quarter of a turn
+# %% flush-shapes: the next table is turned by a quarter of a turn
 turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
 found = over_a_joint(TABLE, (0.2, 0, -0.025), turn)
 
-# %% stray points: two of them, side by side
+# %% stray-points: two of them, side by side
 found = findings([box()], cloud={"box": [*FACE, (0.3, 0, 0.1), (0.3, 0, 0.1001)]})
 
 # %% inertia: 1e-9, so that the solver has something
 crate = Body("crate", joint("revolute", "0 0 1", inertia=1e-9))
 found = findings([crate], [])
 
-# %% sizes apart: a table in millimetres under a box in metres
+# %% sizes-apart: a table in millimetres under a box in metres
 found = findings(
     [box()], [("table", "box", 0.5, 4)], [("table", Box(size=(1600, 1200, 40)), (0, 0, -20))]
 )
 
-# %% sizes apart: a ball in micrometres
+# %% sizes-apart: a ball in micrometres
 found = findings(
     [box(), ball(2e-5, 1e-10, xyz=(0, 0, 0.10002))], [*STANDS, ("box", "ball", 0.5, 1)]
 )
 
-# %% unit of a shape: a cloud in millimetres
+# %% unit-of-a-shape: a cloud in millimetres
 found = findings(
     [box()],
     lies(k=5),
     cloud={"box": [(x, y, -0.05) for x in (-50, 50) for y in (-50, 50)]},
 )
 
-# %% unit of mu_omega: 3 was meant as 3 mm
+# %% unit-of-mu-omega: 3 was meant as 3 mm
 found = findings([box()], mu_omega=3.0)
 
-# %% force beyond a limit: a palm of 2 N bears 9.81 N, whatever its K_q is
+# %% force-beyond-a-limit: a palm of 2 N bears 9.81 N, whatever its K_q is
 palm = Body("palm", weak, actuated="all", xyz=(0, 0, -0.05))
 found = findings([box(), palm], [("palm", "box", 0.5, 4)], steps=60)
-(effort,) = (x for x in found if x.name == "force beyond a limit")
+(effort,) = (x for x in found if x.name == "force-beyond-a-limit")
 assert effort.remedy.endswith("correct its effort in the URDF to 9.9 N or more")
 assert effort.cause.endswith("; no K_q changes what it bears")
 
-# %% target without effect: the group of the actuator is switched off
+# %% target-without-effect: the group of the actuator is switched off
 found = of_mujoco('<option actuatorgroupdisable="3"/>', '<position joint="j" kp="9" group="3"/>')
 
-# %% target without effect: a gain of zero, which a motor has by mistake
+# %% target-without-effect: a gain of zero, which a motor has by mistake
 found = of_mujoco("", '<general joint="j" gainprm="0"/>')
 
-# %% crossed margin: a ball 8 mm above the floor, which a force moves by h^2 f / m, 20 mm
+# %% crossed-margin: a ball 8 mm above the floor, which a force moves by h^2 f / m, 20 mm
 floor = '<geom type="plane" size="1 1 1"/><body pos="0 0 .108">'
 ball_on_rail = '<joint name="z" type="slide" axis="0 0 1"/><geom size=".1" mass="1"/></body>'
 pull = '<actuator><motor name="down" joint="z"/></actuator>'
@@ -290,41 +290,41 @@ scene = mujoco_scenario(
     MjModel.from_xml_string(text), targets=lambda t: {"down": -200.0}, steps=1, margin=0.004
 )
 found = scene.run(progress=False).findings
-assert next(x for x in found if x.name == "crossed margin").numbers["depth_mm"] == pytest.approx(
+assert next(x for x in found if x.name == "crossed-margin").numbers["depth_mm"] == pytest.approx(
     12.0
 )
 
-# %% target beyond a limit: the URDF ends at 1 m
+# %% target-beyond-a-limit: the URDF ends at 1 m
 found = findings([motor("finger")], [], target=[1.5])
 
-# %% joint beyond a limit: a drawer at 0.98 m, whose URDF ends at 1 m, is pushed on by 60 mm
+# %% joint-beyond-a-limit: a drawer at 0.98 m, whose URDF ends at 1 m, is pushed on by 60 mm
 drawer = Body("drawer", joint("prismatic", "1 0 0"), positions={"joint": 0.98})
 found = findings([drawer], [], push={"drawer/part": (400, 0, 0)}, steps=3)
 
-# %% sunk contact: a box of a hundred points, of which one is kept, tips farther than a step foresees
+# %% sunk-contact: a box of a hundred points, of which one is kept, tips farther than a step foresees
 found = findings([box()], lies(k=1), cloud={"box": FACE}, push={"box": (0, 0, -20)}, steps=3)
-(sunk,) = (x for x in found if x.name == "sunk contact")
+(sunk,) = (x for x in found if x.name == "sunk-contact")
 assert sunk.remedy == "raise k of contacts.floor_box"
 assert " was not among its 1 closest at step " in sunk.cause
 
-# %% sunk contact: a rod on one point of its side
+# %% sunk-contact: a rod on one point of its side
 rod = Body.of_shape("rod", Cylinder(0.01, 0.1), 0.2, xyz=(0, 0, 0.01), rpy=(0, np.pi / 2, 0))
 found = findings([rod], lies("rod", k=1), push={"rod": (0, 0.05, 0)}, steps=20)
 remedy = "take a smaller h or move slower, or raise k of contacts.floor_rod"
 assert remedy in [x.remedy for x in found]
 
-# %% starts in the air, free fall: a box far above a floor does not lie on one point of it
+# %% starts-in-the-air, free-fall: a box far above a floor does not lie on one point of it
 found = findings([box(xyz=(0, 0, 1))], lies(k=1))
 assert len(found) == 2
 
-# %% free fall: a floor whose normal points down
+# %% free-fall: a floor whose normal points down
 found = findings(
     [box(xyz=(0, 0, 0.3))],
     [("ceiling", "box", 0.5, 4)],
     [("ceiling", HalfSpace((0, 0, -1.0), -1.0), (0, 0, 0))],
 )
 
-# %% free fall: a smooth box slips from between two fingers, of which 2 mm are left
+# %% free-fall: a smooth box slips from between two fingers, of which 2 mm are left
 found = findings(
     [box(xyz=(0, 0, 1)), *fingers(0.1, 1.098)],
     [("left", "box", 0.0, 4), ("right", "box", 0.0, 4)],
@@ -332,18 +332,18 @@ found = findings(
     steps=8,
 )
 
-# %% free fall: a ball past the end of its table
+# %% free-fall: a ball past the end of its table
 table = ("table", Box(size=(0.4, 0.4, 0.04)), (0, 0, -0.02))
 found = findings([ball(0.02, xyz=(0.23, 0, 0.02))], [("table", "ball", 0.5, 1)], [table])
 
-# %% failing backend: twelve digits of OSQP, which gives nine
+# %% failing-backend: twelve digits of OSQP, which gives nine
 found = findings([box()], push={"box": (3, 0, 0)}, backend="osqp", accuracy=1e-24)
 
-# %% uncertain forces: a box under a press of 1e9 N/m, which bears 1 N
+# %% uncertain-forces: a box under a press of 1e9 N/m, which bears 1 N
 press = motor("press", "0 0 1", xyz=(0, 0, 0.15))
 found = findings(
     [box(), press], [*STANDS, ("box", "press", 0.5, 4)], steps=1, K_q=1e9, target=[[-1e-9]]
 )
 
-# %% time of proof: 11 of 12 s (those of a long run, written here)
+# %% time-of-proof: 11 of 12 s (those of a long run, written here)
 found = findings([box()], seconds={"solve": 1.0, "proof": 11.0})

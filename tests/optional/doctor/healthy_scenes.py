@@ -65,7 +65,7 @@ found = findings([Body("wheel", joint("continuous", "0 0 1"), positions={"joint"
 
 # %% nothing: a crate that goes from one table to another, which is 10 um lower
 found = over_a_joint(TABLE, (0.25, 0, -0.02501))
-assert "flush shapes" not in [x.name for x in found]
+assert "flush-shapes" not in [x.name for x in found]
 
 # %% nothing: what a finger pushes stops within its contact, whose load, the drag, goes to 1e-13 N
 # A step leaves m/h^2 / (K_q + m/h^2) = 1/6 of the distance to the target.
@@ -74,4 +74,4 @@ pushed = [("finger", "slider", 0.0, 4)]
 found = findings(
     [slider, motor("finger", xyz=(-0.07, 0, 0))], pushed, target=[[0.01]] * 20, steps=20
 )
-assert "uncertain forces" not in [x.name for x in found]
+assert "uncertain-forces" not in [x.name for x in found]

@@ -18,9 +18,10 @@ from quasistatic_ref.simulate.finding import Finding
 
 HERE = Path(__file__).parent / "mistakes"
 PAGE = (HERE.parents[3] / "docs" / "findings.md").read_text("utf-8")
-LISTED = dict(re.findall(r"^- \*\*(.*?)\*\*(\\\*)?: ", PAGE, re.M))
-OF_TASK = re.findall(r"^\| ([\w ]+) \| (?!given if)", PAGE, re.M)
-GRAVE = {name: not words for name, words in LISTED.items()} | dict.fromkeys(OF_TASK, True)
+GRAVE = {
+    name: severity.startswith("grave")
+    for name, severity in re.findall(r"^\| `([\w-]+)` \| ([\w, ]+) \|", PAGE, re.M)
+}
 """By the page, of each finding."""
 SCENES = ("grasp", "push", "turn")
 RADIUS = 0.033

@@ -36,19 +36,19 @@ def test_what_its_lever_arms_hold_has_no_finding(reach, offset, balls, cone):
 def test_a_clamp_that_falls_is_told_that_nothing_bears_it(reach, offset):
     run = scenario(reach, offset, steps=100).run(progress=False)
     (finding,) = run.findings
-    assert finding.name == "free fall"
+    assert finding.name == "free-fall"
     assert 0.09 < -run["q"][-1][2] + 0.4 < 0.099
 
 
 def test_a_clamp_without_friction_falls_and_no_force_is_said_to_be_uncertain():
     run = scenario(0.1, 0.1, steps=20, mu_v=0.0).run(progress=False)
-    assert [one.name for one in run.findings] == ["free fall"]
+    assert [one.name for one in run.findings] == ["free-fall"]
 
 
 def test_a_sleeve_whose_lever_arms_press_too_little_is_locked():
     """N = 9.81 N on both sides, so that friction could bear 4.9 N of 9.81 N."""
     guided, locked = scenario(0.1, 0.1, SLEEVE).run(progress=False).findings
-    assert (guided.name, locked.name) == ("guided friction", "locked guide")
+    assert (guided.name, locked.name) == ("guided-friction", "locked-guide")
     assert locked.numbers["could_bear"] == pytest.approx(4.905, abs=2 * MU_V * WEIGHT * 0.2)
     assert "mu_v" not in guided.remedy + locked.remedy
 
@@ -58,5 +58,5 @@ def test_a_body_that_touches_what_cannot_bear_it_is_not_told_of_a_gap():
     box = free(block(1.0, (0.1, 0.1, 0.1)), (0, 0, 0.3))
     ceiling = {"ceiling": {"halfspace": {"normal": [0, 0, -1], "offset": -0.35}}}
     run = scene({"box": box}, {"on": ("ceiling", "box", 0.5, 4)}, 5, shapes=ceiling).run()
-    (fall,) = [one for one in run.findings if one.name == "free fall"]
+    (fall,) = [one for one in run.findings if one.name == "free-fall"]
     assert fall.remedy == "let what touches it at the start, on(ceiling, box/solid#0), bear it"

@@ -56,4 +56,4 @@ def test_a_scene_without_a_mistake_has_no_grave_finding_however_it_is_made(one, 
 def test_findings_do_not_depend_on_the_record(record, tmp_path):
     settings = [f"record={record}"]
     findings = findings_after(tmp_path, "grasp", WEAK_GRIP["edits"], settings)
-    assert [one.name for one in findings] == ["lost grip"]
+    assert [one.name for one in findings] == ["lost-grip"]

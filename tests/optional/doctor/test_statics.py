@@ -126,7 +126,7 @@ OF_A_TRAY = {"run_N": about(4.5), "slowly_N": about(0, abs=0.01)}
 NO_LAYER = {"artifact": {"layer_N": about(0.0, abs=1e-3)}}
 CASES = {
     "what a grip lacks behind a fast lift": (lifted_fast(), lacks(G + 20 - 25)),
-    "a grip of two tables": (lost(), {"lost grip": {}}),
+    "a grip of two tables": (lost(), {"lost-grip": {}}),
     "a lift at 50 mm/s": (grip(20.0, 60, (0.1, 0), (0.6, 0.025)), {"artifact": DRAG}),
     "a tray, and all that it carries": (carried(), {"artifact": OF_A_TRAY}),
     "a layer that ends upwards": (wiper(0.0005), LAYER),
@@ -152,7 +152,7 @@ def test_what_is_said_has_the_numbers_by_hand(case, hand):
     *parts, more = case
     run = scene(*parts, fast=True, **more).run(progress=False)
     said = {found.name: found.numbers for found in run.findings}
-    said.pop("uncertain forces", None)
+    said.pop("uncertain-forces", None)
     assert hand or said == {}
     for name, numbers in hand.items():
         assert (name in said) is (numbers is not None)

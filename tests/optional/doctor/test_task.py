@@ -45,7 +45,7 @@ def grasp(kind="prismatic", axis="0 -1 0", at=0.0):
 def test_a_finger_whose_axis_is_reversed_is_named(kind, right, wrong):
     assert not any(one.grave for one in grasp(kind, right))
     said = [one for one in grasp(kind, wrong) if one.grave]
-    assert [one.name for one in said] == ["idle contacts"]
+    assert [one.name for one in said] == ["idle-contacts"]
     assert said[0].remedy == "check the axis of gripper/left, or the sign of its targets"
     assert said[0].numbers["away_mm"] == pytest.approx(
         15.0, rel=0.11
@@ -54,7 +54,7 @@ def test_a_finger_whose_axis_is_reversed_is_named(kind, right, wrong):
 
 def test_a_finger_that_comes_near_is_not_led_astray():
     """The block is beside both fingers."""
-    (found,) = [one for one in grasp(at=0.2) if one.name == "idle contacts"]
+    (found,) = [one for one in grasp(at=0.2) if one.name == "idle-contacts"]
     assert found.remedy.startswith("check where block/solid stands")
 
 
@@ -79,7 +79,7 @@ def test_a_filler_is_no_distance_of_idle_contacts(at, words):
     track = JointTrack(joint, np.array([0.0, 0.1]), np.array([[0.0], [0.002]]))
     targets = Targets(start[: scene.system.n_q_a], [track])
     run = qr.rollout(scene.simulator(), start, targets, 10, progress=False)
-    (found,) = [one for one in run.findings if one.name == "idle contacts"]
+    (found,) = [one for one in run.findings if one.name == "idle-contacts"]
     assert words in found.cause
     assert "e+0" not in found.sentence
 
@@ -88,7 +88,7 @@ def test_a_mujoco_scene_may_be_run_without_targets():
     """To see how it stands: what is missing is said, and is no grave mistake."""
     run = qr.mujoco_scenario(mujoco.MjModel.from_xml_string(HAND.format(at=-0.4)), steps=3)
     (found,) = run.run(progress=False).findings
-    assert (found.name, found.grave) == ("no motion", False)
+    assert (found.name, found.grave) == ("no-motion", False)
     assert "--targets" in found.remedy
     assert "contacts." not in found.sentence
 
@@ -107,7 +107,7 @@ def test_a_base_on_springs_that_ends_far_from_its_target_is_named(K, far):
     bodies = {"p": palm, "b": free(block(1.0, (0.1, 0.1, 0.1)), (0, 0, 0.05))}
     made = scene(bodies, {"c": ("p", "b", 0.5, 4)}, 130, h=0.02, fast=True)
     found = made.run(progress=False).findings
-    said = [one for one in found if one.name == "far from target"]
+    said = [one for one in found if one.name == "far-from-target"]
     assert [one.remedy for one in said] == ["raise K_q of p/base to 2e+03 or more"] * far
     assert all(one.numbers["error_m"] == pytest.approx(9.81 / K, rel=1e-3) for one in said)
 
@@ -119,7 +119,7 @@ def test_a_joint_at_a_limit_of_its_table_is_not_short_of_its_target(limits):
     finger = driven(slides("z", TIP), (0, 0, 1), {"z": 10.0}, targets)
     run = scene({"finger": finger | {"joint_limits": {"z": limits}}}, {}, 10).run(progress=False)
     assert run.q[-1] == limits[0]
-    assert "far from target" not in [one.name for one in run.findings]
+    assert "far-from-target" not in [one.name for one in run.findings]
 
 
 @pytest.mark.parametrize("load", [0.0, 1.0])
@@ -138,7 +138,7 @@ def test_forces_on_a_base_that_cancel_do_not_stop_it(load):
     grip = ("gripper/*", "b", 0.5, 1)
     made = scene({"gripper": gripper, "b": body}, {"grip": grip}, 45, h=0.02, fast=True)
     found = made.run(progress=False).findings
-    said = [one for one in found if one.name == "far from target"]
+    said = [one for one in found if one.name == "far-from-target"]
     assert [one.remedy for one in said] == ["raise K_q of b/base to 200 or more"] * (load > 0)
     assert all(one.numbers["error_m"] == pytest.approx(0.05, rel=1e-6) for one in said)
 

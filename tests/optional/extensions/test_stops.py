@@ -67,16 +67,14 @@ def test_a_drawer_that_is_pushed_stops_at_its_limits(force, fast):
     assert q == (upper if force > 0 else lower)  # all of these forces reach it
 
 
-def test_the_account_of_a_run_has_the_force_of_a_stop():
+def test_a_run_has_the_force_of_a_stop():
     """20 N move 2 kg by 1 mm a step: the second ends at 2 mm, from the third on the stop has them.
 
     In the second it has 20 N - 2 kg 1 mm / h^2 = 0, up to rounding.
     """
     run = pushed_drawer(scene(drawer()), 20.0, 10)
-    (stop,) = run.account().stops
-    assert stop.name == "c/slide at its upper limit"
-    assert_relative(stop.force[2:], 20.0)
-    assert_relative(run.account().numbers["stops"][stop.name]["largest_force"], 20.0)
+    upper = run.header.extra.index("c/slide at its upper limit")
+    assert_relative(run["lam_extra"][2:, upper] / H, 20.0)
 
 
 def test_a_table_by_joint_takes_the_place_of_the_file():
@@ -123,7 +121,7 @@ def test_a_joint_may_be_beyond_its_limit_by_little(lower, upper, beyond, found):
     text = drawer(lower, upper)
     moved = pushed_drawer(scene(text, None), -beyond * M / H**2, 1)
     aimed = scene(text, None, **actuated(-beyond)).run()
-    for run, name in ((moved, "joint beyond a limit"), (aimed, "target beyond a limit")):
+    for run, name in ((moved, "joint-beyond-a-limit"), (aimed, "target-beyond-a-limit")):
         assert any(one.name == name for one in run.findings) == found
 
 

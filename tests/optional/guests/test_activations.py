@@ -58,6 +58,6 @@ def test_a_muscle_is_refused_by_name():
 
 def test_a_column_that_changes_no_force_is_a_finding(tmp_path):
     findings = run(tmp_path, INTEGRATED.format("-1 1", BEYOND)).findings
-    assert [one.name for one in findings] == ["target without effect"]
+    assert [one.name for one in findings] == ["target-without-effect"]
     assert "drive another actuator than a" in findings[0].remedy
     assert not run(tmp_path, INTEGRATED.format("-1 1", "")).findings

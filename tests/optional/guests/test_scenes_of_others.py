@@ -101,7 +101,7 @@ def test_other_findings_name_the_pair_and_no_table_of_a_scenario():
 def test_a_high_body_falls_without_a_distance_that_is_none():
     ball = FREE.format("0 0 0.5", '<geom size="0.05"/>')
     findings = scene(FLOOR + ball, steps=20).run().findings
-    assert [one.name for one in findings] == ["starts in the air", "free fall"]
+    assert [one.name for one in findings] == ["starts-in-the-air", "free-fall"]
     assert "lower box by 450 mm" in findings[0].remedy
     assert "e+09" not in findings[1].sentence
 
