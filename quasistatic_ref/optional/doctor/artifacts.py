@@ -74,7 +74,13 @@ def gap_after(phi: Array, n: Array, motion: Array) -> Array:
 
 
 def ways_of(slid: Array) -> Array:
-    """Lengths of slips [m] and sizes of spins [rad], (..., 4), shape (..., 2)."""
+    """Lengths of slips and sizes of spins, shape (..., 2) [m, rad].
+
+    Parameters
+    ----------
+    slid : ndarray, shape (..., 4)
+        Slips along the axes of the world [m], and spins [rad].
+    """
     return np.stack([np.linalg.norm(slid[..., :3], axis=-1), np.abs(slid[..., 3])], axis=-1)
 
 

@@ -159,7 +159,7 @@ class Member:
         self._at = np.searchsorted(of_u, body.coordinates[self._here])
 
     def r(self, delta_q: Array, square: float) -> Array:
-        """-M_u delta_q_u / T^2 along its coordinates [N, N m], of a square T^2 [s^2]."""
+        """-M_u delta_q_u / T^2 along its coordinates, (n,) [N, N m], of a square T^2 [s^2]."""
         step = self._slow.step
         r = np.zeros(len(self._here))
         r[self._here] = -(step.M_u @ delta_q[step.n_a :])[self._at] / square
