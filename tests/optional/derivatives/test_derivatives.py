@@ -33,7 +33,7 @@ from tests.optional.derivatives.free_bodies import (
 from tests.tolerances import DIFFERENCE_OF_STEPS
 
 DIGITS = 5
-PARTS = 16
+PARTS = 20
 IS_KINK = "/kink/"
 HARDEST = "derivative/random/96"
 """Its derivatives by q are the least well known, and small."""
