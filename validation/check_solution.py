@@ -4,6 +4,9 @@ Run ``python check_solution.py STEP.json SOLUTION.json``. This one file needs Py
 shares no code with the package whose answers it judges. Exit status: 0 if everything holds, 1 if
 something fails, 2 if a file cannot be read, or cannot be judged here.
 
+``python check_solution.py ANSWER.json`` judges a file of ``exact_qp``, which holds its program:
+minimise 1/2 x'Px + q'x subject to G x <= h, A x = b and lb <= x <= ub, with at most 100 unknowns.
+
 All numbers of the files are float64, hence fractions, and fractions they stay. A step is the
 problem  min 1/2 x'Hx - g'x  subject to  A x >= b,  where x is delta_q. A solution names rows W, its
 ``active``. Eq. (9) and A_W x = b_W are one linear system, which determines x and lam. The file is
@@ -15,11 +18,13 @@ import hashlib
 import json
 import sys
 from fractions import Fraction
+from math import lcm
 from operator import add
 
 SQUARE = ((1, 0), (0, 1), (-1, 0), (0, -1))
 PI = 314159265358979323846264338327950288419716939937510582097494  # times 10^59
 ONE = 2**256  # the unit of sums in fixed point
+MOST = 100  # unknowns of a quadratic program that take seconds, not minutes
 
 
 def need(condition, sentence):
@@ -154,28 +159,49 @@ def along(M, v):
     return [dot(row, v) for row in M]
 
 
-def definite(S):
-    """Whether each pivot of elimination is above 1e-14 of its entry on the diagonal."""
-    least = [max(Fraction(1e-14) * row[i], 0) for i, row in enumerate(S)]
-    while S and S[0][0] > least[-len(S)]:
-        first, *rest = S
-        S = [[v - r[0] / first[0] * w for v, w in zip(r[1:], first[1:], strict=True)] for r in rest]
-    return not S
+def eliminated(M, swaps=True):
+    """Upper triangular rows of a matrix, in whole numbers (Bareiss); None if a pivot is zero.
+
+    Each pivot is a leading minor of the rows, of which each is first made whole by itself.
+    """
+    units = [lcm(*(v.denominator for v in row)) for row in M]
+    rows = [[int(v * unit) for v in row] for row, unit in zip(M, units, strict=True)]
+    last = 1
+    for k in range(len(rows)):
+        i = next((i for i in range(k, len(rows) if swaps else k + 1) if rows[i][k]), None)
+        if i is None:
+            return None
+        rows[k], rows[i] = rows[i], rows[k]
+        pivot, *first = rows[k][k:]
+        for i in range(k + 1, len(rows)):
+            lead, *row = rows[i][k:]
+            rest = [(pivot * v - lead * w) // last for v, w in zip(row, first, strict=True)]
+            rows[i] = [0] * (k + 1) + rest
+        last = pivot
+    return rows
+
+
+def definite(S, share=1e-14):
+    """Whether each pivot of elimination is above a share of its entry on the diagonal."""
+    rows, last = eliminated(S, swaps=False) or [], 1
+    for k, row in enumerate(rows):
+        unit = lcm(*(v.denominator for v in S[k]))
+        if row[k] <= max(Fraction(share) * S[k][k] * unit * last, 0):
+            return False
+        last = row[k]
+    return len(rows) == len(S)
 
 
 def solved(M, right):
     """The solution of M x = right by elimination; None if M is singular."""
-    rows = [[*row, v] for row, v in zip(M, right, strict=True)]
-    for k in range(len(rows)):
-        i = next((i for i in range(k, len(rows)) if rows[i][k]), None)
-        if i is None:
-            return None
-        rows.insert(k, rows.pop(i))
-        rows[k] = [v / rows[k][k] for v in rows[k]]
-        for i, row in enumerate(rows):
-            if i != k and row[k]:
-                rows[i] = [v - row[k] * w for v, w in zip(row, rows[k], strict=True)]
-    return [row[-1] for row in rows]
+    rows = eliminated([[*row, v] for row, v in zip(M, right, strict=True)])
+    if not rows:
+        return None if M else []
+    D, x = rows[-1][-2], []  # D x is whole
+    for k, row in reversed([*enumerate(rows)]):
+        others = sum(v * w for v, w in zip(row[k + 1 : -1], x, strict=True))
+        x.insert(0, (D * row[-1] - others) // row[k])
+    return [Fraction(v, D) for v in x]
 
 
 def turn(k, K):
@@ -280,12 +306,103 @@ def verdicts(step, solution):
     yield "certificate", true
 
 
+def program_read(record):
+    """A quadratic program with its answer; limits of null are infinite."""
+    sizes = {name: len(read(record.get(name), list, name)) for name in ("q", "h", "b")}
+    n, k, e = sizes.values()
+    need(0 < n <= MOST, f"a program of {n} unknowns; at most {MOST} are judged here")
+    kinds = {"P": (n, n), "q": (n,), "G": (k, n), "A": (e, n), "b": (e,)}
+    like = {"format": {"quasistatic-ref/qp"}, "version": {1}, "status": {"optimal", "infeasible"}}
+    like |= kinds | {"h": list, "lb": list, "ub": list}
+    if record.get("status") == "infeasible":
+        like["farkas"] = {"z": [str], "y": [str], "z_box": [str]}
+    else:
+        like |= {"x": (n,), "z": (k,), "y": (e,), "z_box": (n,), "obj": (), "obj_error": ()}
+        like |= {"active": [str], "multipliers_unique": bool}
+    return read(record, like, "answer")
+
+
+def program_rows(qp):
+    """The (a, side, sign) of each a x <= side by name; those of equations have sign 0."""
+    n = len(qp["q"])
+    eye = [[float(i == j) for j in range(n)] for i in range(n)]
+    sides = {"A": (qp["A"], qp["b"], 0), "G": (qp["G"], qp["h"], 1)}
+    sides |= {"lb": (eye, qp["lb"], -1), "ub": (eye, qp["ub"], 1)}
+    rows = {}
+    for field, (matrix, limits, sign) in sides.items():
+        need(len(matrix) == len(limits), f"{field} has another number of rows than limits")
+        for i, (a, limit) in enumerate(zip(matrix, limits, strict=True)):
+            if limit is not None:
+                side = Fraction(read(limit, (), f"{field}[{i}]"))
+                rows[f"{field}[{i}]"] = (fractions(a), side, sign)
+    for i, (low, high) in enumerate(zip(qp["lb"], qp["ub"], strict=True)):
+        if low is not None and low == high:  # an equation
+            rows[f"lb[{i}]"] = (*rows.pop(f"ub[{i}]")[:2], 0)
+    return rows
+
+
+def program_verdicts(qp):
+    """Each claim of an answer to a quadratic program, and whether it holds."""
+    rows, n = program_rows(qp), len(qp["q"])
+    P = [
+        [(Fraction(qp["P"][i][j]) + Fraction(qp["P"][j][i])) / 2 for j in range(n)]
+        for i in range(n)
+    ]
+    yield "P is positive definite", definite(P, 0)
+    if qp["status"] == "infeasible":
+        yield "there is no solution", contradicted(qp, rows)
+        return
+    q, x = fractions(qp["q"]), fractions(qp["x"])
+    W = [rows[name] for name in qp["active"] if name in rows]
+    x_y = solved(
+        [row + [a[i] for a, _, _ in W] for i, row in enumerate(P)]
+        + [a + [Fraction(0)] * len(W) for a, _, _ in W],
+        [-v for v in q] + [side for _, side, _ in W],
+    )
+    each_once = len(W) == len(qp["active"]) == len(set(qp["active"]))
+    yield "active names independent rows", each_once and x_y is not None
+    x, y_W = x_y[:n], x_y[n:]
+    yield "x", qp["x"] == [rounded(v) for v in x]
+    signs = [y * sign >= 0 if sign else True for y, (_, _, sign) in zip(y_W, W, strict=True)]
+    yield "signs of multipliers", all(signs)
+    off = [(dot(a, x) - side, sign) for a, side, sign in rows.values()]
+    yield "rows", all(v * sign <= 0 if sign else v == 0 for v, sign in off)
+    right = {"z": [0.0] * len(qp["z"]), "y": [0.0] * len(qp["y"]), "z_box": [0.0] * n}
+    for name, y in zip(qp["active"], y_W, strict=True):
+        field, i = name[:-1].split("[")
+        right[{"G": "z", "A": "y"}.get(field, "z_box")][int(i)] = rounded(y)
+    yield "multipliers", all(qp[name] == values for name, values in right.items())
+    value = dot(x, along(P, x)) / 2 + dot(q, x)
+    yield "obj", abs(value - Fraction(qp["obj"])) <= Fraction(qp["obj_error"])
+    idle = [v for name, (v, _) in zip(rows, off, strict=True) if name not in qp["active"]]
+    yield "multipliers_unique", qp["multipliers_unique"] or 0 in idle  # false: not judged
+
+
+def contradicted(qp, rows):
+    """Whether the multipliers of a proof add rows up to 0 <= something negative."""
+    proof = [(f"G[{i}]", text) for i, text in enumerate(qp["farkas"]["z"])]
+    proof += [(f"A[{i}]", text) for i, text in enumerate(qp["farkas"]["y"])]
+    for i, text in enumerate(qp["farkas"]["z_box"]):
+        upper = not text.startswith("-") and f"ub[{i}]" in rows
+        proof.append((f"ub[{i}]" if upper else f"lb[{i}]", text))
+    need(all(set(text) <= set("-0123456789/") for _, text in proof), "farkas has no fractions")
+    used = [(name, Fraction(text)) for name, text in proof if text != "0"]
+    if any(name not in rows or v * rows[name][2] < 0 for name, v in used):
+        return False
+    total = [sum(v * rows[name][0][i] for name, v in used) for i in range(len(qp["q"]))]
+    return not any(total) and sum(v * rows[name][1] for name, v in used) < 0
+
+
 def main(*paths):
     """Print what holds, up to the first claim that does not; the exit status."""
     try:
-        need(len(paths) == 2, "two files are asked for, STEP.json and SOLUTION.json")
-        step, solution = map(table, paths)
-        for claim, holds in verdicts(step_read(step), solution_read(solution)):
+        need(len(paths) in (1, 2), "STEP.json and SOLUTION.json are asked for, or ANSWER.json")
+        tables = [table(path) for path in paths]
+        if len(tables) == 1:
+            claims = program_verdicts(program_read(tables[0]))
+        else:
+            claims = verdicts(step_read(tables[0]), solution_read(tables[1]))
+        for claim, holds in claims:
             print(f"{claim}: {'holds' if holds else 'FAILS'}")
             if not holds:
                 return 1

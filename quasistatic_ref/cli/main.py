@@ -27,6 +27,7 @@ COMMANDS = {
     "verify": "re-check an answer and its certificate without any solver",
     "inspect": "show what a URDF or a scenario holds, and what the model ignores",
     "body": "make a body of a scenario from a scan, a point cloud or a mesh",
+    "qp": "the exact answer of a quadratic program, and what solvers make of it",
     "opinion": "say whether the contacts of a MuJoCo scene hold, next to the exact answer",
     "extract": "write one step of a trajectory as a step file",
     "vectors": "reference vectors: check another implementation against them, layer by layer",
@@ -101,8 +102,10 @@ def parsed(arguments: list[str]) -> argparse.Namespace:
         if isinstance(stream, io.TextIOWrapper):  # what a terminal cannot show is escaped
             stream.reconfigure(errors="backslashreplace")
     named = next((argument for argument in arguments if not argument.startswith("-")), None)
-    # Only the command that is used declares its options: their modules may be heavy.
-    return command_parser([named]).parse_args(arguments)
+    try:  # only the command that is used declares its options: their modules may be heavy
+        return command_parser([named]).parse_args(arguments)
+    except ImportError as error:
+        sys.exit(_failed(_not_installed(error), 2))
 
 
 def status(options: argparse.Namespace) -> int:
@@ -119,11 +122,7 @@ def status(options: argparse.Namespace) -> int:
         sys.stderr.close()
         return 0
     except ImportError as error:
-        library = re.match(r"(\S+\.so\S*): cannot open shared object", str(error))
-        if library is None:
-            raise
-        problem = f"{library[1]}, which a package needs, is not installed on this system"
-        return _failed(f"{problem}; libgomp.so.1 comes by: apt-get install libgomp1", 2)
+        return _failed(_not_installed(error), 2)
     except MemoryError:
         return _failed("this needs more memory than there is", 2)
     except OSError as error:  # files are wrapped where they are used: without a name, it is ours
@@ -132,6 +131,21 @@ def status(options: argparse.Namespace) -> int:
             return _failed(f"{clipped(str(error.filename))}: cannot be used: {reason}", 2)
         _discard_output()
         return _failed(f"standard output: cannot be written: {reason}", 2)
+
+
+def _not_installed(error: ImportError) -> str:
+    """What is missing, in a sentence; the error itself, raised, where it is a mistake of ours."""
+    library = re.match(r"(\S+\.so\S*): cannot open shared object", str(error))
+    if library is not None:
+        problem = f"{library[1]}, which a package needs, is not installed on this system"
+        return f"{problem}; libgomp.so.1 comes by: apt-get install libgomp1"
+    package, *_ = (error.name or "").split(".")
+    if not isinstance(error, ModuleNotFoundError) or package in ("", __package__.split(".")[0]):
+        raise error
+    return (
+        f"this needs {package}, which is not installed here; a light installation checks vectors "
+        "and answers alone: install quasistatic-ref with its dependencies"
+    )
 
 
 def command_parser(named: Container[str | None]) -> Parser:

@@ -1,4 +1,7 @@
-"""``verify STEP.json SOLUTION.json``: re-check an answer, and its certificate, without a solver."""
+"""``verify STEP.json SOLUTION.json``: re-check an answer, and its certificate, without a solver.
+
+``verify ANSWER.json`` does so with a file of ``exact_qp``, which holds its program, too.
+"""
 
 import argparse
 from pathlib import Path
@@ -7,27 +10,32 @@ from quasistatic_ref.certify.solution_files import load_solution
 from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words
+from quasistatic_ref.parts import needing
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     shared.add(parser, "step")
-    parser.add_argument("solution", type=Path, help="a solution file (quasistatic-ref/solution)")
+    words = "a solution file (quasistatic-ref/solution); none beside a file of exact_qp"
+    parser.add_argument("solution", type=Path, nargs="?", help=words)
     shared.add(parser, "--cone", "--json")
 
 
 def run(options: argparse.Namespace) -> int:
     """Exit status 0 if all that is claimed holds, 1 if it does not."""
-    step = shared.step_of(options)
-    solution = load_solution(options.solution, step)
-    verdict = verify(solution)
+    if options.solution is None:
+        with needing("an answer of exact_qp"):
+            from quasistatic_ref.optional.qp.files import load_answer
+        verdict = verify(load_answer(options.step))
+        proved = "all that it says of its quadratic program is exact"
+    else:
+        solution = load_solution(options.solution, shared.step_of(options))
+        verdict = verify(solution)
+        proved = "the step has no solution; the Farkas vector proves it"
+        if verdict and solution.certificate is not None:
+            proved = in_words(solution.certificate)
     if options.json:
         shared.print_json({"verified": verdict.ok, "reason": verdict.reason or None})
-    elif not verdict:
-        print(f"refuted: {verdict.reason}")
     else:
-        proved = "the step has no solution; the Farkas vector proves it"
-        if solution.certificate is not None:
-            proved = in_words(solution.certificate)
-        print(f"verified: {proved}")
+        print(f"verified: {proved}" if verdict else f"refuted: {verdict.reason}")
     return 0 if verdict else 1

@@ -56,7 +56,9 @@ UNREADABLE: tuple[type[Exception], ...] = (
 """What zipfile and NumPy raise at a file that is something else, or spoilt."""
 
 
-def npz_arrays(path: str | Path, what: str, only: str = "") -> dict[str, NDArray[Any]]:
+def npz_arrays(
+    path: str | Path, what: str, only: str = "", missing: frozenset[bytes] = frozenset()
+) -> dict[str, NDArray[Any]]:
     """Every array of the file by name, each of the shape and type that it has there.
 
     Parameters
@@ -66,6 +68,8 @@ def npz_arrays(path: str | Path, what: str, only: str = "") -> dict[str, NDArray
         What the file must be, for the sentence on one that is something else.
     only : str, optional
         The one array that is unpacked.
+    missing : frozenset of bytes
+        Contents of members that stand for no array.
 
     Raises
     ------
@@ -78,7 +82,8 @@ def npz_arrays(path: str | Path, what: str, only: str = "") -> dict[str, NDArray
         members = {_name(member, problem): member for member in _checked_sizes(archive)}
         arrays = {}
         for name, member in members.items():
-            if only in ("", name):
+            small = member.file_size <= max(map(len, missing), default=-1)
+            if only in ("", name) and not (small and archive.read(member) in missing):
                 with archive.open(member) as file:
                     arrays[name] = array_of(file, member.file_size, member.filename)
         return arrays
@@ -174,7 +179,7 @@ def array_of(file: IO[bytes], size: int, name: str) -> NDArray[Any]:
         raise NoSuchArray(f"{name} is an array file of another version")
     shape, _, kind = np.lib.format.read_array_header_1_0(file)
     if kind.hasobject:
-        raise NoSuchArray(f"{name} is a pickle, which is never opened")
+        raise NoSuchArray(f"{name} is a pickle, which is never opened; save a dense array")
     byte_count = math.prod(
         shape, start=kind.itemsize
     )  # of Python's own numbers: it does not overflow

@@ -204,6 +204,8 @@ NONE = "none"
 @cache  # CVXPY tries to import every solver it knows: 2 ms
 def reached(interface: str) -> tuple[str, ...]:
     """Every solver that is here, by ``"cvxpy"`` or, with its optional part, ``"qpsolvers"``."""
+    if not find_spec(interface):  # a light installation
+        return ()
     if interface == "cvxpy":
         import cvxpy
 

@@ -1,0 +1,122 @@
+"""``qp FILE``: the exact answer of a quadratic program, and what solvers make of it."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError, about_file
+from quasistatic_ref.formats.quoting import listed
+from quasistatic_ref.optional.qp.answer import ExactQP, QPInfeasible
+from quasistatic_ref.optional.qp.exact import exact_qp
+from quasistatic_ref.optional.qp.files import SUFFIXES, load_qp
+
+if TYPE_CHECKING:
+    from quasistatic_ref.lab.study.row import Row
+
+Answer = ExactQP | QPInfeasible
+SETTINGS = ("default", "high")
+"""The accuracies that solvers are asked for: their own, and 1e-9."""
+MOST_NAMES = 20
+"""Active rows that a line names."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of this command."""
+    words = f"a file of a program, {listed(SUFFIXES)}, or a folder of such, which is a study"
+    parser.add_argument("file", type=Path, help=words)
+    parser.add_argument(
+        "--solvers",
+        nargs="+",
+        metavar="NAME",
+        help="solvers of qpsolvers, or cvxpy:NAME (of a folder: all that are installed)",
+    )
+    shared.add(parser, "-o", metavar="ANSWER.json")
+    shared.add(parser, "--out", default="study")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Exit status 0 if all is proved, 3 if the program of a file has no solution.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be used.
+    """
+    if options.file.is_dir():
+        return _study(options)
+    with about_file(options.file):
+        answers = {name: _answer(program) for name, program in load_qp(options.file).items()}
+    for name, answer in answers.items():
+        print(f"{name}: {_in_words(answer)}")
+    if options.output is not None:
+        if len(answers) > 1:
+            raise InputError("holds several programs; -o writes one", file=options.file)
+        for answer in answers.values():
+            print(f"wrote {answer.save(options.output)}")
+    if options.solvers:
+        from quasistatic_ref.lab.study.foreign import rows_of
+
+        shared.print_rows(_table(rows_of(answers, _labels(options.solvers), SETTINGS)))
+    return 3 if any(isinstance(answer, QPInfeasible) for answer in answers.values()) else 0
+
+
+def _study(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.study.foreign import known
+    from quasistatic_ref.lab.study.run import study
+    from quasistatic_ref.lab.study.store import ROWS
+
+    answers: dict[str, Answer] = {}
+    for path in sorted(options.file.iterdir()):
+        if path.suffix not in SUFFIXES:
+            continue
+        try:
+            programs = load_qp(path)
+            answers |= {name: _answer(program) for name, program in programs.items()}
+        except InputError as error:  # the others are a study all the same
+            print(f"{path.name}: left out: {error}")
+    if not answers:
+        raise InputError("holds no program with an answer", file=options.file)
+    for name, answer in answers.items():
+        print(f"{name}: {_in_words(answer)}")
+    labels = _labels(options.solvers or ["*"])
+    study(known(answers), labels, SETTINGS, options.out, progress=not options.quiet)
+    print(
+        f"wrote {Path(options.out) / ROWS}; 'quasistatic-ref study report {options.out}' tables it"
+    )
+    return 0
+
+
+def _answer(program: object) -> Answer:
+    try:
+        return exact_qp(program)  # type: ignore[arg-type]  # a program has all arrays
+    except QPInfeasible as proof:
+        return proof
+
+
+def _labels(names: list[str]) -> list[str]:
+    return [name if ":" in name else f"qpsolvers:{name}" for name in names]
+
+
+def _in_words(answer: Answer) -> str:
+    if isinstance(answer, QPInfeasible):
+        return str(answer)
+    names = answer.active
+    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+    active = f"{', '.join(names[:MOST_NAMES])}{more}" if names else "none"
+    unique = "unique" if answer.multipliers_unique else "not unique"
+    return f"proved: objective {answer.obj!r}; active: {active}; multipliers {unique}"
+
+
+def _table(rows: list["Row"]) -> list[tuple[str, ...]]:
+    """A line a call: what it says, residuals in natural units, digits, seconds."""
+    head = ("solver", "accuracy", "says", "primal", "dual", "gap", "reached", "digits", "seconds")
+    lines: list[tuple[str, ...]] = [head]
+    for row in rows:
+        numbers = [row.accuracy, row.primal, row.dual, row.gap]
+        accuracy, *residuals = ("-" if v is None else f"{v:.0e}" for v in numbers)
+        digits = "-" if row.digits is None else f"{row.digits:.1f}"
+        seconds = "-" if row.seconds is None else f"{row.seconds:.2g}"
+        reached = {True: "yes", False: "no", None: "-"}[row.reached]
+        lines.append((row.solver, accuracy, row.says, *residuals, reached, digits, seconds))
+    return lines

@@ -1,0 +1,84 @@
+"""Programs of others as problems of a study, with the answers of ``exact_qp``."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from quasistatic_ref.lab.study.limits import Limits
+from quasistatic_ref.lab.study.problems.names import NATURAL
+from quasistatic_ref.lab.study.program import Program
+from quasistatic_ref.lab.study.row import Row
+from quasistatic_ref.lab.study.run import measured, plan
+from quasistatic_ref.lab.study.solvers import settings_of, solvers_of
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.qp.answer import ExactQP, QPInfeasible
+from quasistatic_ref.solve.units import units_of
+from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.step.units import Units
+
+
+@dataclass(frozen=True)
+class Foreign:
+    """A program of somebody's, as :class:`~quasistatic_ref.lab.study.program.Known`.
+
+    Parameters
+    ----------
+    id : str
+        Its name.
+    answer : ExactQP or QPInfeasible
+    dial : None
+        It is of no family with a dial [-].
+    """
+
+    id: str
+    answer: ExactQP | QPInfeasible
+    dial: float | None = None
+
+    @property
+    def family(self) -> str:
+        """Its name without the number at its end."""
+        return self.id.rstrip("0123456789") or self.id
+
+    @property
+    def feasible(self) -> bool:
+        """Whether it has a solution."""
+        return isinstance(self.answer, ExactQP)
+
+    @cached_property
+    def program(self) -> Program:
+        """Its matrices: rows a x + c >= 0 as A = a and b = -c, equations first."""
+        problem = self.answer.problem
+        rows = problem.rows
+        equations = int(rows.is_equation.sum())
+        return Program(
+            (problem.P + problem.P.T) / 2, 0.0 - problem.q, rows.a, 0.0 - rows.c, equations
+        )
+
+    @cached_property
+    def units(self) -> Units:
+        """Its natural units."""
+        return units_of(StandardForm(*self.program[:4]))
+
+    def digits(self, x: Array) -> float:
+        """Correct digits of an x, shape (n,) [-]."""
+        assert isinstance(self.answer, ExactQP)
+        return self.answer.digits(x)
+
+
+def known(answers: Mapping[str, ExactQP | QPInfeasible]) -> list[Foreign]:
+    """Answers by name as problems of a study."""
+    return [Foreign(name, answer) for name, answer in answers.items()]
+
+
+def rows_of(
+    answers: Mapping[str, ExactQP | QPInfeasible], solvers: Sequence[str], settings: Sequence[str]
+) -> list[Row]:
+    """The rows of a study that is not kept."""
+    chosen = solvers_of(solvers)
+    return [
+        row
+        for solver in chosen
+        for row in measured(
+            plan(known(answers), [solver], settings_of(settings), [NATURAL]), Limits()
+        )
+    ]

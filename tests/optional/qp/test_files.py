@@ -1,0 +1,163 @@
+"""Programs in files of others, and the command ``qp``."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import qpsolvers
+import scipy.sparse
+
+import quasistatic_ref as qr
+from quasistatic_ref.lab.study.store import rows_read
+from quasistatic_ref.optional.qp.files import load_qp
+from tests.helpers import one_sentence
+
+DATA = Path(__file__).parent / "data"
+PROVED = {"HS21": 0.04, "HS35MOD": 0.25 - 9, "HS76": -4.681818181818182, "HS118": 664.82045,
+          "DUAL3": 0.13575583686602126, "LIPMWALK0": None}  # fmt: skip
+
+
+def program_of(name):
+    (path,) = DATA.glob(f"{name}.*")
+    (program,) = load_qp(path).values()
+    return program
+
+
+@pytest.mark.parametrize("name", PROVED)
+def test_public_programs_are_proved(name):
+    answer = qr.exact_qp(program_of(name))
+    assert qr.verify(answer)
+    if PROVED[name] is not None:
+        assert answer.obj == pytest.approx(PROVED[name], rel=1e-14)
+
+
+def test_a_public_program_whose_row_rounding_has_emptied_has_no_solution():
+    with pytest.raises(qr.QPInfeasible, match=r"G\[0\] asks for 0 <= -2.78e-17") as caught:
+        qr.exact_qp(program_of("LIPMWALK10"))
+    assert qr.verify(caught.value)
+    assert caught.value.rows == ("G[0]",)
+
+
+def test_a_file_of_qpsolvers_is_read_and_what_is_missing_there_is_none(tmp_path):
+    problem = qpsolvers.Problem(np.eye(2), -np.ones(2), ub=np.array([0.5, 2.0]))
+    problem.save(str(tmp_path / "problem.npz"))
+    (read,) = load_qp(tmp_path / "problem.npz").values()
+    assert qr.exact_qp(read) == qr.exact_qp(problem)
+    assert qr.exact_qp(read).x.tolist() == [0.5, 1.0]
+
+
+class Fatal:
+    """A pickle that would end the test."""
+
+    def __reduce__(self):
+        return sys.exit, (1,)
+
+
+@pytest.mark.parametrize("entry", [Fatal(), "text", scipy.sparse.csc_matrix(np.eye(2)), [None]])
+def test_any_other_pickle_is_refused_by_name_and_never_opened(entry, tmp_path):
+    path = tmp_path / "problem.npz"
+    G = np.empty((), dtype=object)
+    G[()] = entry
+    np.savez(path, P=np.eye(2), q=np.ones(2), G=G, h=np.array(None))
+    with pytest.raises(qr.InputError, match=r"problem.npz: .*G.npy is a pickle, .*; save a dense"):
+        load_qp(path)
+
+
+def test_a_test_set_of_qpbenchmark_is_read(tmp_path):
+    arrow = pytest.importorskip("pyarrow")
+    parquet = pytest.importorskip("pyarrow.parquet")
+    columns = {"name": ["one"], "P": [[2.0, 0.0, 0.0, 2.0]], "q": [[-2.0, -4.0]]}
+    columns |= {"G": [[1.0, 1.0]], "h": [[2.0]], "A": [None], "b": [None]}
+    parquet.write_table(arrow.table(columns), tmp_path / "set.parquet")
+    programs = load_qp(tmp_path / "set.parquet")
+    assert [*programs] == ["set/one"]
+    assert qr.exact_qp(programs["set/one"]).x.tolist() == [0.5, 1.5]
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".mat", ".parquet", ".json", ".txt"])
+def test_a_file_that_is_something_else_gets_one_sentence(suffix, tmp_path, cli):
+    path = tmp_path / f"file{suffix}"
+    path.write_text("nothing of the kind")
+    assert f"file{suffix}" in one_sentence(cli("qp", path, status=2).err)
+
+
+@pytest.mark.parametrize(("suffix", "package"), [(".mat", "scipy"), (".parquet", "pyarrow")])
+def test_a_package_that_is_missing_is_named(suffix, package, tmp_path, cli, monkeypatch):
+    monkeypatch.setitem(sys.modules, {"scipy": "scipy.io"}.get(package, "pyarrow.parquet"), None)
+    path = tmp_path / f"file{suffix}"
+    path.write_text("")
+    assert f"pip install {package}" in one_sentence(cli("qp", path, status=2).err)
+
+
+def test_the_command_proves_saves_and_grades(tmp_path, cli):
+    answer = tmp_path / "answer.json"
+    said = cli("qp", DATA / "DUAL3.mat", "-o", answer, "--solvers clarabel daqp").out
+    first, _, head, *rows = said.splitlines()
+    assert first.startswith("DUAL3: proved: objective 0.1357558368660212")
+    assert "active: A[0], lb[60]," in first
+    columns = "solver accuracy says primal dual gap reached digits seconds"
+    assert head.split() == columns.split()
+    words = [row.split() for row in rows]
+    accuracies = ("-", "1e-09")
+    asked = [(name, accuracy) for name in ("clarabel", "daqp") for accuracy in accuracies]
+    assert [tuple(line[:3]) for line in words] == [(*one, "solved") for one in asked]
+    digits = {tuple(line[:2]): float(line[-2]) for line in words}
+    assert digits["clarabel", "1e-09"] < 8 < digits["daqp", "1e-09"]
+    assert "verified" in cli("verify", answer).out
+    assert cli("qp", answer).out.splitlines()[0][8:] == first[7:]
+
+
+def test_the_command_says_that_there_is_no_solution(tmp_path, cli):
+    proof = tmp_path / "proof.json"
+    said = cli("qp", DATA / "LIPMWALK10.npz", "-o", proof, status=3).out
+    assert "has no solution: G[0] asks for 0 <= -2.78e-17" in said
+    assert "verified" in cli("verify", proof).out
+    forged = proof.read_text().replace('"z": ["1"', '"z": ["-1"')
+    proof.write_text(forged)
+    assert "refuted: z of the proof has a negative entry" in cli("verify", proof, status=1).out
+    assert (
+        "P is singular: x_0 + x_1 - x_2 costs nothing" in cli("qp", DATA / "HS51.mat", status=2).err
+    )
+
+
+def test_a_folder_is_a_study_of_what_can_be_proved(tmp_path, cli):
+    folder = tmp_path / "programs"
+    folder.mkdir()
+    for name in ("HS21.mat", "HS51.mat", "LIPMWALK10.npz", "README.md"):
+        (folder / name).write_bytes((DATA / name).read_bytes())
+    out = tmp_path / "study"
+    said = cli("qp", folder, "--out", out, "--solvers clarabel", "--quiet").out
+    assert "HS51.mat: left out: P is singular" in said
+    rows = {(row.problem, row.setting): row for row in rows_read(out)}
+    assert {*rows} == {(name, s) for name in ("HS21", "LIPMWALK10") for s in ("default", "high")}
+    assert rows["HS21", "high"].digits > 6
+    emptied = rows["LIPMWALK10", "high"]
+    assert (emptied.feasible, emptied.digits, emptied.says) == (False, None, "solved")
+    assert "summary.md" in cli("study report", out, "--out", tmp_path / "page").out
+
+
+LIGHT = """
+import sys
+sys.modules |= dict.fromkeys(("cvxpy", "scipy", "tqdm", "pinocchio", "coal", "matplotlib"))
+from quasistatic_ref.cli.main import main, parsed, status
+sys.exit(status(parsed(sys.argv[1:])))
+"""
+
+
+@pytest.mark.parametrize(
+    ("command", "missing"),
+    [
+        (["qp", DATA / "LIPMWALK0.npz"], None),
+        (["qp", DATA / "LIPMWALK0.npz", "--solvers", "clarabel"], "scipy"),
+        (["run", "bunny_grasp"], "pinocchio"),
+        (["demo"], "pinocchio"),
+        (["figures"], "matplotlib"),
+    ],
+)
+def test_a_light_installation_does_its_own_and_says_what_else_is_missing(command, missing):
+    ended = subprocess.run([sys.executable, "-c", LIGHT, *command], capture_output=True, text=True)
+    assert ended.returncode == (0 if missing is None else 2)
+    if missing is not None:
+        assert f"this needs {missing}, which is not installed here" in one_sentence(ended.stderr)
