@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 import quasistatic_ref  # noqa: E402 the path has to be there first
-from docs.fields_page import reference_page  # noqa: E402 the path has to be there first
+from docs.fields_page import arrays_page, reference_page  # noqa: E402 the path has to be there first
 from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
 from quasistatic_ref.scenario.scenario_table import TABLES as SCENARIO  # noqa: E402 the path has to be there first
 
@@ -159,7 +159,8 @@ def setup(app):
 def _expanded(app, docname, source):
     """Links that are right in the repository lead out of docs/; here they lead to their pages.
 
-    ``% fields of a scenario`` is the table by which these are read.
+    ``% fields of a scenario`` and ``% arrays of a trajectory`` are the tables by which these are
+    read.
     """
     up = "../" * docname.count("/")
     text = source[0]
@@ -173,6 +174,7 @@ def _expanded(app, docname, source):
         text = text.replace(f"]({up}../{file})", f"]({up}{page})")
     text = text.replace(f"]({up}gallery/README.md)", f"]({up}scripts/index.rst)")
     text = text.replace("\n% fields of a scenario\n", "\n" + reference_page(SCENARIO))
+    text = text.replace("\n% arrays of a trajectory\n", "\n" + arrays_page())
     if docname in CLOSED_FORMS:
         text = RESULT.sub(lambda r: f"[**({r[1]}){r[2]}**]{{#{r[1].lower()}}}", text)
     source[0] = _results_linked(text)

@@ -1,9 +1,10 @@
-"""The fields of a file, as the page about it lists them."""
+"""The fields and arrays of files, as the pages about them list them."""
 
 from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.formats.table_reader import REQUIRED
 from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.simulate.record import ARRAYS
 
 
 def reference_page(tables: Tables) -> str:
@@ -17,6 +18,15 @@ def reference_page(tables: Tables) -> str:
         table = markdown_table(("field", "value", "unit", "default", "says"), rows)
         parts.append("\n".join([f"### {_heading(kind)}", "", *table]))
     return "\n\n".join(parts) + "\n"
+
+
+def arrays_page() -> str:
+    """Every array of a trajectory as a table in Markdown."""
+    rows = [
+        (f"`{name}`", kept.shape.replace(" ", " x "), kept.of, kept.says)
+        for name, kept in ARRAYS.items()
+    ]
+    return "\n".join(markdown_table(("array", "shape", "records", "holds"), rows)) + "\n"
 
 
 def _heading(kind: str) -> str:

@@ -139,13 +139,21 @@ def header_read(top: TableReader, n_q: int, n_c: int) -> Header:
         law=top.text("law", CONVEX, LAWS),
         distances=top.text("distances", CLOSED, DISTANCES),
         alone=top.boolean("alone", True),
-        unanswered=tuple(top.sequence("unanswered", [])),
+        unanswered=_steps(top, "unanswered"),
         not_looked_at=top.text("not_looked_at", ""),
         ignore=tuple(top.words("ignore", [])),
     )
     top.take("scene", None)  # of files from when accounts of runs were made of them
     top.close()
     return header
+
+
+def _steps(top: TableReader, name: str) -> tuple[int, ...]:
+    """Numbers of steps that ran, ascending."""
+    numbers = top.sequence(name, [])
+    if not all(type(k) is int and k >= 0 for k in numbers) or numbers != sorted(set(numbers)):
+        raise top.error_about(name, "must be numbers of steps, in increasing order", numbers)
+    return tuple(numbers)
 
 
 def _unless_null(top: TableReader, name: str, read: Callable[[str], Any]) -> Any:

@@ -10,9 +10,6 @@ CONVEX: Final = "convex"
 COULOMB: Final = "coulomb"
 Law = Literal["convex", "coulomb"]
 LAWS: tuple[Law, ...] = get_args(Law)
-ITERATED = ("s", "s_residual", "s_iterations")
-"""What Coulomb's law adds to each step of a record: by how much phi was raised, shape (n_c,) [m];
-by how much that is not its own [m]; and how many convex steps were solved."""
 
 
 def check_law(law: str, certify: str) -> None:

@@ -1,49 +1,259 @@
-"""The arrays of a record of a run, and whether a header and arrays are one."""
+"""The arrays of a record of a run: one table, which reads them of results and checks them."""
 
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from operator import attrgetter
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.simulate.header import Header
-from quasistatic_ref.simulate.law import COULOMB, ITERATED
+from quasistatic_ref.simulate.law import COULOMB
+from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
-CONSTANT = ("mu_v", "mu_omega", "rows")
-"""Arrays without a step axis."""
-PER_STEP = (
-    "t", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "d1", "d2", "point", "lam", "wrench",
-    "certificate", "worst_residual", "digits",
-)  # fmt: skip
-PROGRAM = ("H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
-"""What a full record adds, step by step."""
-LOADS = PROGRAM[-3:]
-"""Fields of a step that are no matrices."""
-OF_MANY = ("column", *PROGRAM[4:])
-"""What it adds of a `fast` step of many bodies: of J and M_u what can differ from zero."""
-LARGEST = 1_000_000
-"""Entries of J from which a step is one of many bodies; beyond those of one step, no more are kept
-before they become arrays."""
-NOT_KNOWN = ("worst_residual", "digits", "forces", "imbalance")
-"""Arrays that hold NaN where nothing was certified, or no forces were found; all others are finite.
-"""
-FORCES = ("forces", "imbalance", "motion")
-"""What a record of forces adds to a light one."""
-EXTRA = ("lam_extra", "extra_A", "extra_b")
-"""What the rows of an extension add: the multipliers, and to a full record the rows."""
-OF_STEP = ("t", "certificate", "worst_residual", "digits", "imbalance")
-"""Arrays with one entry a step."""
-OF_CONTACT = {
-    **dict.fromkeys(("phi", "point"), ()),
-    **dict.fromkeys(("alpha", "beta", "n", "d1", "d2"), (3,)),
-    **dict.fromkeys(("wrench", "forces", "motion"), (4,)),
-}
-"""Shape of an entry of arrays that have one for each contact in each step."""
-COST = ("extra_H", "extra_g")
-"""What a quadratic cost of an extension adds to a full record."""
+EVERY: Final = "every"
+FULL: Final = "full"
+FORCES: Final = "forces"
+OWN_ROWS: Final = "own rows"
+OWN_ROWS_IN_FULL: Final = "own rows, full"
+OWN_COST: Final = "own cost, full"
+
+
+class Kept(NamedTuple):
+    """One array of a record.
+
+    Parameters
+    ----------
+    shape : str
+        In letters: T steps, T+1 configurations, n_c contacts, m and M multipliers and rows, e own
+        rows, n_q, n_v and n_a as in the notation, N and N_u coordinates of the program.
+    says : str
+        What it is, with its unit.
+    of : str
+        Which records have it.
+    read : str
+        Where a :class:`Reading` has it; empty of what the recorder itself knows.
+    dtype : type
+    nan : bool
+        Whether NaN stands for what is not known.
+    """
+
+    shape: str
+    says: str
+    of: str = EVERY
+    read: str = ""
+    dtype: type = np.float64
+    nan: bool = False
+
+
+ARRAYS: Final[dict[str, Kept]] = {
+    "q": Kept("T+1 n_q", "configuration, from the start on [m, rad, -]"),
+    "t": Kept("T", "end of the step [s]"),
+    "delta_q": Kept("T n_v", "displacement [m, rad]", read="delta_q"),
+    "q_bar_a": Kept("T n_q_a", "target of the actuated coordinates [m, rad, -]"),
+    "phi": Kept("T n_c", "signed distance before the step [m]", read="points.phi"),
+    "alpha": Kept("T n_c 3", "closest point on alpha's body [m]", read="points.alpha"),
+    "beta": Kept("T n_c 3", "closest point on beta's body [m]", read="points.beta"),
+    "n": Kept("T n_c 3", "normal from alpha's body to beta's [-]", read="points.n"),
+    "d1": Kept("T n_c 3", "first tangent [-]", read="step.contacts.d1"),
+    "d2": Kept("T n_c 3", "second tangent [-]", read="step.contacts.d2"),
+    "point": Kept("T n_c", "number of the cloud's point", read="points.point", dtype=np.int64),
+    "lam": Kept("T m", "multipliers of the contacts [N s]", read="lam"),
+    "wrench": Kept("T n_c 4", "f_d1, f_d2, f_n, tau_n of lam [N, N m]", read="solution.wrench"),
+    "certificate": Kept("T", "its kind", read="solution.certificate.kind", dtype=np.str_),
+    "worst_residual": Kept("T", "in natural units [-]", read="worst_residual", nan=True),
+    "digits": Kept("T", "correct digits of the backend", read="solution.statistics.digits",
+                   nan=True),
+    "H": Kept("T N N", "of the quadratic program", FULL, "step.H"),
+    "g": Kept("T N", "of the quadratic program", FULL, "form.g"),
+    "A": Kept("T M N", "of the quadratic program", FULL, "form.A"),
+    "b": Kept("T M", "of the quadratic program", FULL, "form.b"),
+    "J": Kept("T n_c 4 N", "contact Jacobian [m, m, m, rad]", FULL, "step.contacts.J"),
+    "K_q": Kept("T n_a n_a", "stiffness [N/m, N m/rad]", FULL, "step.K_q"),
+    "M_u": Kept("T N_u N_u", "un-actuated block of M [kg, kg m, kg m^2]", FULL, "step.M_u"),
+    "tau_a": Kept("T n_a", "force on the actuated coordinates [N, N m]", FULL, "step.tau_a"),
+    "tau_u": Kept("T N_u", "force on the others [N, N m]", FULL, "step.tau_u"),
+    "delta_q_bar_a": Kept("T n_a", "target (-) q_a [m, rad]", FULL, "step.delta_q_bar_a"),
+    "forces": Kept("T n_c 4", "forces of single contacts [N, N m]", FORCES, "forces", nan=True),
+    "imbalance": Kept("T", "share of the load that they leave [-]", FORCES, "imbalance", nan=True),
+    "motion": Kept("T n_c 4", "J delta_q [m, m, m, rad]", FORCES, "motion"),
+    "lam_extra": Kept("T e", "multipliers of own rows [N s]", OWN_ROWS, "solution.lam_extra"),
+    "extra_A": Kept("T e N", "own rows", OWN_ROWS_IN_FULL, "step.extra.A"),
+    "extra_b": Kept("T e", "own rows", OWN_ROWS_IN_FULL, "step.extra.b"),
+    "extra_H": Kept("T N N", "own quadratic cost", OWN_COST, "step.extra.H"),
+    "extra_g": Kept("T N", "own quadratic cost", OWN_COST, "step.extra.g"),
+    "s": Kept("T n_c", "by how much phi was raised [m]", COULOMB, "solution.s"),
+    "s_residual": Kept("T", "what of s is not its own [m]", COULOMB, "solution.s_residual"),
+    "s_iterations": Kept("T", "convex steps solved", COULOMB, "solution.s_iterations",
+                         dtype=np.int64),
+    "mu_v": Kept("n_c", "tangential friction [-]"),
+    "mu_omega": Kept("n_c", "torsional friction [m]"),
+    "rows": Kept("n_c", "6, or 4 without torsion", dtype=np.int64),
+}  # fmt: skip
+"""All arrays, in the order of files."""
+NEEDED = ("t", "q", "delta_q", "mu_v", "mu_omega", "rows")
+"""Without these no file is a record."""
+
+
+class Reading:
+    """What a record keeps of one step, where the step's result has it in another form.
+
+    Parameters
+    ----------
+    result : StepResult
+    n_v : int
+        Number of coordinates without private ones.
+    """
+
+    def __init__(self, result: StepResult, n_v: int) -> None:
+        self.result = result
+        self.n_v = n_v
+        self.step = result.step
+        self.points = result.points
+        self.solution = result.solution
+
+    @property
+    def delta_q(self) -> Array:
+        """Shape (n_v,) [m, rad]."""
+        return self.solution.delta_q[: self.n_v]
+
+    @property
+    def tau(self) -> Array:
+        """All generalised forces but those of springs, shape (n_v,) [N, N m]."""
+        return np.concatenate([self.step.tau_a, self.step.tau_u])[: self.n_v]
+
+    @property
+    def lam(self) -> Array:
+        """Of the contacts, shape (m,) [N s]."""
+        return self.solution.lam[: self.step.offsets[-1]]
+
+    @property
+    def worst_residual(self) -> float:
+        """In natural units [-]; NaN where nothing was certified."""
+        return max(self.solution.certificate.residuals.values(), default=np.nan)
+
+    @property
+    def motion(self) -> Array:
+        """J delta_q of the contacts, shape (n_c, 4) [m, m, m, rad], without private rises."""
+        own = np.zeros(self.step.n_v)
+        own[: self.n_v] = self.delta_q
+        return self.step.contacts.motion(own)
+
+    @cached_property
+    def form(self) -> StandardForm:
+        """Its program."""
+        return standard_form(self.step)
+
+    @cached_property
+    def _forces(self) -> tuple[Array, float]:
+        try:
+            return self.solution.forces, self.solution.imbalance
+        except (StepNotSolved, ArithmeticError):  # the run goes on
+            return np.full((self.step.contacts.n_c, 4), np.nan), np.nan
+
+    @property
+    def forces(self) -> Array:
+        """Shape (n_c, 4) [N, N m]; NaN where none are found."""
+        return self._forces[0]
+
+    @property
+    def imbalance(self) -> float:
+        """The share of the load that they leave [-]; NaN where none are found."""
+        return self._forces[1]
+
+
+def names_of(record: str, law: str, own_rows: bool, own_cost: bool) -> list[str]:
+    """Names of the arrays that a record of this kind has."""
+    kinds = {EVERY, record, law}
+    if own_rows:
+        kinds |= {OWN_ROWS, f"{OWN_ROWS}, {record}"}
+    if own_cost:
+        kinds |= {f"own cost, {record}"}
+    return [name for name, kept in ARRAYS.items() if kept.of in kinds]
+
+
+def arrays_of(readings: Sequence[Reading], names: Sequence[str]) -> StepArrays:
+    """Arrays over some steps that follow one another, of those `names` that results have."""
+    arrays: StepArrays = {}
+    for name in names:
+        kept = ARRAYS[name]
+        if kept.read:
+            values = [attrgetter(kept.read)(reading) for reading in readings]
+            arrays[name] = np.array(values, np.float64 if kept.nan else None)
+    return arrays
+
+
+def no_steps(header: Header, rows: Indices, n_q_a: int = 0) -> dict[str, NDArray[Any]]:
+    """All arrays of a record of no steps, of the shapes that its letters say.
+
+    Parameters
+    ----------
+    header : Header
+    rows : ndarray of int, shape (n_c,)
+        Of the contacts.
+    n_q_a : int
+        Length of a target.
+    """
+    m = int(cone(header.cone).counts(rows).sum())
+    lengths = _lengths(header) | {"n_q_a": n_q_a, "m": m, "M": m}
+    lengths |= {"N": header.n_a + header.n_u, "N_u": header.n_u}
+    names = names_of(header.record, header.law, False, False)
+    shapes = {name: _shape(ARRAYS[name].shape, lengths) for name in names}
+    return {name: np.zeros(shape, ARRAYS[name].dtype) for name, shape in shapes.items()}
+
+
+def without_steps(header: Header, arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """The arrays of a file of no steps, with those that older files leave out.
+
+    Parameters
+    ----------
+    header : Header
+    arrays : mapping of str to ndarray
+        Of the file, of whatever shape [of the notation].
+
+    Returns
+    -------
+    dict of str to ndarray, of shape (0, ...) but q and what is constant
+    """
+    n_c = len(header.slots)
+    rows = arrays["rows"] if arrays["rows"].shape == (n_c,) else np.full(n_c, 6)
+    given = {
+        name: array
+        for name, array in arrays.items()
+        if name not in ARRAYS or array.ndim == len(ARRAYS[name].shape.split())
+    }
+    constant = {name: array for name, array in given.items() if array.shape == (n_c,)}
+    of_steps = {name: array for name, array in given.items() if not _constant(name)}
+    return {**no_steps(header, rows), "rows": rows, **constant, **of_steps}
+
+
+def _constant(name: str) -> bool:
+    """Whether an array has no axis of steps."""
+    return name in ARRAYS and not ARRAYS[name].shape.startswith("T")
+
+
+def _lengths(header: Header) -> dict[str, int]:
+    """What the letters of shapes mean, as far as a header knows."""
+    return {
+        "T": header.steps,
+        "T+1": header.steps + 1,
+        "n_v": header.n_a + header.n_u,
+        "n_a": header.n_a,
+        "n_c": len(header.slots),
+        "n_q": len(header.positions),
+        "e": len(header.extra),
+    }
+
+
+def _shape(letters: str, lengths: Mapping[str, int]) -> tuple[int, ...]:
+    return tuple(int(x) if x.isdecimal() else lengths.get(x, -1) for x in letters.split())
 
 
 def check_needed(arrays: Mapping[str, NDArray[Any]]) -> None:
@@ -53,7 +263,8 @@ def check_needed(arrays: Mapping[str, NDArray[Any]]) -> None:
     ------
     InputError
     """
-    _check_present(arrays, ("t", "q", "delta_q", *CONSTANT))
+    for name in NEEDED:
+        _check_present(arrays, name)
     for name, array in arrays.items():
         if array.ndim == 0:
             raise InputError("must have an entry a step, not a single number", field=name)
@@ -72,80 +283,62 @@ def check_arrays(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
     ------
     InputError
     """
-    n_v = header.n_a + header.n_u
-    counts = {"coordinates": n_v, "units": n_v, "positions": arrays["q"].shape[-1]}
+    lengths = _lengths(header)
+    n_v = lengths["n_v"]
+    n_c = arrays["rows"].size
+    counts = {"coordinates": n_v, "units": n_v, "positions": arrays["q"].shape[-1], "slots": n_c}
     for name, count in counts.items():
-        names = getattr(header, name)
-        if len(names) != count:
-            raise InputError(f"must have {count} entries", field=name, value=len(names))
-    _check_names(header, arrays)
-    for name, array in arrays.items():
-        if array.dtype.kind not in ("U" if name == "certificate" else "fiu"):
-            raise InputError("must contain numbers", field=name, value=str(array.dtype))
-        numbers = array[~np.isnan(array)] if name in NOT_KNOWN else array
-        if array.dtype.kind == "f" and not np.isfinite(numbers).all():
-            raise InputError("must contain finite numbers only", field=name)
-    _check_shapes(header, arrays)
-    steps = header.steps
-    multipliers = sum(cone(header.cone).counts(arrays["rows"]).tolist())
-    if steps and arrays["lam"][0].size < multipliers:
-        problem = f"must have {multipliers} multipliers a step, as the rows of contacts say"
-        raise InputError(problem, field="lam", value=arrays["lam"].shape)
-    if header.record == "full" and len(header.contacts) != steps:
-        problem = f"must have {steps} entries"
-        raise InputError(problem, field="contacts", value=len(header.contacts))
-
-
-def _check_names(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
-    """Refuse a record with an array too many or too few."""
-    full = header.record == "full"
-    extra = EXTRA if header.extra else ()
-    iterated = ITERATED if header.law == COULOMB else ()
-    program = OF_MANY if "column" in arrays else PROGRAM
-    own = {"full": program, "forces": FORCES}.get(header.record, ())
-    if header.steps:
-        _check_present(arrays, (*PER_STEP, *own, *(extra if full else ()), *iterated))
-    if any(name in arrays for name in COST):
-        _check_present(arrays, COST)
-    more = (*COST, "forces") if full else ()
-    known = ("q", *CONSTANT, *PER_STEP, *own, *more, *extra, *iterated)
+        if len(getattr(header, name)) != count:
+            problem = f"must have {count} entries"
+            raise InputError(problem, field=name, value=len(getattr(header, name)))
+    own_cost = "extra_H" in arrays or "extra_g" in arrays
+    wanted = names_of(header.record, header.law, bool(header.extra), own_cost)
+    known = [*wanted, FORCES] if header.record == FULL else wanted
     for name in arrays:
         if name not in known:
             raise InputError(f"is unknown{suggestion(name, known)}", field=name)
+    for name in wanted:
+        _check_present(arrays, name)
+    _check_array("rows", arrays["rows"], lengths)
+    multipliers = int(cone(header.cone).counts(arrays["rows"]).sum())
+    lengths |= {"m": multipliers, "M": multipliers + lengths["e"]}
+    for name in arrays:
+        _check_array(name, arrays[name], lengths)
+    if header.record != FULL:
+        return
+    if lengths["N"] < n_v or lengths["N_u"] != lengths["N"] - header.n_a:
+        problem = f"must have at least {n_v} columns, those of g and as many as tau_a and tau_u"
+        raise InputError(problem, field="J", value=arrays["J"].shape)
+    if len(header.contacts) != header.steps:
+        problem = f"must have {header.steps} entries"
+        raise InputError(problem, field="contacts", value=len(header.contacts))
+    for k, names in enumerate(header.contacts):
+        if len(names) != n_c or not all(isinstance(name, str) for name in names):
+            raise InputError(f"must be {n_c} names", field=f"contacts[{k}]", value=list(names))
 
 
-def _check_shapes(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
-    """Refuse an array of another length or shape than the header and the other arrays say."""
-    steps = header.steps
-    n_v = header.n_a + header.n_u
-    lengths = {name: steps for name in arrays if name not in ("q", *CONSTANT)}
-    for name, length in {**lengths, "q": steps + 1}.items():
-        if len(arrays[name]) != length:
-            problem = f"must have {length} entries, as the header says"
-            raise InputError(problem, field=name, value=arrays[name].shape)
-    n_c = arrays["rows"].size
-    of_steps = {name: (steps, n_c, *shape) for name, shape in OF_CONTACT.items()}
-    of_steps |= dict.fromkeys(OF_STEP, (steps,)) | {"delta_q": (steps, n_v)}
-    shapes: dict[str, tuple[int, ...]] = dict.fromkeys(CONSTANT, (n_c,))
-    if steps:
-        shapes |= of_steps | {n: (steps, arrays[n].shape[-1]) for n in ("q_bar_a", "lam")}
-    if "column" in arrays:
-        column = arrays["column"]
-        width = column.shape[-1]
-        size = max(1, arrays["M_u"].shape[-1])
-        shapes |= {"column": (steps, n_c, width), "J": (steps, n_c, 4, width)}
-        shapes["M_u"] = (steps, header.n_u // size, size, size)
-        if column.dtype.kind == "f" or ((column < 0) | (column > n_v)).any():
-            raise InputError(f"must contain whole numbers of 0 to {n_v}", field="column")
-    elif steps and header.record == "full":  # an extension may have coordinates of its own
-        shapes["J"] = (steps, n_c, 4, max(n_v, arrays["g"].shape[-1]))
-    for name, shape in shapes.items():
-        if name in arrays and arrays[name].shape != shape:
-            problem = f"must have shape {shape}"
-            raise InputError(problem, field=name, value=arrays[name].shape)
+def _check_array(name: str, array: NDArray[Any], lengths: dict[str, int]) -> None:
+    """Refuse an array of another type or shape; a letter means what the first array says."""
+    kept = ARRAYS[name]
+    if array.dtype.kind not in ("U" if kept.dtype is np.str_ else "fiu"):
+        raise InputError("must contain numbers", field=name, value=str(array.dtype))
+    letters = kept.shape.split()
+    if letters[0].startswith("T") and len(array) != lengths[letters[0]]:
+        problem = f"must have {lengths[letters[0]]} entries, as the header says"
+        raise InputError(problem, field=name, value=array.shape)
+    if array.ndim == len(letters):
+        for letter, length in zip(letters, array.shape, strict=True):
+            lengths.setdefault(letter, length)
+    shape = _shape(kept.shape, lengths)
+    if array.shape != shape:
+        problem = f"must have shape {kept.shape.replace(' ', ' x ')}, here {shape}"
+        raise InputError(problem, field=name, value=array.shape)
+    if array.dtype.kind == "f":
+        numbers = array[~np.isnan(array)] if kept.nan else array
+        if not np.isfinite(numbers).all():
+            raise InputError("must contain finite numbers only", field=name)
 
 
-def _check_present(arrays: Mapping[str, NDArray[Any]], names: Iterable[str]) -> None:
-    missing = sorted(set(names) - set(arrays))
-    if missing:
-        raise InputError(f"has no array named {missing[0]!r}")
+def _check_present(arrays: Mapping[str, NDArray[Any]], name: str) -> None:
+    if name not in arrays:
+        raise InputError(f"has no array named {name!r}")

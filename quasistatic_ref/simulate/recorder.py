@@ -12,29 +12,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.parts import check_there, doctors
 from quasistatic_ref.simulate.header import RECORDS, Header, Record
-from quasistatic_ref.simulate.law import COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer
-from quasistatic_ref.simulate.record import (
-    CONSTANT,
-    COST,
-    EXTRA,
-    FORCES,
-    LARGEST,
-    LOADS,
-    PER_STEP,
-    PROGRAM,
-)
+from quasistatic_ref.simulate.record import ARRAYS, FULL, Reading, arrays_of, names_of, no_steps
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.target import Drives, JointTrack, Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.standard_form import standard_form
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
@@ -43,7 +30,9 @@ if TYPE_CHECKING:
 PACKED = 100
 """Steps that are kept one by one before they become arrays, all at once."""
 POINTS = ("phi", "alpha", "beta", "n", "point")
-IN_ORDER = (*PER_STEP, *PROGRAM, "column", *FORCES, *EXTRA, *COST, *ITERATED)
+LARGEST = 1_000_000
+"""Most entries of J in a step of a full record; and most, beyond those of one step, that are kept
+before they become arrays."""
 SECONDS = "seconds."
 """What the names of wall times begin with."""
 
@@ -104,6 +93,13 @@ class Recorder:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         if record == "forces":
             check_there("forces", 'record = "forces"')
+        entries = 4 * len(simulator.layout.names) * simulator.system.n_v
+        if record == FULL and entries > LARGEST:
+            problem = (
+                f"of steps whose J has {entries} entries, more than {LARGEST}, takes too much "
+                'room; say record = "light"'
+            )
+            raise InputError(problem, field="record", value=record)
         self.simulator = simulator
         self.system = simulator.system
         self.record = record
@@ -186,10 +182,7 @@ class Recorder:
         if not results:
             return
         try:
-            every = arrays_of(results, self.system.n_v)
-            arrays = self._arrays(results, every)
-            if self.observers and "motion" not in arrays:
-                every["motion"] = motions(results, self.system.n_v)
+            arrays, every = self._arrays(results)
         except BaseException:
             self.steps -= len(results)
             self.q = self.parts[-1]["q"][-1] if self.parts else self.start
@@ -206,25 +199,21 @@ class Recorder:
             for name, note in notes.items():
                 arrays[name] = _checked_note(name, note, len(results), before.get(name))
 
-    def _arrays(self, results: Sequence[StepResult], every: StepArrays) -> StepArrays:
-        """What is kept of the last steps, of which `every` array is read."""
-        first = results[0].step
+    def _arrays(self, results: Sequence[StepResult]) -> tuple[StepArrays, StepArrays]:
+        """What is kept of the last steps, and what observers get besides."""
+        readings = [Reading(result, self.system.n_v) for result in results]
+        law, rows, cost = self.simulator.law, bool(self.extra), bool(self.with_cost)
         arrays: StepArrays = {
-            "t": np.arange(self.steps - len(results) + 1, self.steps + 1) * first.h,
+            "t": np.arange(self.steps - len(results) + 1, self.steps + 1) * results[0].step.h,
             "q_bar_a": np.array(self._targets),
-            **every,
+            "q": np.array([result.q for result in results]),
+            "tau": np.array([reading.tau for reading in readings]),
+            **arrays_of(readings, names_of(self.record, law, rows, cost)),
         }
-        if self.record == "full":
-            arrays |= programs([result.step for result in results])
-        if self.record == "forces":
-            forces_of = [_forces_of(result) for result in results]
-            arrays["forces"] = np.array([forces for forces, _ in forces_of])
-            arrays["imbalance"] = np.array([imbalance for _, imbalance in forces_of])
-            arrays["motion"] = motions(results, self.system.n_v)
-        more = ITERATED if self.simulator.law == COULOMB else ()
-        if first.extra.names:
-            more = (*more, "lam_extra")
-        return arrays | {name: _of_all([r.solution for r in results], name) for name in more}
+        for part in results[0].seconds:
+            arrays[SECONDS + part] = np.array([result.seconds[part] for result in results])
+        asked = [] if "motion" in arrays or not self.observers else ["motion"]
+        return arrays, arrays_of(readings, asked)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -255,11 +244,6 @@ class Recorder:
         self.flush()
         parts = self.parts
         kept = parts[0] if parts else {}
-        known = [name for name in IN_ORDER if name in kept]
-        arrays = {name: _over_all_steps(parts, name) for name in known} or {
-            name: np.zeros(0) for name in ("t", "delta_q", "worst_residual")
-        }
-        full = self.steps and self.record == "full"
         simulator = self.simulator
         layout = simulator.layout
         header = Header(
@@ -278,22 +262,30 @@ class Recorder:
             failed=failed,
             quasi_dynamic_number=None,  # the observers know
             largest_boundary_layer=None,
-            contacts=tuple(map(tuple, map(layout.contact_names, arrays["point"]))) if full else (),
+            contacts=self._contact_names() if self.record == FULL else (),
             findings=(),
             law=simulator.law,
             distances=simulator.distances,
             alone=self.alone,
             unanswered=tuple(step for step in self.unanswered if step < self.steps),
         )
-        constant = {k: getattr(layout, k) if self.steps else np.zeros(0) for k in CONSTANT}
         q = np.concatenate([self.start[None], *(part["q"] for part in parts)])
-        arrays = {"q": q + 0.0, **arrays, **constant}
+        arrays = {name: _over_all_steps(parts, name) for name in kept if name in ARRAYS}
+        arrays = arrays or no_steps(header, layout.rows, self.system.n_q_a)
+        constant = {name: getattr(layout, name) for name in ("mu_v", "mu_omega", "rows")}
+        arrays |= {"q": q + 0.0, **constant}
+        arrays = {name: arrays[name] for name in ARRAYS if name in arrays}
         timed = [name for name in kept if name.startswith(SECONDS)]
         seconds = {name.removeprefix(SECONDS): _over_all_steps(parts, name) for name in timed}
         trajectory = Trajectory(header, arrays, seconds, simulator)
         for observer in self.observers:
             trajectory = observer.end(self, trajectory, interrupted)
         return replace(trajectory, seconds={**seconds, **self._seconds_of_run()})
+
+    def _contact_names(self) -> tuple[tuple[str, ...], ...]:
+        """Names of the contacts in each step."""
+        points = [point for part in self.parts for point in part["point"]]
+        return tuple(map(tuple, map(self.simulator.layout.contact_names, points)))
 
     def _seconds_of_run(self) -> dict[str, Array]:
         """What a run takes beyond its steps, step by step, shape (steps,) [s]; its end at the last.
@@ -310,83 +302,6 @@ class Recorder:
         return {"record": between, "findings": end}
 
 
-def arrays_of(results: Sequence[StepResult], n_v: int) -> StepArrays:
-    """What a recorder reads of steps that follow one another, but for ``motion``.
-
-    Returns
-    -------
-    dict of str to ndarray, shape as in the notation, behind a first axis, the step [-]
-        By the notation's names [in its units].
-    """
-    solutions = [result.solution for result in results]
-    steps = [result.step for result in results]
-    certificates = [solution.certificate for solution in solutions]
-    tau_a = np.array([step.tau_a for step in steps])
-    tau_u = np.array([step.tau_u for step in steps])
-    tau = np.concatenate([tau_a, tau_u], axis=1)
-    arrays: StepArrays = {
-        "delta_q": np.array([solution.delta_q[:n_v] for solution in solutions]),
-        **{name: _of_all([r.points for r in results], name) for name in POINTS},
-        **{name: _of_all([step.contacts for step in steps], name) for name in ("d1", "d2")},
-        "lam": _of_all(solutions, "lam")[:, : steps[0].offsets[-1]],
-        "wrench": _of_all(solutions, "wrench"),
-        "certificate": np.array([one.kind for one in certificates]),
-        "worst_residual": np.array(
-            [max(one.residuals.values(), default=np.nan) for one in certificates]
-        ),
-        "digits": np.array([one.statistics.digits for one in solutions], np.float64),
-        "q": _of_all(results, "q"),
-        "tau": tau[:, :n_v],  # without private rises
-    }
-    for part in results[0].seconds:
-        arrays[SECONDS + part] = np.array([result.seconds[part] for result in results])
-    return arrays
-
-
-def _forces_of(result: StepResult) -> tuple[Array, float]:
-    """Forces of a step and their imbalance, all NaN where none are found: the run goes on."""
-    solution = result.solution
-    try:
-        return solution.forces, solution.imbalance
-    except (StepNotSolved, ArithmeticError):
-        return np.full((result.step.contacts.n_c, 4), np.nan), np.nan
-
-
-def motions(results: Sequence[StepResult], n_v: int) -> Array:
-    """J delta_q of the contacts of some steps, shape (steps, n_c, 4) [m, m, m, rad].
-
-    Of delta_q count the first n_v coordinates, without private rises.
-    """
-    of_contacts = []
-    for result in results:
-        delta_q = result.solution.delta_q
-        if len(delta_q) > n_v:
-            delta_q = np.concatenate([delta_q[:n_v], np.zeros(len(delta_q) - n_v)])
-        of_contacts.append(result.step.contacts.motion(delta_q))
-    return np.array(of_contacts)
-
-
-def programs(steps: Sequence[StepData]) -> StepArrays:
-    """What a full record adds to steps: the quadratic programs, and what those are made of.
-
-    Returns
-    -------
-    dict of str to ndarray, shape as in the notation, behind a first axis, the step [-]
-        By the notation's names [in its units].
-    """
-    arrays: StepArrays = {name: _of_all(steps, name) for name in LOADS}
-    matrices = [step.recorded for step in steps]
-    arrays |= {name: np.array([each[name] for each in matrices]) for name in matrices[0]}
-    extra = [step.extra for step in steps]
-    if "H" in arrays:
-        forms = [standard_form(step) for step in steps]
-        arrays |= {name: _of_all(forms, name) for name in ("g", "A", "b")}
-    of_extra = ("A", "b") if extra[0].names else ()
-    if extra[0].cost is not None:
-        of_extra = (*of_extra, "H", "g")
-    return arrays | {f"extra_{name}": _of_all(extra, name) for name in of_extra}
-
-
 def _checked_note(name: str, note: ArrayLike, steps: int, before: Array | None) -> Array:
     """What an observer notes of some steps, shape (steps, ...) [any unit], as it did `before`.
 
@@ -394,7 +309,7 @@ def _checked_note(name: str, note: ArrayLike, steps: int, before: Array | None) 
     ------
     InputError
     """
-    if name in (*IN_ORDER, "q", "tau") or name.startswith(SECONDS):
+    if name in (*ARRAYS, "tau") or name.startswith(SECONDS):
         raise InputError("is a name of the record's own; take another", field=f"note {name}")
     try:
         array = np.array(note, np.float64)
@@ -407,11 +322,6 @@ def _checked_note(name: str, note: ArrayLike, steps: int, before: Array | None) 
         problem = f"must have shape {before.shape[1:]} in each step, as in those before"
         raise InputError(problem, field=f"note {name}", value=array.shape[1:])
     return read_only(array)
-
-
-def _of_all(objects: Sequence[object], name: str) -> NDArray[Any]:
-    """One attribute of all objects as an array, which has them as its first axis."""
-    return np.array([getattr(one, name) for one in objects])
 
 
 def _over_all_steps(parts: list[StepArrays], key: str) -> NDArray[Any]:

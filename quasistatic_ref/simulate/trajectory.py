@@ -21,13 +21,11 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.model.mass import whole
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import FORMAT, VERSION, Header, header_read, header_table
-from quasistatic_ref.simulate.record import CONSTANT, LOADS, check_arrays, check_needed
-from quasistatic_ref.step.contacts import spread
+from quasistatic_ref.simulate.record import check_arrays, check_needed, without_steps
 from quasistatic_ref.step.data import Contacts, Extra, StepData, no_rows
 
 if TYPE_CHECKING:
@@ -54,9 +52,7 @@ class Trajectory(Plain, HasPage):
         certified), ``digits`` (correct ones of the backend; NaN where the exact answer is not
         known); ``q`` has one entry more, the start. A full record adds ``H``, ``g``, ``A``, ``b``
         and what they are made of: ``K_q``, ``M_u``, ``tau_a``, ``tau_u``, ``delta_q_bar_a``,
-        ``J``. Where a `fast` step has more than 10^6 entries of J, ``J`` has the columns alone that
-        each contact's ``column`` lists (n_v stands for none), ``M_u`` its diagonal blocks, and
-        ``H``, ``g``, ``A`` and ``b`` are left out. An extension's rows add ``lam_extra``, and to a
+        ``J``. An extension's rows add ``lam_extra``, and to a
         full record ``extra_A`` and ``extra_b``, its quadratic cost ``extra_H`` and ``extra_g``.
         Coulomb's law adds ``s``, ``s_residual`` and ``s_iterations``, those of
         :class:`~quasistatic_ref.optional.coulomb.fixed_point.CoulombSolution`; ``A`` and ``b`` are
@@ -169,15 +165,13 @@ class Trajectory(Plain, HasPage):
             problem = f"a {self.header.record} record has no quadratic programs"
             raise InputError(f"{problem}; run again with record = 'full'")
         a = self.arrays
-        keys = ("n", "d1", "d2")
         n_v = a["tau_a"].shape[1] + a["tau_u"].shape[1]
-        J = a["J"][k]
         contacts = Contacts(
             name=self.header.contacts[k],
             phi=a["phi"][k] + a["s"][k] if "s" in a else a["phi"][k],
-            J=spread(J, a["column"][k][:, None], n_v) if "column" in a else J,
-            **{key: a[key][k] for key in keys},
-            **{key: a[key] for key in CONSTANT},
+            J=a["J"][k],
+            **{key: a[key][k] for key in ("n", "d1", "d2")},
+            **{key: a[key] for key in ("mu_v", "mu_omega", "rows")},
         )
         names = self.header.extra
         extra = no_rows(n_v)
@@ -187,8 +181,7 @@ class Trajectory(Plain, HasPage):
             extra = replace(extra, H=a["extra_H"][k], g=a["extra_g"][k])
         return StepData(
             h=self.header.h,
-            **{key: a[key][k] for key in ("K_q", *LOADS)},
-            M_u=whole(a["M_u"][k]),
+            **{key: a[key][k] for key in ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")},
             contacts=contacts,
             cone=self.header.cone,
             extra=extra,
@@ -210,7 +203,8 @@ class Trajectory(Plain, HasPage):
         """
         if "forces" in self.arrays:
             return self.arrays["forces"]
-        return np.array([forces.wrench for forces in self._compliant]).reshape(self.steps, -1, 4)
+        shape = (self.steps, len(self.header.slots), 4)
+        return np.array([forces.wrench for forces in self._compliant]).reshape(shape)
 
     @cached_property
     def imbalance(self) -> Array:
@@ -376,6 +370,8 @@ def load_trajectory(path: str | Path) -> Trajectory:
         top.check_format(FORMAT, VERSION)
         check_needed(arrays)
         header = header_read(top, arrays["q"].shape[-1], arrays["rows"].size)
+        if not header.steps:  # older files leave out what has no entries
+            arrays = without_steps(header, arrays)
         check_arrays(header, arrays)
     return Trajectory(header, arrays)
 

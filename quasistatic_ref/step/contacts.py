@@ -186,19 +186,3 @@ def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:
     """(mu_v, mu_v, mu_omega), shape (n_c, 3) [-, -, m], of fields of contacts, each (n_c,)."""
     mu = np.array([mu_v, mu_v, mu_omega * has_torsion(rows)])
     return read_only(np.ascontiguousarray(mu.T))
-
-
-def spread(rows: Array, column: Indices, n: int) -> Array:
-    """Rows in all of n columns, shape (..., n).
-
-    Parameters
-    ----------
-    rows : ndarray, shape (..., w)
-        [any unit].
-    column : ndarray of int, shape (..., w), or one that is broadcast to it
-        Which columns these are; n stands for none.
-    n : int
-    """
-    every = np.zeros((*rows.shape[:-1], n + 1))
-    np.put_along_axis(every, column, rows, axis=-1)
-    return every[..., :n].copy()

@@ -262,11 +262,6 @@ class StepData(Plain, HasPage):
         terms = [(part * Fraction(self.h), K_q), (whole, M_u), (part, of_cost)]
         return positive_sum(self.H, terms)
 
-    @property
-    def recorded(self) -> dict[str, Array | Indices]:
-        """Its matrices, as a full record holds them: H, K_q, M_u, shape (n, n), J (n_c, 4, n_v)."""
-        return {"H": self.H, "J": self.contacts.J, "K_q": self.K_q, "M_u": self.M_u}
-
     def masses(self, some: Indices) -> Array:
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
         return self.M_u[np.ix_(some, some)]

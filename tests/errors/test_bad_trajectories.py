@@ -139,13 +139,13 @@ CAUSES = {
         {"phi": npy(np.full((3, 2), np.nan))}, "phi: must contain fin",
     ),
     "more steps than there are": (
-        {"header": {"steps": 4}}, "t: must have 4 entries, as the header",
+        {"header": {"steps": 4}}, "q: must have 5 entries, as the header",
     ),
     "a multiplier less": (
         {"lam": npy(np.zeros((3, 1)))}, "lam: must have ",
     ),
     "rows of an extension that are not there": (
-        {"header": {"extra": ["a"]}}, "has no array named 'extra_A'",
+        {"header": {"extra": ["a"]}}, "has no array named 'lam_extra'",
     ),
     **{
         f"{name} of shape {array.shape}": (

@@ -6,16 +6,24 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import (
+    Body,
+    ContactPair,
+    HalfSpace,
     InputError,
+    PlacedShape,
+    RunFailed,
+    Simulator,
+    Sphere,
+    System,
     load_scenario,
     load_trajectory,
+    rollout,
     save_trajectory,
     standard_form,
 )
 from quasistatic_ref.certify import solution
 from quasistatic_ref.cli.run import worst_residual
-from quasistatic_ref.optional.doctor.telling import numbers_of
-from quasistatic_ref.optional.fast import joined
+from quasistatic_ref.simulate import recorder
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.header import header_table
 from tests.closeness import assert_same
@@ -78,25 +86,17 @@ def test_a_recorded_program_is_the_standard_form_of_its_step(name, changes):
             assert (run[recorded][k] + 0.0).tobytes() == (matrix + 0.0).tobytes()
 
 
-@pytest.mark.extra("fast")
-@pytest.mark.parametrize("name", ["block_push", "stack", "door"])
-def test_a_recorded_step_of_many_bodies_is_the_one_that_was_solved(name, tmp_path, monkeypatch):
-    scenario = load_scenario(name, ["record=full"], steps=3, fast=True)
-    every = scenario.run()
-    monkeypatch.setattr(joined, "LARGEST", 0)
-    run = scenario.run()
-    assert {*every} - {*run} == {"H", "g", "A", "b"}
-    assert run["J"].size == 4 * run["column"].size <= every["J"].size
-    moved, all_moved = (numbers_of(each, scenario)["pairs"] for each in (run, every))
-    assert moved == all_moved
-    path = save_trajectory(tmp_path / "run.npz", run)
-    back = load_trajectory(path)
-    for k in range(3):
-        assert back.step_data(k) == run.step_data(k) == every.step_data(k)
-    for array in (run["column"] - 1, run["column"] + 99, run["column"] + 0.0):
-        save_trajectory(path, replace(run, arrays={**run.arrays, "column": array}))
-        with pytest.raises(InputError, match=r"column: must contain whole numbers of 0 to \d+"):
-            load_trajectory(path)
+def test_a_full_record_of_very_many_contacts_is_refused_before_the_first_step(monkeypatch):
+    scenario = load_scenario("stack", steps=2)
+    entries = 4 * sum(pair.n_c for pair in scenario.pairs) * scenario.system.n_v
+    monkeypatch.setattr(recorder, "LARGEST", entries - 1)
+    monkeypatch.setattr(Simulator, "step", None)
+    with pytest.raises(InputError, match=rf"has {entries} entries.*; say record = \"light\""):
+        scenario.run(progress=False)
+    monkeypatch.undo()
+    monkeypatch.setattr(recorder, "LARGEST", entries - 1)
+    light = replace(scenario, record="light").run(progress=False, findings=False)
+    assert light.steps == 2
 
 
 def test_a_file_read_back_is_the_same_bits(tmp_path, run):
@@ -165,6 +165,72 @@ def test_a_run_of_no_steps_is_a_trajectory(tmp_path, folder):
     back = load_trajectory(save_trajectory(tmp_path / "run.npz", empty))
     assert (back.steps, back.failed, back["q"].shape) == (0, None, (1, 10))
     assert worst_residual(back) is None
+    for run in (empty, back):
+        shapes = {name: array.shape for name, array in run.arrays.items()}
+        assert shapes == SHAPES_OF_NO_STEPS
+    assert {name: a.dtype.kind for name, a in empty.arrays.items()} == {
+        name: a.dtype.kind for name, a in back.arrays.items()
+    }
+
+
+SHAPES_OF_NO_STEPS = {
+    name: (0, *shape[1:]) if shape[0] == 5 else shape for name, shape in SHAPES.items()
+} | {"q": (1, 10)}
+
+
+@pytest.mark.parametrize("record", ["full", "light", "forces"])
+@pytest.mark.parametrize("law", ["convex", "coulomb"])
+def test_a_run_that_fails_in_its_first_step_has_arrays_of_no_steps(tmp_path, record, law):
+    body = Body.of_shape("ball", Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
+    system = System([body])
+    floor = PlacedShape.in_world("floor", HalfSpace((0, 0, 1), 0.5))  # 0.5 m deep: refused
+    pair = ContactPair("f", floor, system.shapes[0], mu_v=0.5, mu_omega=0.01)
+    simulator = Simulator(system, [pair], h=0.01, law=law)
+    with pytest.raises(RunFailed) as failure:
+        rollout(simulator, system.q_start, [], 3, progress=False, record=record)
+    run = failure.value.trajectory
+    assert (run.steps, run.delta_q.shape, run.phi.shape) == (0, (0, 6), (0, 1))
+    assert run.wrench_on("ball").shape == (0, 6)
+    if record != "light":
+        assert run.forces.shape == (0, 1, 4)
+        assert run.forces_on("ball").shape == (0, 6)
+        assert {name: force.shape for name, force in run.pair_forces().items()} == {"f": (0, 3)}
+    back = load_trajectory(save_trajectory(tmp_path / "run.npz", run))
+    assert back.keys() == run.keys()
+    assert all(back[name].shape == run[name].shape for name in run)
+    assert back["mu_v"].tolist() == [0.5]
+
+
+def spoilt(run, **changes):
+    """A run with other fields of its header, or other arrays."""
+    fields = {name: value for name, value in changes.items() if name not in run.arrays}
+    arrays = {name: value for name, value in changes.items() if name in run.arrays}
+    header = replace(run.header, **fields)
+    return replace(run, header=header, arrays={**run.arrays, **arrays})
+
+
+def test_spoilt_arrays_and_names_are_refused(tmp_path):
+    run = load_scenario("stack", {"law": "coulomb"}, steps=2).run(progress=False, findings=False)
+    n_c = run["rows"].size
+    names = run.header.contacts
+    refused = {
+        "s: must have shape T x n_c": {"s": run["s"][:, :1]},
+        "slots: must have": {"slots": run.header.slots[:-1]},
+        "unanswered: must be numbers of steps": {"unanswered": ("x", 2.5)},
+        "unanswered: must be": {"unanswered": (1, 0)},
+        f"contacts\\[1\\]: must be {n_c} names": {"contacts": (names[0], names[1][:-1])},
+        "M_u: must have shape T x N_u x N_u": {"M_u": run["M_u"][:, :, :-1]},
+        "tau_u: must have shape": {"tau_u": run["tau_u"][:, :-1]},
+        "K_q: must have shape": {"K_q": np.zeros((2, 1, 1))},
+        "A: must have shape": {"A": run["A"][:, :-1]},
+        "certificate: must contain numbers": {"certificate": np.zeros(2)},
+        "s_iterations: must have 2 entries": {"s_iterations": run["s_iterations"][:1]},
+    }  # fmt: skip
+    for words, changes in refused.items():
+        path = save_trajectory(tmp_path / "run.npz", spoilt(run, **changes))
+        with pytest.raises(InputError, match=words):
+            load_trajectory(path)
+    assert load_trajectory(save_trajectory(tmp_path / "run.npz", run)) == run
 
 
 def test_a_record_of_forces_is_kept_where_those_of_one_step_are_not_found(tmp_path, monkeypatch):

@@ -237,10 +237,6 @@ def _motion_of_contacts(run: Trajectory) -> Array | None:
     if "J" not in run.arrays:
         return None
     delta_q = run["delta_q"]
-    if "column" in run:
-        every = np.pad(delta_q, ((0, 0), (0, 1)))[:, None]
-        of_columns = np.take_along_axis(every, run["column"], axis=-1)
-        return np.asarray(np.einsum("kciv,kcv->kci", run["J"], of_columns))
     return np.asarray(np.einsum("kciv,kv->kci", run["J"][..., : delta_q.shape[1]], delta_q))
 
 

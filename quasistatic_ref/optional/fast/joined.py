@@ -9,8 +9,7 @@ import numpy as np
 from quasistatic_ref.formats.plain import Late
 from quasistatic_ref.model.mass import whole
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
-from quasistatic_ref.simulate.record import LARGEST
-from quasistatic_ref.step.contacts import Contacts, spread
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, hessian
 
 
@@ -131,20 +130,6 @@ class JoinedStep(Late, StepData):
         return self.of_masses.H
 
     @property
-    def recorded(self) -> dict[str, Array | Indices]:
-        """As of StepData; of many bodies J, (n_c, 4, w), `column`, and blocks of M_u, (k, s, s)."""
-        contacts = self.contacts
-        if 4 * contacts.n_c * self.n_v <= LARGEST:
-            return super().recorded
-        blocks = self.of_masses.blocks
-        return {
-            "J": contacts.own_J,
-            "column": contacts.column,
-            "K_q": self.K_q,
-            "M_u": blocks.reshape(-1, *blocks.shape[-2:]),
-        }
-
-    @property
     def coupled_entries(self) -> tuple[Indices, Indices]:
         """Row and column of each entry that a term of H may have, (k,): no cost has a part."""
         return self.of_masses.entries
@@ -152,3 +137,19 @@ class JoinedStep(Late, StepData):
     def masses(self, some: Indices) -> Array:
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
         return self.of_masses.some(some)
+
+
+def spread(rows: Array, column: Indices, n: int) -> Array:
+    """Rows in all of n columns, shape (..., n).
+
+    Parameters
+    ----------
+    rows : ndarray, shape (..., w)
+        [any unit].
+    column : ndarray of int, shape (..., w), or one that is broadcast to it
+        Which columns these are; n stands for none.
+    n : int
+    """
+    every = np.zeros((*rows.shape[:-1], n + 1))
+    np.put_along_axis(every, column, rows, axis=-1)
+    return every[..., :n].copy()

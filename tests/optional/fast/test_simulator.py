@@ -26,7 +26,7 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.joints.axis_joint import Revolute
 from quasistatic_ref.optional.fast import library
 from quasistatic_ref.optional.fast import simulator as of_fast
-from quasistatic_ref.step.contacts import spread
+from quasistatic_ref.optional.fast.joined import spread
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.contact.solids_of_tests import SHAPES as SOLIDS
 from tests.contact.still import placed_shape

@@ -122,7 +122,7 @@ def test_a_step_says_what_it_holds():
 
 STRANGE = {
     "a backend that is markup": {"backend": HOSTILE},
-    "names that are numbers": {"contacts": (tuple(range(8)),) * 3},
+    "names that are markup": {"contacts": ((HOSTILE,) * 8,) * 3},
 }
 
 

@@ -233,7 +233,7 @@ def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:
 
 def _state(run: Trajectory, k: int, j: int, frame: Array) -> str:
     """Of a contact that bears load; ``"sticking"`` where the record does not know it at once."""
-    if run.header.record != "full" or "column" in run:
+    if run.header.record != "full":
         return "sticking"
     delta_q = run["delta_q"][k]  # without private rises, which J has
     motion = run["J"][k, j][:, : len(delta_q)] @ delta_q
