@@ -15,7 +15,6 @@ from functools import cache
 from typing import Final, NamedTuple
 
 import numpy as np
-from scipy.optimize import nnls
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.forces.faces import Rows, face, rows_of
@@ -194,5 +193,7 @@ def nearest_rows(name: str, count: int, z: Array) -> Rows:
     z : ndarray, shape (4,)
         Its lengths [m, or times any positive number].
     """
+    from scipy.optimize import nnls  # takes as long as a short run
+
     multipliers, _ = nnls(rows_of(name, count).T, -z)
     return tuple(np.flatnonzero(multipliers > ROUNDING * np.abs(z).max()).tolist())
