@@ -1,5 +1,7 @@
 """Contact Jacobians, Eqs. :eq:`eq-2`-:eq:`eq-3`, and the contacts of a step."""
 
+from typing import Final
+
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
@@ -11,6 +13,8 @@ from quasistatic_ref.numbers.ordered import YZX, ZXY, crossed, dot, product
 from quasistatic_ref.step.contacts import Contacts
 
 AXES = np.eye(3)
+BLOCK: Final = 400_000
+"""Most entries of J [-] that are formed at once: of 1000 bodies it has a hundred million."""
 
 
 class ContactGeometry:
@@ -27,9 +31,14 @@ class ContactGeometry:
     def __init__(self, layout: ContactLayout, column_map: ColumnMap) -> None:
         self.layout = layout
         self.column_map = column_map
+        self.links = np.stack([layout.link_alpha, layout.link_beta])
+        n_c = len(layout.link_alpha)
+        # What is formed of a block of contacts stays in a processor's cache.
+        count = max(1, BLOCK // (4 * column_map.moves.shape[-1] + 1))
+        self.blocks = [slice(i, i + count) for i in range(0, n_c, count)]
         # 1 where a column of J moves alpha's (first) or beta's link, else 0; for each row of J.
-        moves = column_map.moves[np.stack([layout.link_alpha, layout.link_beta])]
-        self.moves = np.repeat(moves, 4, axis=2)
+        whole = len(self.blocks) == 1
+        self.moves = np.repeat(column_map.moves[self.links], 4, axis=2) if whole else None
 
     def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
         """The contacts of one step, from the closest points of all pairs. In C: rows.c.
@@ -72,8 +81,19 @@ class ContactGeometry:
             Rows 0-2: nu_beta - nu_alpha [m], world frame; row 3: n'(omega_beta - omega_alpha)
             [rad].
         """
+        r = np.array([alpha, beta])
+        if self.moves is not None:
+            return self._of_block(self.moves, columns, r, n)
+        J = np.empty((len(n), 4, self.column_map.n_v))
+        for some in self.blocks:
+            moves = self.column_map.moves[self.links[:, some]]
+            J[some] = self._of_block(moves, columns, r[:, some], n[some])
+        return J
+
+    def _of_block(self, moves: Array, columns: Array, r: Array, n: Array) -> Array:
+        """J of some contacts, of points r on both bodies, (2, k, 3) [m]."""
         # [nu; n'omega] of alpha's body and of beta's
-        of_alpha, of_beta = self.moves * columns_at(columns, np.array([alpha, beta]), n)
+        of_alpha, of_beta = moves * columns_at(columns, r, n)
         f = of_beta - of_alpha  # Eq. (2): nu_beta - nu_alpha and n'(omega_beta - omega_alpha)
         return self.column_map.of_coordinates(f) + 0.0  # Eq. (3); zero is 0.0, never -0.0
 
