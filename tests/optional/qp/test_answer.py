@@ -1,6 +1,7 @@
 """Answers of quadratic programs in files: checked twice, forged ones refused."""
 
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.optional.qp.files import load_answer
 from tests.oracles.random_programs import random_program
+from tests.pages import ROOT
 from validation import check_solution
 
 
@@ -32,6 +34,15 @@ def test_a_file_is_what_was_saved_and_both_checkers_take_it(seed, tmp_path, caps
         assert read == answer
     else:
         assert (read.exact, read.rows) == (answer.exact, answer.rows)
+
+
+def test_the_program_of_the_page_prints_what_the_page_says(capsys):
+    page = (ROOT / "docs" / "exact_qp.md").read_text("utf-8")
+    code, printed = (
+        re.search(rf"```{kind}\n(.*?)```", page, re.DOTALL)[1] for kind in ("python", "text")
+    )
+    exec(code, {})
+    assert capsys.readouterr().out == printed
 
 
 PROGRAM = {

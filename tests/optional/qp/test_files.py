@@ -5,9 +5,11 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pyarrow
 import pytest
 import qpsolvers
 import scipy.sparse
+from pyarrow import parquet
 
 import quasistatic_ref as qr
 from quasistatic_ref.lab.study.store import rows_read
@@ -66,11 +68,9 @@ def test_any_other_pickle_is_refused_by_name_and_never_opened(entry, tmp_path):
 
 
 def test_a_test_set_of_qpbenchmark_is_read(tmp_path):
-    arrow = pytest.importorskip("pyarrow")
-    parquet = pytest.importorskip("pyarrow.parquet")
     columns = {"name": ["one"], "P": [[2.0, 0.0, 0.0, 2.0]], "q": [[-2.0, -4.0]]}
     columns |= {"G": [[1.0, 1.0]], "h": [[2.0]], "A": [None], "b": [None]}
-    parquet.write_table(arrow.table(columns), tmp_path / "set.parquet")
+    parquet.write_table(pyarrow.table(columns), tmp_path / "set.parquet")
     programs = load_qp(tmp_path / "set.parquet")
     assert [*programs] == ["set/one"]
     assert qr.exact_qp(programs["set/one"]).x.tolist() == [0.5, 1.5]
