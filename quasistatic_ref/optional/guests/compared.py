@@ -251,7 +251,7 @@ class Compared:
         for contact, wrench in zip(self.theirs.contacts, self.theirs.wrenches, strict=True):
             j = number.get(contact.name)
             yield Contact(
-                contact.name, contact.bodies, max(0.0, -contact.phi), contact.mu_v,
+                contact.name, contact.bodies, max(0.0, -contact.distance), contact.mu_v,
                 contact.mu_omega, contact.pair,
                 theirs=self._bearing(contact, wrench, self.present),
                 exact=None if j is None else self._bearing(contact, self.forces[j], self.exact),

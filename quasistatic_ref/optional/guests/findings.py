@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.optional.guests.compared import Bearing, Body, Contact
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.guests.compared import Bearing, Body, Contact, Mover
 from quasistatic_ref.optional.guests.tolerances import (
     DEEP,
     FAST,
@@ -32,6 +33,7 @@ SPINS = "set condim 4 of the geoms, and the second number of their friction"
 RESTS = "do without what MuJoCo has and a step has not: rolling friction"
 STIFFER = "change solref and solimp of the geoms, or take masses that differ less"
 APART = "change size or pos, or add contact/exclude for bodies that may overlap"
+SETTLES = "put something below it, hold it, or let the scene settle for longer (--settle)"
 YIELDS = "MuJoCo documents that its friction yields to any force"
 EDGES = "; in the pyramidal cone noslip leaves an axis 1/(condim - 1) of mu N"
 """It keeps the sum of each pair of opposite edges."""
@@ -119,6 +121,17 @@ def _borne(contacts: Sequence[Contact], bodies: Sequence[Body]) -> bool:
     shares = [c.theirs.share for c in contacts if names & {*c.bodies} and c.theirs.normal > 0]
     inside = max(shares, default=0.0) <= 1 + FORCES_AGREE
     return inside and all(body.balanced for body in bodies)
+
+
+def moving(movers: Sequence[Mover], v: Array) -> Iterator[Named]:
+    """Bodies that only contacts hold, and that move fast at MuJoCo's mean velocity v, (nv,)."""
+    for mover in movers:
+        speed = mover.fastest(v)
+        if mover.free and speed > FAST:
+            cause = f"{mover.name} moves by up to {1e3 * speed:.3g} mm/s in MuJoCo, and the exact "
+            cause += "answer of one instant does not say why"
+            numbers = {"speed_mm_s": 1e3 * speed}
+            yield mover.name, Finding("moving", True, SETTLES, cause, numbers)
 
 
 def not_unique(contacts: Sequence[Contact], bodies: Sequence[Body], weight: float) -> Iterator[str]:

@@ -173,8 +173,8 @@ def step_with(
 def dropped(v: Array, every: Sequence[touches.StateContact]) -> Iterator[str]:
     """What any step leaves out: a velocity v, (nv,), and the depth of bodies in each other."""
     for contact in every:
-        if contact.phi < -DEEP:
-            depth = f"its bodies penetrate by {-1e3 * contact.phi:.3g} mm"
+        if contact.distance < -DEEP:
+            depth = f"its bodies penetrate by {-1e3 * contact.distance:.3g} mm"
             yield f"contact[{contact.name}]: {depth}"
     if v.any():
         yield f"velocity: dropped; its largest component is {np.abs(v).max():.2g}"

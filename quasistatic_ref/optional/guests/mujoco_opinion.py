@@ -11,12 +11,12 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.guests import touches
 from quasistatic_ref.optional.guests.compared import WINDOW, Compared, Mover, MujocoAnswer
 from quasistatic_ref.optional.guests.fates import kind_of
-from quasistatic_ref.optional.guests.findings import findings, not_unique
+from quasistatic_ref.optional.guests.findings import findings, moving, not_unique
 from quasistatic_ref.optional.guests.mujoco import step_with
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, awake, mujoco_state
-from quasistatic_ref.optional.guests.opinion import Opinion
+from quasistatic_ref.optional.guests.opinion import MOVES, Opinion
 from quasistatic_ref.optional.guests.overlaps import misplaced, unlisted
-from quasistatic_ref.optional.guests.settled import run, velocities
+from quasistatic_ref.optional.guests.settled import fullest, run, velocities
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.tolerances import CREEP
 
@@ -71,6 +71,8 @@ def mujoco_opinion(
     """
     if not 0 < tolerance < np.inf:
         raise InputError("must be a positive speed [m/s]", field="tolerance", value=tolerance)
+    mujoco_state(model, data).run()  # refuses what is no state
+    data = fullest(model, data, WINDOW)
     state = mujoco_state(model, data)
     state.run()
     now = copy.copy(data)
@@ -100,9 +102,12 @@ def mujoco_opinion(
     left_out = [*not_unique(contacts, bodies, weight), *coordinates.left_out]
     if drag.any():
         left_out.append(DRAG)
-    moving = [body.name for body in bodies if body.fastest(body.theirs) > tolerance]
-    if {*moving} - {body for body, _ in every}:
-        still = f"in MuJoCo, these still move: {', '.join(moving)}; a state at rest says more"
+    named = {body for body, one in every if one.name != "penetrates"}
+    every += [one for one in moving(theirs.movers, theirs.mean) if one[0] not in named]
+    slow = [body.name for body in bodies if body.fastest(body.theirs) > tolerance]
+    slow += [m.name for m in theirs.movers if m.free and m.fastest(theirs.mean) > tolerance]
+    if {*slow} - {body for body, _ in every}:
+        still = f"{MOVES}{', '.join(dict.fromkeys(slow))}; a state at rest says more"
         left_out.insert(0, still)
     return Opinion(
         h, tolerance, answer.certificate.kind, contacts, bodies, tuple(one for _, one in every),

@@ -23,6 +23,8 @@ MOST_LINES = 5
 """Sentences about what is left out that are printed."""
 
 TOP, CONTACT, BODY, FINDING = "opinion", "contact", "body", "finding"
+MOVES = "in MuJoCo, these still move: "
+"""How a sentence on what is not at rest begins."""
 BEARING, MOTION = "bearing", "motion"
 NULL = {"anyOf": [{"$ref": f"#/definitions/{BEARING}"}, {"type": "null"}]}
 
@@ -79,11 +81,12 @@ TABLES = Tables({
     },
     FINDING: {
         "name": Field("text", "what is found",
-                      choices=("creeps", "slides", "turns", "moves", "penetrates")),
+                      choices=("creeps", "slides", "turns", "moves", "moving", "penetrates")),
         "grave": Field("boolean", "true"),
-        "sentence": Field("text", "the remedy, then the cause"),
+        "sentence": Field("text", "the cause, then the remedy"),
         "remedy": Field("text", "the option or element that changes it"),
         "numbers": Field("table", "what was measured, by names that end in the unit"),
+        "of": Field("text", "empty"),
     },
 })  # fmt: skip
 """Fields by the kind of object."""
@@ -124,6 +127,11 @@ class Opinion(Plain):
         head = {"format": FORMAT, "version": VERSION, "engine": ENGINE}
         return {**head, **asdict(self), "findings": findings}
 
+    @property
+    def still(self) -> bool:
+        """Whether nothing moves in MuJoCo by more than the tolerance."""
+        return not any(sentence.startswith(MOVES) for sentence in self.left_out)
+
     def __str__(self) -> str:
         return "\n".join(self._lines())
 
@@ -142,9 +150,10 @@ class Opinion(Plain):
             {"moves [mm/s]": ("speed", 1e3), "turns [deg/s]": ("turn", 180 / np.pi)},
         ))  # fmt: skip
         yield ""
-        yield from (f"- {finding.sentence}" for finding in self.findings)
+        yield from (f"- {finding}" for finding in self.findings)
         if not self.findings:
-            yield "no finding" if self.contacts else "no finding: nothing touches"
+            nothing = "no finding" if self.contacts else "no finding: nothing touches"
+            yield nothing if self.still else "nothing explains what still moves"
         yield from (f"  {sentence}" for sentence in self.left_out[:MOST_LINES])
         if len(self.left_out) > MOST_LINES:
             yield f"  and {len(self.left_out) - MOST_LINES} more; left_out has all of them"

@@ -86,6 +86,29 @@ def velocities(model: MjModel, data: MjData, seconds: float) -> tuple[Array, Arr
     return means[0], means[1]
 
 
+def fullest(model: MjModel, data: MjData, seconds: float) -> MjData:
+    """The state with most contacts from now until some seconds [s] later: the first of them.
+
+    What slides fast hops in MuJoCo: at one instant it may touch with one corner, or with none.
+
+    Raises
+    ------
+    ModelError
+        If the simulation is unstable.
+    """
+    mujoco = needed_package("mujoco", "engines", "a MuJoCo scene")
+    now = copy.copy(data)
+    mujoco.mj_forward(model, now)
+    most = copy.copy(data)
+    count = now.ncon
+    for _ in range(round(seconds / model.opt.timestep)):
+        run(model, now, model.opt.timestep)
+        if now.ncon > count:
+            most = copy.copy(now)
+            count = now.ncon
+    return most
+
+
 def run(model: MjModel, data: MjData, seconds: float) -> None:
     """Let MuJoCo's state run for some seconds [s], in whole time steps.
 

@@ -32,7 +32,9 @@ class StateContact(NamedTuple):
     bodies : tuple of str
         Alpha's and beta's; ``"world"`` for what cannot move.
     phi : float
-        [m].
+        The gap at which MuJoCo lets it push, the distance less its margin [m].
+    distance : float
+        Of the geoms, below 0 where they overlap [m].
     closed : bool
         Whether its gap counts as zero, unless gaps are taken as they are.
     frame : ndarray, shape (3, 3)
@@ -48,6 +50,7 @@ class StateContact(NamedTuple):
     pair: str
     bodies: tuple[str, str]
     phi: float
+    distance: float
     closed: bool
     frame: Array
     J: Array
@@ -96,7 +99,7 @@ def contacts(state: MujocoState) -> list[StateContact]:
         frame = touch.frame.reshape(3, 3).copy()
         bodies = (mover_name(state, touch.geom[0]), mover_name(state, touch.geom[1]))
         every.append(
-            StateContact(name, pair, bodies, phi, phi <= 0 or sticks, frame,
+            StateContact(name, pair, bodies, phi, float(touch.dist), phi <= 0 or sticks, frame,
                          jacobian(state, touch), *friction(touch, name))
         )  # fmt: skip
     return every

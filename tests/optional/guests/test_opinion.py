@@ -53,7 +53,7 @@ def opinions():
 
 def test_the_guide_shows_what_is_found(opinions):
     shown = (opinions[name] for name in ("capsule", "mug"))
-    sentences = [f"- {one.sentence}" for opinion in shown for one in opinion.findings]
+    sentences = [f"- {one}" for opinion in shown for one in opinion.findings]
     assert [flat(block) for block in printed_blocks(PAGE)] == sentences
 
 
@@ -327,7 +327,7 @@ def test_a_rod_through_a_box_that_mujoco_lists_no_contact_of_is_found():
     data = settled(model, 0.0)
     answer = qr.mujoco_opinion(model, data)
     assert answer.contacts == ()
-    (finding,) = answer.findings
+    finding = answer.findings[0]
     mujoco.mj_forward(model, data)
     across = np.cross(data.geom_xmat[0].reshape(3, 3)[:, 2], np.eye(3))
     across /= np.linalg.norm(across, axis=1, keepdims=True)
@@ -342,10 +342,40 @@ def test_bodies_that_may_overlap_are_not_found():
     """By MuJoCo's own filters: excluded, of other groups of contacts, or one the other's parent."""
     body = '<body name="{}" pos="0 0 .1"><freejoint/><geom type="box" size=".1 .1 .1" {}/></body>'
     two = body.format("b", "") + body.format("c", 'contype="2" conaffinity="2"')
-    assert opinion(mjcf(two), 0.0).findings == ()
+    assert {one.name for one in opinion(mjcf(two), 0.0).findings} == {"moving"}  # they fall
     two = body.format("b", "") + body.format("c", "")
     exclude = '<contact><exclude body1="b" body2="c"/></contact>'
-    assert opinion(mjcf(two, exclude), 0.0).findings == ()
+    assert {one.name for one in opinion(mjcf(two, exclude), 0.0).findings} == {"moving"}
+
+
+@pytest.mark.parametrize("seconds", [0.2, 0.3, 0.5, 0.7, 1.0, 2.0])
+@pytest.mark.parametrize(("mu", "slope"), [(0.3, 0.45), (0.5, 0.6), (0.6, 0.62)])
+def test_what_slides_and_hops_is_never_without_a_finding(seconds, mu, slope):
+    """It touches in a quarter of MuJoCo's steps, with some of its corners."""
+    down = 9.81 / np.hypot(1.0, slope)
+    gravity = f'<option gravity="{slope * down} 0 {-down}" cone="elliptic"/>'
+    box = f'type="box" size=".1 .1 .1" mass="1" friction="{mu}"'
+    floor = f'<geom type="plane" size="5 5 .1" friction="{mu}"/>'
+    scene = f"<mujoco>{gravity}<worldbody>{floor}{free('box', box, '0 0 .1')}</worldbody></mujoco>"
+    said = opinion(scene, seconds)
+    assert {one.name for one in said.findings} & {"slides", "moving"}
+
+
+def test_what_falls_beside_the_scene_is_said():
+    wall = '<geom type="box" pos="1 0 0" size=".1 1 1"/>'
+    box = free("box", 'type="box" size=".02 .02 .02" mass=".1"', "0 0 .5")
+    (finding,) = opinion(f"<mujoco><worldbody>{wall}{box}</worldbody></mujoco>", 2.0).findings
+    assert finding.name == "moving"
+    assert finding.numbers["speed_mm_s"] == pytest.approx(9.81e3 * 2.05, rel=0.01)
+
+
+def test_a_margin_is_no_overlap():
+    """A contact 0.1 mm off the floor, within margins of 2 mm."""
+    floor = FLOOR.replace("/>", ' margin="0.001"/>')
+    box = free("box", 'type="box" size=".03 .03 .03" margin="0.001"', "0 0 .0301")
+    model = model_of(f"<mujoco><worldbody>{floor}{box}</worldbody></mujoco>")
+    _, coordinates = qr.mujoco_step(model, settled(model, 0.0), 0.002)
+    assert not any("penetrate" in sentence for sentence in coordinates.left_out)
 
 
 def test_names_with_colons_stay_whole():
