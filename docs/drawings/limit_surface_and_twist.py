@@ -14,25 +14,30 @@ from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 
 M, GRAVITY, MU_V, CHI = 0.5, 9.81, 0.4, 0.03  # kg, m/s^2, -, m: CHI is mu_omega / mu_v
-RHO = CHI  # radius of gyration [m]: then drag does not turn the twist
 LIMIT = MU_V * M * GRAVITY  # N
 ANGLES = np.radians([0, 20, 40, 60, 80, 90])
 """Of the load, between a pure force and a pure torque, in units of the half axes."""
 
 
+def twist(load: np.ndarray, rho: float = CHI) -> np.ndarray:
+    """(s_1, CHI omega) [m], shape (2,), of a step under a load (f_1, tau / CHI) in units of LIMIT.
+
+    With the radius of gyration `rho` = CHI [m] the disk's inertia does not turn the twist.
+    """
+    force, torque = LIMIT * load
+    wrench = (force, 0.0, -M * GRAVITY, 0.0, 0.0, CHI * torque)
+    step = rigid_step(
+        M, M * rho**2, wrench, [[0.0, 0.0, 0.0]], [np.eye(3)],
+        mu_v=MU_V, mu_omega=MU_V * CHI, rows=6,
+    ).replace(cone="ellipsoid")  # fmt: skip
+    delta_q = solve_step(step).delta_q
+    return np.array([delta_q[0], CHI * delta_q[5]])
+
+
 def main() -> tuple[np.ndarray, np.ndarray]:
     """Loads (f_1, tau / CHI) on the surface [N], twists (s_1, CHI omega) [m], (angles, 2) each."""
-    loads = LIMIT * np.column_stack([np.cos(ANGLES), np.sin(ANGLES)])
-    twists = []
-    for force, torque in 1.05 * loads:
-        wrench = (force, 0.0, -M * GRAVITY, 0.0, 0.0, CHI * torque)
-        step = rigid_step(
-            M, M * RHO**2, wrench, [[0.0, 0.0, 0.0]], [np.eye(3)],
-            mu_v=MU_V, mu_omega=MU_V * CHI, rows=6,
-        ).replace(cone="ellipsoid")  # fmt: skip
-        delta_q = solve_step(step).delta_q
-        twists.append([delta_q[0], CHI * delta_q[5]])
-    return loads, np.array(twists)
+    loads = np.column_stack([np.cos(ANGLES), np.sin(ANGLES)])
+    return LIMIT * loads, np.array([twist(1.05 * load) for load in loads])
 
 
 def figure() -> Figure:
