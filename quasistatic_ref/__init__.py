@@ -43,18 +43,15 @@ _HOMES = {
     "solve.step_problem": "StepProblem",
     "step.standard_form": "standard_form",
     "optional.extensions.extension": "Extension Symbols",
-    "certify.solution": "StepSolution SolverStatistics",
+    "certify.solution": "Certificate ContactForces SolverStatistics StepSolution Verdict",
     "certify.solution_files": "SolutionFile load_solution save_solution",
     "solve.solve": "solve_step",
     "optional.guests.mujoco": "mujoco_step",
     "optional.guests.mujoco_opinion": "mujoco_opinion",
     "optional.guests.scene": "mujoco_scenario",
     "optional.coulomb.fixed_point": "coulomb_step CoulombSolution NoFixedPoint",
-    "certify.certificate": "Certificate",
     "certify.residuals": "Residuals optimality_residuals",
     "certify.verification": "verify verify_answer",
-    "certify.verdict": "Verdict",
-    "certify.contact_forces": "ContactForces",
     "optional.forces.forces": "contact_forces",
     # Any quadratic program.
     "optional.qp.exact": "exact_qp",
@@ -78,8 +75,8 @@ __all__ = ["__version__", "figures", *sorted(_HOME)]
 
 if TYPE_CHECKING:  # what editors and type checkers see: the same names, with their types
     from quasistatic_ref import figures as figures
-    from quasistatic_ref.certify.certificate import Certificate as Certificate
-    from quasistatic_ref.certify.contact_forces import ContactForces as ContactForces
+    from quasistatic_ref.certify.solution import Certificate as Certificate
+    from quasistatic_ref.certify.solution import ContactForces as ContactForces
     from quasistatic_ref.certify.failures import (
         StepIllPosed as StepIllPosed,
         StepInfeasible as StepInfeasible,
@@ -98,7 +95,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         load_solution as load_solution,
         save_solution as save_solution,
     )
-    from quasistatic_ref.certify.verdict import Verdict as Verdict
+    from quasistatic_ref.certify.solution import Verdict as Verdict
     from quasistatic_ref.certify.verification import (
         verify as verify,
         verify_answer as verify_answer,

@@ -18,9 +18,8 @@ from quasistatic_ref.errors import InputError
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from quasistatic_ref.certify.contact_forces import ContactForces
     from quasistatic_ref.certify.curved_cone import CurvedCone
-    from quasistatic_ref.certify.solution import StepSolution
+    from quasistatic_ref.certify.solution import ContactForces, StepSolution
     from quasistatic_ref.contact.pairs import ContactPair
     from quasistatic_ref.model.readers.mesh import Mesh
     from quasistatic_ref.model.system import System

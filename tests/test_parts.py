@@ -106,7 +106,6 @@ OF_CORE_AND_PARTS = {
     "certify/test_exact",
     "certify/test_groups",
     "certify/test_joined_parts",
-    "certify/test_proofs",
     "cli/test_inspect",
     "contact/solids/test_solid_pair",
     "errors/test_python_mistakes",

@@ -6,9 +6,8 @@ from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
-from quasistatic_ref.certify.certificate import CLAIMS, Certificate, Claims
 from quasistatic_ref.certify.residuals import Judge, row_violations
-from quasistatic_ref.certify.verdict import Verdict
+from quasistatic_ref.certify.solution import CLAIMS, Certificate, Claims, Verdict
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import FrictionCone, Rows, cone
 from quasistatic_ref.step.data import StepData

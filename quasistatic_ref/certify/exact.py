@@ -8,6 +8,8 @@ whatever the warm start was. lam and the working set are one of several possible
 multipliers are not unique.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -27,9 +29,8 @@ from quasistatic_ref.certify.form import ExactForm, StepForm
 from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.norm import Parts, energy_norm, single_loads
-from quasistatic_ref.certify.proofs import Proofs
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array, without_warnings
+from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
@@ -136,7 +137,7 @@ def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     step : StepData
         SI units.
     warm : sequence of int
-        Rows that a solver found active; see :func:`~quasistatic_ref.certify.warm.warm_rows`.
+        Rows that a solver found active; see :func:`~quasistatic_ref.certify.active_set.warm_rows`.
 
     Returns
     -------
@@ -282,3 +283,27 @@ def relative_length(step: StepData, delta_q: Array) -> float:
         if scene_length:
             return length / scene_length
         return 0.0 if length == 0 else float("inf")
+
+
+class Proofs:
+    """The proofs of the groups of the last step: of equal data and start the same, bit for bit.
+
+    What it gives depends on nothing else, and so on no step before.
+    """
+
+    def __init__(self) -> None:
+        # Of each group: what it was as a step, the rows that its search started from, the end.
+        self._last: dict[int, tuple[StepData, list[int], ExactOptimum]] = {}
+
+    def kept(self, i: int, part: StepData, start: Sequence[int]) -> ExactOptimum | None:
+        """The optimum of the group number i, if that is what it was in the last step."""
+        if i not in self._last:
+            return None
+        last, begun, optimum = self._last[i]
+        return optimum if begun == [*start] and part.same_as(last) else None
+
+    def keep(self, i: int, part: StepData, start: Sequence[int], optimum: ExactOptimum) -> None:
+        """Keep the proof of the group number i in place of that of the last step."""
+        for array in (optimum.delta_q, optimum.lam, optimum.net):
+            read_only(array)
+        self._last[i] = part, [*start], optimum

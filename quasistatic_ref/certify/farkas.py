@@ -12,10 +12,10 @@ from flint import fmpq, fmpz
 
 from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
-from quasistatic_ref.certify.rounding import nearest_fraction
-from quasistatic_ref.certify.rows import row_owners
+from quasistatic_ref.certify.groups import row_owners
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.precision import nearest_fraction
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 

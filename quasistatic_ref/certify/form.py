@@ -30,11 +30,10 @@ from typing import Final, TypeAlias
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpz
 
-from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.groups import labels
 from quasistatic_ref.numbers.arrays import Array, Indices
-from quasistatic_ref.numbers.precision import working_precision
+from quasistatic_ref.numbers.dependence import implied
+from quasistatic_ref.numbers.precision import check_arithmetic, working_precision
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, row_layout
 from quasistatic_ref.step.standard_form import inequalities

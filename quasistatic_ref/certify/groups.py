@@ -5,15 +5,19 @@ a user's cost), or a contact, or a
 row of the user's own, moves with both. H is then block diagonal and A has rows of one group each:
 the optimum of the step consists of those of its groups. A group is mostly a body, or some bodies
 that touch each other.
+
+Rows have a number, or a contact and a row of it. The rows of A are contact-major; the user's own
+rows come last, as if of one contact more.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.numbers.arrays import Indices, Mask, read_only
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
 
@@ -166,3 +170,43 @@ def group_step(step: StepData, group: Group) -> StepData:
         cone=step.cone,
         extra=step.extra.of(group.extra_rows, c),
     )
+
+
+def contact_rows(step: StepData, rows: Iterable[int]) -> tuple[tuple[int, int], ...]:
+    """(contact, row) of some rows of A; contact n_c stands for the user's own rows."""
+    every = np.array([*rows], dtype=np.int64)
+    contact = np.searchsorted(step.offsets[1:], every, side="right")
+    row = every - step.offsets[contact]
+    return tuple(zip(contact.tolist(), row.tolist(), strict=True))
+
+
+def flat_rows(step: StepData, pairs: Iterable[tuple[int, int]]) -> tuple[int, ...]:
+    """The rows of A that (contact, row) pairs mean.
+
+    Raises
+    ------
+    IndexError
+        If there is no such contact or row.
+    """
+    sizes = [*step.counts.tolist(), len(step.extra.names)]
+    flat = []
+    for contact, row in pairs:
+        if not (0 <= contact < len(sizes) and 0 <= row < sizes[contact]):
+            raise IndexError(f"the step has no row {row} of contact {contact}")
+        flat.append(int(step.offsets[contact]) + row)
+    return tuple(flat)
+
+
+def row_owners(step: StepData, rows: Iterable[int]) -> dict[str, list[str]]:
+    """Names of the contacts that some rows belong to, each with the names of those rows.
+
+    The user's own rows stand under ``"extra"``.
+    """
+    owners: dict[str, list[str]] = {}
+    row_names = cone(step.cone).row_names
+    for contact, row in contact_rows(step, rows):
+        if contact < step.contacts.n_c:
+            owners.setdefault(step.contacts.name[contact], []).append(row_names[row])
+        else:
+            owners.setdefault("extra", []).append(step.extra.names[row])
+    return owners

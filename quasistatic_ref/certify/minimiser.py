@@ -22,7 +22,6 @@ from typing import Final, Protocol, TypeAlias
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpz_mat
 
-from quasistatic_ref.certify.dependence import combination, implied, null_space
 from quasistatic_ref.certify.form import (
     EXACT,
     PRECISION,
@@ -34,7 +33,6 @@ from quasistatic_ref.certify.form import (
     fraction,
     whole_numbers,
 )
-from quasistatic_ref.certify.rounding import all_nearest, nearest
 from quasistatic_ref.certify.working_set import (
     NearSets,
     Point,
@@ -42,7 +40,8 @@ from quasistatic_ref.certify.working_set import (
     fraction_point,
 )
 from quasistatic_ref.numbers.arrays import Array, Indices
-from quasistatic_ref.numbers.precision import working_precision
+from quasistatic_ref.numbers.dependence import combination, implied, null_space
+from quasistatic_ref.numbers.precision import all_nearest, nearest, working_precision
 
 
 class Line(Protocol):

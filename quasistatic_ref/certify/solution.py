@@ -1,18 +1,22 @@
-"""The answer of one step."""
+"""The answer of one step: its certificate, the forces of its contacts, the verdict on a claim."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from quasistatic_ref.certify.certificate import Certificate
-from quasistatic_ref.certify.contact_forces import ContactForces
+import numpy as np
+
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.formats.quoting import clipped
+from quasistatic_ref.formats.shown import HasPage, Shown
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
 from quasistatic_ref.parts import contact_forces
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.friction import contact_wrenches
 
 UNKNOWN = "are not known: a step holds no costs or nonlinear constraints"
@@ -127,7 +131,7 @@ class StepSolution(Plain, Shown):
     def imbalance(self) -> float:
         """The share of the load that the forces leave, at most some 1e-6 as a rule [-].
 
-        That of :class:`~quasistatic_ref.certify.contact_forces.ContactForces`.
+        That of :class:`~quasistatic_ref.certify.solution.ContactForces`.
         """
         return self.compliant.imbalance
 
@@ -173,3 +177,178 @@ class StepSolution(Plain, Shown):
     def status(self) -> str:
         """Always ``"optimal"``: a step without an accepted answer raises ``StepNotSolved``."""
         return "optimal"
+
+
+Claims = Mapping[str, tuple[str, ...]]
+"""The kinds of certificate in a cone, each with its further fields in a solution file."""
+
+CLAIMS: Claims = {
+    "exact": (
+        "active", "multipliers_unique", "differentiable", "smallest_inactive_slack",
+        "smallest_active_multiplier", "error_bound",
+    ),
+    "residual": (),
+    "none": (),
+}  # fmt: skip
+"""Those of a polyhedral cone."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Certificate(Plain, HasPage):
+    """What is known about an answer, and how.
+
+    Parameters
+    ----------
+    kind : str
+        ``"exact"`` (delta_q is the exact optimum, correctly rounded), ``"enclosure"`` (in the
+        ellipsoid: delta_q is proved to be as near to the optimum as error_bound says),
+        ``"residual"`` (optimality residuals were computed and are small) or ``"none"``.
+    residuals : mapping of str to float
+        Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` in natural units [-]. They differ in the last
+        places from processor to processor, prove nothing, and never enter a solution file.
+    active : tuple of (int, int)
+        Contact and row of each member of the working set; the user's own rows count as those of
+        one contact more. The rows of the working set are independent, their multipliers positive
+        and their slacks zero. In the ellipsoid, for ``"exact"``: the first independent rows of the
+        contacts that bear load.
+    multipliers_unique : bool or None
+        Whether lam may be compared component by component. Here and below None: nothing is claimed.
+    differentiable : bool or None
+        Whether delta_q is differentiable with respect to the forces and targets (g).
+    smallest_inactive_slack : float or None
+        Smallest slack [m] of the rows that are not strictly active: 0.0 where delta_q is not
+        differentiable. None if there are no such rows.
+    smallest_active_multiplier : float or None
+        Smallest multiplier [N s] of the working set. None if that is empty.
+    error_bound : float or None
+        Of an enclosure: a bound of the error of delta_q, by its one definition (certify/norm.py)
+        [-]. 0.0 for ``"exact"``, where the only error is the correct rounding of each entry.
+    gap : float or None
+        The duality gap of lam in the ellipsoid, no distance: a bound of f(delta_q*) - d(lam)
+        [N m s].
+    step : StepData or None
+        What it is about. Only kind ``"none"``, which claims nothing, is about no step.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.solve_step(step).certificate.kind
+    'exact'
+    """
+
+    kind: str
+    residuals: Mapping[str, float] = field(default_factory=dict)
+    active: tuple[tuple[int, int], ...] = ()
+    multipliers_unique: bool | None = None
+    differentiable: bool | None = None
+    smallest_inactive_slack: float | None = None
+    smallest_active_multiplier: float | None = None
+    error_bound: float | None = None
+    gap: float | None = None
+    step: StepData | None = None
+
+    @property
+    def step_sha256(self) -> str | None:
+        """SHA-256 of the step that it is about, as in a solution file; formed when it is read."""
+        return None if self.step is None else step_sha256(self.step)
+
+    def is_of(self, step: StepData) -> bool:
+        """Whether it is about this step: the same object, or one with the same SHA-256."""
+        return self.step is step or self.step_sha256 == step_sha256(step)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactForces(Shown):
+    """The forces of a step's contacts.
+
+    Parameters
+    ----------
+    wrench : ndarray, shape (n_c, 4)
+        (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m].
+    delta_q : ndarray, shape (n_v,)
+        Where the step with compliance ends [m, rad].
+    compliance : ndarray, shape (n_c,)
+        c of each contact [m/N].
+    imbalance : float
+        The share of the load that the forces leave, the largest of all groups [-]: they balance
+        the step at `delta_q`, not at the displacement x of the step without compliance. It is
+        ||delta_q - x||_H over the norm ||h J'f||_{H^-1} of what the forces f exert; infinite where
+        this is zero, as of a step without solution.
+    sensitivity : float
+        At most how much a force changes if each phi of its group changes by 1 m, over the sum of
+        the group's normal forces, (R42), the largest of all groups [1/m].
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.contact_forces(step).imbalance < 1e-6
+    True
+    """
+
+    wrench: Array
+    delta_q: Array
+    compliance: Array
+    imbalance: float
+    sensitivity: float
+
+    def __post_init__(self) -> None:
+        for array in (self.wrench, self.delta_q, self.compliance):
+            read_only(array)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether a certificate holds.
+
+    Parameters
+    ----------
+    ok : bool
+    reason : str
+        Why not, in plain words; empty if it holds.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.verify_answer(step, np.zeros(6), []).reason
+    'row +d1 of floor(floor, sphere/sphere#0)/0 is violated by the minimiser on the working set'
+    """
+
+    ok: bool
+    reason: str = ""
+
+    def __bool__(self) -> bool:
+        return self.ok
+
+
+def wrong_bits(name: str, numbers: Array, right: Array) -> str:
+    """What is wrong with numbers that must be right to the last bit; empty if nothing.
+
+    Parameters
+    ----------
+    name : str
+    numbers, right : ndarray, of the same shape (k,)
+        What is judged, and what it must be [of one unit].
+    """
+    numbers = np.array(numbers, dtype=np.float64)
+    if numbers.shape != right.shape:
+        return f"{name} has shape {numbers.shape}; the step wants {right.shape}"
+    wrong = np.flatnonzero(numbers.view(np.int64) != right.view(np.int64))
+    if not wrong.size:
+        return ""
+    at = int(wrong[0])
+    return f"{name}[{at}] is {float(numbers[at])!r}; the exact one rounds to {float(right[at])!r}"
+
+
+def wrong_claim(name: str, claimed: object, right: object) -> str:
+    """What is wrong with a claim that must be right to the last bit; empty if nothing.
+
+    Parameters
+    ----------
+    name : str
+    claimed, right : object
+        What is said, and what is true; -0.0 is not 0.0.
+    """
+    signs = {math.copysign(1.0, v) for v in (claimed, right) if isinstance(v, float)}
+    if claimed == right and len(signs) < 2:
+        return ""
+    return f"{name} is claimed to be {clipped(repr(claimed))}; it is {right!r}"

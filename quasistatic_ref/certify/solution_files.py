@@ -13,17 +13,15 @@ from typing import Any, get_type_hints
 
 import numpy as np
 
-from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.curved_cone import claims_of
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.certify.rounding import nearest
-from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.certify.verdict import Verdict, wrong_bits
+from quasistatic_ref.certify.solution import Certificate, StepSolution, Verdict, wrong_bits
 from quasistatic_ref.certify.verification import verify_answer
 from quasistatic_ref.errors import StepDataError, about_file, check_kind
 from quasistatic_ref.formats.files import json_read, json_text, text_written
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.precision import nearest
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
@@ -78,7 +76,7 @@ class SolutionFile:
         Raises
         ------
         InputError
-            If nothing can be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
+            If nothing can be proved in this thread: see :mod:`~quasistatic_ref.numbers.precision`.
         """
         step = self.step
         if self.farkas is not None:

@@ -19,15 +19,18 @@ import numpy as np
 from flint import arb
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.curved_cone import curved_cone
 from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
-from quasistatic_ref.certify.groups import group_steps
+from quasistatic_ref.certify.groups import flat_rows, group_steps, row_owners
 from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
-from quasistatic_ref.certify.rows import flat_rows, row_owners
-from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.certify.solution import (
+    Certificate,
+    StepSolution,
+    Verdict,
+    wrong_bits,
+    wrong_claim,
+)
 from quasistatic_ref.certify.working_set import Point, fraction_point
 from quasistatic_ref.errors import check_kind
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
@@ -109,7 +112,7 @@ def verify_answer(
     StepDataError
         If delta_q or lam are no numbers.
     InputError
-        If nothing can be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
+        If nothing can be proved in this thread: see :mod:`~quasistatic_ref.numbers.precision`.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """What a certificate claims, in words."""
 
-from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.curved_cone import curved_cone
+from quasistatic_ref.certify.solution import Certificate
 
 
 def in_words(certificate: Certificate) -> str:

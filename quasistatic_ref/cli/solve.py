@@ -7,7 +7,7 @@ from pathlib import Path
 
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.certify.rows import flat_rows
+from quasistatic_ref.certify.groups import flat_rows
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.certify.solution_files import infeasible_text, solution_text
 from quasistatic_ref.certify.working_set import fraction_point

@@ -15,8 +15,8 @@ from collections.abc import Sequence
 from flint import arb, arb_mat, fmpq, fmpq_mat
 
 from quasistatic_ref.certify.form import ExactForm, fraction
-from quasistatic_ref.certify.rounding import all_nearest
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.precision import all_nearest
 
 
 def fractions(values: Array) -> list[fmpq]:

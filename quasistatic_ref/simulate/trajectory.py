@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref import parts
-from quasistatic_ref.certify.contact_forces import ContactForces
-from quasistatic_ref.certify.solution import UNKNOWN
+from quasistatic_ref.certify.solution import UNKNOWN, ContactForces
 from quasistatic_ref.errors import InputError, MissingKey, about_file, check_kind
 from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.formats.npz import json_array, npz_record
@@ -210,7 +209,7 @@ class Trajectory(Plain, HasPage):
     def imbalance(self) -> Array:
         """The share of the load that the forces of each step leave, shape (steps,) [-].
 
-        That of :class:`~quasistatic_ref.certify.contact_forces.ContactForces`.
+        That of :class:`~quasistatic_ref.certify.solution.ContactForces`.
 
         Raises
         ------

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.degeneracy import Degeneracy, step_degeneracy
 from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.norm import correct_digits
-from quasistatic_ref.certify.rows import contact_rows
-from quasistatic_ref.certify.solution import SolverStatistics
+from quasistatic_ref.certify.solution import Certificate, SolverStatistics
 from quasistatic_ref.formats.plain import Late
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.solve.units import ScaledStep, in_natural, natural_form

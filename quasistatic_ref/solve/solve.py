@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.active_set import basic_rows, warm_rows
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.exact import ExactOptimum, check_length, optimum_by_groups
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
-from quasistatic_ref.certify.warm import basic_rows, warm_rows
+from quasistatic_ref.certify.solution import Certificate, SolverStatistics, StepSolution
 from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.numbers.arrays import Array, all_finite, positive_number, without_warnings
+from quasistatic_ref.numbers.precision import check_arithmetic
 from quasistatic_ref.parts import extended_step
 from quasistatic_ref.solve.backends import NONE, Certify, check_certify
 from quasistatic_ref.solve.choice import solver_for
@@ -100,7 +99,7 @@ def solve_step(
     InputError
         If a solver object does not fit the step or is given with `fast`, if `certify` is none of
         these words, if `accuracy` is not greater than 0, or, with ``"full"`` and ``"residual"``, if
-        nothing can be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
+        nothing can be proved in this thread: see :mod:`~quasistatic_ref.numbers.precision`.
 
     Examples
     --------

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import solve_step, standard_form
-from quasistatic_ref.certify.rows import flat_rows
+from quasistatic_ref.certify.groups import flat_rows
 from tests.closeness import assert_within
 from tests.helpers import changed, random_step
 

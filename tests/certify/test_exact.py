@@ -3,8 +3,14 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import load_scenario, solve_step
+from quasistatic_ref.certify import exact
 from quasistatic_ref.certify.exact import exact_slack, form_optimum, step_optimum
+from quasistatic_ref.certify.groups import group_steps
+from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.bench.scenes import boxes
+from quasistatic_ref.solve.choice import solver_for
+from tests.helpers import point_on_floor
 from tests.oracles.forms import exact_form_of
 
 
@@ -35,3 +41,62 @@ def test_what_stays_where_it_is_needs_no_fractions(monkeypatch):
     monkeypatch.setattr("quasistatic_ref.certify.minimiser.fraction_point", refused)
     delta_q = step_optimum(step, working).delta_q
     assert delta_q.astype(bool).tolist() == [True, True, True, False, False, False]
+
+
+@pytest.fixture
+def proofs_made(monkeypatch):
+    """Of each proof that is made, the number of rows of its program."""
+    made = []
+    form_optimum = exact.form_optimum
+
+    def counted(form, *arguments):
+        made.append(form.m)
+        return form_optimum(form, *arguments)
+
+    monkeypatch.setattr(exact, "form_optimum", counted)
+    return made
+
+
+@pytest.mark.parametrize("fast", [False, True])
+def test_a_stack_at_rest_is_proved_at_its_first_steps_alone(proofs_made, fast):
+    run = load_scenario("stack", ["record=full"], steps=12, fast=fast).run(progress=False)
+    assert 1 <= len(proofs_made) <= 3
+    for k in range(12):
+        assert bits(solve_step(run.step_data(k), "none").delta_q) == bits(run["delta_q"][k])
+
+
+def test_a_group_that_rests_is_kept_beside_one_that_moves(proofs_made):
+    scene = boxes(3)
+    step = scene.simulator("full", False).step(scene.q, np.zeros(0), scene.force).step
+    proofs_made.clear()
+    first, *others = [group.coordinates for group, _ in group_steps(step)]
+    solver = solver_for(step, "none")
+    solve_step(step, solver)
+    assert len(proofs_made) == len(others) + 1
+    tau_u = step.tau_u.copy()
+    tau_u[first] *= 1.5
+    moved = step.replace(tau_u=tau_u)
+    again = solve_step(moved, solver)
+    assert len(proofs_made) == len(others) + 2
+    fresh = solve_step(moved, "none")
+    assert bits(again.delta_q) == bits(fresh.delta_q)
+    assert bits(again.lam) == bits(fresh.lam)
+
+
+def test_what_differs_in_one_bit_or_starts_elsewhere_is_proved(proofs_made):
+    step = point_on_floor(force=(0.1, 0.0, -1.0))
+    (part,) = group_steps(step)
+    kept = exact.Proofs()
+    for one, start in [(step, [0]), (step.replace(), [0]), (step.replace(), [1])]:
+        exact.optimum_by_groups(one, [(part[0], one)], [start], kept)
+    assert len(proofs_made) == 2
+    for name, value in {
+        "h": np.nextafter(step.h, 1),
+        "tau_u": np.nextafter(step.tau_u, 1),
+        "contacts": step.contacts.raised(np.array([1e-300])),
+        "cone": "product",
+    }.items():
+        other = step.replace(**{name: value})
+        assert not other.same_as(step)
+        exact.optimum_by_groups(other, [(part[0], other)], [[0]], kept)
+    assert len(proofs_made) == 6

@@ -8,10 +8,10 @@ import pytest
 from flint import arb_mat
 
 from quasistatic_ref import Extra
-from quasistatic_ref.certify.dependence import implied, independent_rows
 from quasistatic_ref.certify.form import EXACT, StepForm, exact_matrix
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.working_set import NearSets, ball_point
+from quasistatic_ref.numbers.dependence import implied, independent_rows
 from quasistatic_ref.numbers.precision import working_precision
 from tests.helpers import resting_point
 from tests.oracles.forms import exact_form_of

@@ -21,8 +21,8 @@ from quasistatic_ref import (
     solve_step,
     verify_answer,
 )
-from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.numbers.precision import check_arithmetic
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.choice import solver_for
 from tests.oracles.random_steps import mixed_step

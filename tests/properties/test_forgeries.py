@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Certificate, solve_step
-from quasistatic_ref.certify.certificate import CLAIMS
+from quasistatic_ref.certify.solution import CLAIMS
 from quasistatic_ref.certify.solution_files import load_solution, solution_text
 from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE

@@ -134,12 +134,6 @@ def test_the_header_says_what_the_run_was(run):
         ],
         "slots": ["floor(floor, ball/ball#0)/0", "push(rail/plate#0, ball/ball#0)/0"],
         "steps": 5,
-        "scene": {
-            "pairs": [["floor(floor, ball/ball#0)", "floor", "ball"],
-                      ["push(rail/plate#0, ball/ball#0)", "rail/plate", "ball"]],
-            "gravity": [0.0, 0.0, -9.81],
-            "stiffness": [500.0, 2.5],
-        },
         "failed": None,
         "contacts": [["floor(floor, ball/ball#0)/0", "push(rail/plate#0, ball/ball#0)/0"]] * 5,
     }  # fmt: skip

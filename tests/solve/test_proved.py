@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario, solve_step, verify
-from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.form import ExactForm
 from quasistatic_ref.certify.norm import correct_digits
-from quasistatic_ref.certify.solution import SolverStatistics
+from quasistatic_ref.certify.solution import Certificate, SolverStatistics
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.solve import proved

@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.rows import row_owners
+from quasistatic_ref.certify.groups import row_owners
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array

@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.certify.rows import flat_rows
+from quasistatic_ref.certify.groups import flat_rows
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.model.state import State
 from quasistatic_ref.numbers.arrays import Array, without_warnings

@@ -15,9 +15,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.precision import check_arithmetic
 from quasistatic_ref.optional.derivatives.derivatives import check_derivable
 from quasistatic_ref.optional.derivatives.entries import BY, StepOfEntries
 from quasistatic_ref.parts import needed_package

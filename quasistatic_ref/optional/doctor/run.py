@@ -34,7 +34,7 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
-    from quasistatic_ref.certify.contact_forces import ContactForces
+    from quasistatic_ref.certify.solution import ContactForces
     from quasistatic_ref.step.contacts import Contacts
 
 NOTED = ("tau", "moved", "momentum", "gives")

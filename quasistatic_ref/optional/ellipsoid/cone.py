@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from flint import fmpq
 
-from quasistatic_ref.certify.certificate import Certificate, Claims
 from quasistatic_ref.certify.curved_cone import CurvedCone
 from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
+from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.minimiser import rounded_quotients
 from quasistatic_ref.certify.residuals import Judge, Violations, largest
-from quasistatic_ref.certify.rows import contact_rows
-from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.certify.solution import Certificate, Claims, Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.apex import apex

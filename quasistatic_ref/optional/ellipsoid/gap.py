@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from flint import fmpq
 
 from quasistatic_ref.certify.form import ExactForm, fraction
-from quasistatic_ref.certify.rounding import nearest_fraction
+from quasistatic_ref.numbers.precision import nearest_fraction
 from quasistatic_ref.optional.ellipsoid.tolerances import IMPULSES
 from quasistatic_ref.optional.gap import energy, free_energy
 

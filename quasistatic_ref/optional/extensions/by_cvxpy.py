@@ -8,12 +8,11 @@ from functools import partial
 import cvxpy as cp
 import numpy as np
 
-from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
+from quasistatic_ref.certify.solution import Certificate, SolverStatistics, StepSolution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.precision import check_arithmetic
 from quasistatic_ref.optional.extensions.conic import conic_program, conic_residuals
 from quasistatic_ref.optional.extensions.extension import Extension, Symbols
 from quasistatic_ref.optional.extensions.own_rows import joined

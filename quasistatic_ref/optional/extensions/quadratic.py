@@ -18,8 +18,8 @@ import numpy as np
 from flint import fmpq_mat
 
 from quasistatic_ref.certify.form import exact_matrix
-from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.precision import nearest_fraction
 from quasistatic_ref.optional.extensions.conic import conic_program
 from quasistatic_ref.optional.gap import rational
 from quasistatic_ref.solve.problem_data import CANON

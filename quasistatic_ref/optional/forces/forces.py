@@ -37,7 +37,6 @@ from flint import arb, arb_mat
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.active_set import dual_active_set
-from quasistatic_ref.certify.contact_forces import ContactForces
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.failures import StepInfeasible, StepNotSolved
@@ -45,6 +44,7 @@ from quasistatic_ref.certify.form import EXACT, MatrixForm, StepForm, columns, e
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.certify.solution import ContactForces
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.numbers.precision import working_precision

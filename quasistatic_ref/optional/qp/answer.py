@@ -12,13 +12,11 @@ import numpy as np
 from flint import arb, arb_mat, fmpq
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.farkas import fractions_read
 from quasistatic_ref.certify.form import EXACT, PRECISION, ExactForm, exact_matrix, fraction
 from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
 from quasistatic_ref.certify.norm import digits_of_error
-from quasistatic_ref.certify.rounding import nearest_fraction
-from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.certify.solution import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.certify.verification import unique_and_smooth, wrong_sign
 from quasistatic_ref.certify.working_set import Point, fraction_point
 from quasistatic_ref.errors import InputError, QuasistaticError
@@ -27,7 +25,7 @@ from quasistatic_ref.formats.plain import Plain, field_values
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
-from quasistatic_ref.numbers.precision import working_precision
+from quasistatic_ref.numbers.precision import check_arithmetic, nearest_fraction, working_precision
 from quasistatic_ref.optional.qp.program import QuadraticProgram
 
 QP_FORMAT: Final = "quasistatic-ref/qp"

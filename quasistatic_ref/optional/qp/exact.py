@@ -9,11 +9,11 @@ from flint import arb, fmpq
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.active_set import Combination, dual_active_set
-from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.exact import ExactOptimum, rounded_optimum
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
+from quasistatic_ref.numbers.precision import check_arithmetic
 from quasistatic_ref.optional.qp.answer import ExactQP, QPInfeasible, objective, objective_sum
 from quasistatic_ref.optional.qp.form import Block
 from quasistatic_ref.optional.qp.guess import guessed

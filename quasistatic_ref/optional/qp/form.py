@@ -19,11 +19,10 @@ from quasistatic_ref.certify.form import (
     whole_numbers,
 )
 from quasistatic_ref.certify.groups import labels
-from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.pivots import positive_pivots
-from quasistatic_ref.numbers.precision import working_precision
+from quasistatic_ref.numbers.precision import nearest_fraction, working_precision
 
 if TYPE_CHECKING:
     from quasistatic_ref.optional.qp.program import QuadraticProgram

@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from quasistatic_ref.certify.warm import warm_rows
+from quasistatic_ref.certify.active_set import warm_rows
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.optional.qp.form import Block
