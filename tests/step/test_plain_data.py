@@ -82,7 +82,7 @@ def test_a_copy_of_a_simulator_has_every_setting(things, trip):
 def test_what_a_solver_took_of_the_clock_is_not_compared_but_copied(things):
     solution = things["StepSolution"]
     result = things["StepResult"]
-    slower = solution.statistics._replace(solve_time=1e3)
+    slower = solution.statistics.with_fields(solve_time=1e3)
     assert replace(solution, statistics=slower) == solution
     assert replace(result, seconds={"solve": 1e3}) == result
     assert copy.deepcopy(replace(solution, statistics=slower)).statistics == slower
