@@ -49,9 +49,8 @@ class Foreign:
         """Its matrices: rows a x + c >= 0 as A = a and b = -c, equations first."""
         problem = self.answer.problem
         rows = problem.rows
-        equations = int(rows.is_equation.sum())
         return Program(
-            (problem.P + problem.P.T) / 2, 0.0 - problem.q, rows.a, 0.0 - rows.c, equations
+            (problem.P + problem.P.T) / 2, 0.0 - problem.q, rows.a, 0.0 - rows.c, rows.equations
         )
 
     @cached_property

@@ -173,24 +173,16 @@ class QPInfeasible(QuasistaticError):
             np.array([nearest_fraction(v) for v in fractions_read(texts) or []])
             for texts in self.exact.values()
         )
-        named = {
-            "G": self.z,
-            "A": self.y,
-            "lb": np.minimum(self.z_box, 0),
-            "ub": np.maximum(self.z_box, 0),
-        }
-        self.rows = tuple(
-            f"{name}[{i}]" for name, v in named.items() for i in np.flatnonzero(v).tolist()
-        )
+        self.rows = tuple(problem.rows.names[i] for i in _used_rows(problem, self.exact))
         super().__init__(
             f"the program has no solution: {self._in_words()} (proved without rounding)"
         )
 
     def _in_words(self) -> str:
-        if len(self.rows) > 1:
+        if len(self.rows) != 1:
             more = len(self.rows) - MOST_NAMES
             names = [*self.rows[:MOST_NAMES], *([f"{more} more rows"] if more > 0 else [])]
-            return f"{listed(names)} contradict each other"
+            return f"{listed(names or ['no rows'])} contradict each other"
         (i,) = np.flatnonzero([*self.z, *self.y])
         side = [*self.problem.h, *self.problem.b][i]
         relation = "<=" if i < len(self.z) else "="
@@ -261,8 +253,7 @@ def _optimum_verdict(answer: ExactQP) -> Verdict:
         of_rows[block.rows[working]] = rounded_quotients(point.y, point.denominator)
         objectives += rounded_quotients(double, twice).tolist()
         unique = unique and unique_and_smooth(form, working, slack)[0]
-    right = {"x": x} | rows.multipliers(of_rows, problem)
-    for name, numbers in right.items():
+    for name, numbers in ({"x": x} | problem.multipliers(of_rows)).items():
         if reason := wrong_bits(name, getattr(answer, name), numbers):
             return Verdict(False, reason)
     claims = dict(zip(("obj", "obj_error"), objective_sum(objectives), strict=True))
@@ -274,31 +265,37 @@ def _optimum_verdict(answer: ExactQP) -> Verdict:
 
 def _farkas_refutation(problem: QuadraticProgram, exact: Mapping[str, Sequence[str]]) -> str:
     """What is wrong with a proof that there is no solution; empty if it holds."""
-    n = len(problem.q)
-    sizes = {"z": len(problem.h), "y": len(problem.b), "z_box": n}
+    sizes = {"z": len(problem.h), "y": len(problem.b), "z_box": len(problem.q)}
     proof = {name: fractions_read(exact[name]) for name in sizes}
     for name, numbers in proof.items():
         if numbers is None or len(numbers) != sizes[name]:
             return f"{name} of the proof is no list of {sizes[name]} fractions"
-    z, y, z_box = (numbers or [] for numbers in proof.values())
-    if any(v < 0 for v in z):
+    if any(v < 0 for v in proof["z"] or []):
         return "z of the proof has a negative entry"
-    eye = np.eye(n)
-    terms = [
-        *((v, row, side) for v, row, side in zip(z, problem.G, problem.h, strict=True) if v),
-        *((v, row, side) for v, row, side in zip(y, problem.A, problem.b, strict=True) if v),
-        *((v, eye[i], (problem.ub if v > 0 else problem.lb)[i]) for i, v in enumerate(z_box) if v),
-    ]
-    sums = [fmpq(0)] * (n + 1)
-    for v, row, side in terms:
-        if not math.isfinite(side):
-            return "the proof uses a limit that is infinite"
-        entries: list[float] = [*row.tolist(), float(side)]
+    rows = problem.rows
+    used = _used_rows(problem, exact)
+    if len(used) != sum(bool(v) for numbers in proof.values() for v in numbers or []):
+        return "the proof uses a limit that is infinite"
+    sums = [fmpq(0)] * (len(problem.q) + 1)
+    for i, v in used.items():
+        entries: list[float] = [*rows.a[i].tolist(), float(rows.c[i])]
         sums = [s + v * fraction(w) if w else s for s, w in zip(sums, entries, strict=True)]
     *force, limit = sums
     if any(force):
         return "G'z + A'y + z_box is not zero"
     return "" if limit < 0 else "the limits that the proof adds up are not negative"
+
+
+def _used_rows(problem: QuadraticProgram, exact: Mapping[str, Sequence[str]]) -> dict[int, fmpq]:
+    """The rows that a proof adds up, each with its factor: positive but that of an equation."""
+    proof = fractions_read([text for texts in exact.values() for text in texts]) or []
+    rows = problem.rows
+    factors = {
+        i: int(sign) * proof[slot]
+        for i, (slot, sign) in enumerate(zip(rows.slot.tolist(), rows.sign, strict=True))
+        if slot < len(proof)
+    }
+    return {i: v for i, v in factors.items() if v > 0 or (i < rows.equations and v)}
 
 
 def _saved(path: str | Path, problem: QuadraticProgram, claims: Mapping[str, Any]) -> Path:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
@@ -106,7 +107,7 @@ def exact_qp(
         active += block.rows[[*optimum.working_set]].tolist()
         unique = unique and is_unique
     obj, obj_error = objective_sum(objectives)
-    multipliers = rows.multipliers(of_rows, program)
+    multipliers = program.multipliers(of_rows)
     for name, values in ({"x": x, "obj": np.array([obj])} | multipliers).items():
         if not np.isfinite(values).all():
             problem = f"{name} of the optimum is beyond the range of float64; choose other units"
@@ -137,14 +138,12 @@ def _of_block(
     return rounded_optimum(form, end), value, unique
 
 
-def _proof(program: QuadraticProgram, block: Block, end: Combination) -> dict[str, list[str]]:
+def _proof(program: QuadraticProgram, block: Block, end: Combination) -> dict[str, Sequence[str]]:
     """A contradiction of rows of a block in the words of qpsolvers, its largest entry one."""
     largest = max(abs(v) for v in end.y.values())
-    sizes = {"z": len(program.h), "y": len(program.b), "z_box": len(program.q)}
-    proof = {name: [fmpq(0)] * size for name, size in sizes.items()}
+    proof = [fmpq(0)] * (len(program.h) + len(program.b) + len(program.q))
     rows = program.rows
     for j, v in end.y.items():
-        i = int(block.rows[j])
-        name = {"G": "z", "A": "y"}.get(rows.field[i], "z_box")
-        proof[name][int(rows.place[i])] += int(rows.sign[i]) * v / largest
-    return {name: [str(v) for v in values] for name, values in proof.items()}
+        i = block.rows[j]
+        proof[int(rows.slot[i])] += int(rows.sign[i]) * v / largest
+    return program.split([str(v) for v in proof])

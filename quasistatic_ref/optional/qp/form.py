@@ -112,7 +112,7 @@ def blocks_of(program: QuadraticProgram) -> list[Block]:
             half = exact_matrix(block)
             symmetric = half * arb(0.5) + half.transpose() * arb(0.5)
         _check_definite(block, symmetric, at)
-        equations = int(rows.is_equation[of].sum())
+        equations = int((of < rows.equations).sum())
         form = ArrayForm(symmetric, program.q[at], rows.a[np.ix_(of, at)], rows.c[of], equations)
         blocks.append(Block(at, of, form))
     return blocks

@@ -147,12 +147,12 @@ def _given(program: QuadraticProgram, initvals: Any) -> tuple[Array, Array | Non
     if x.shape != (n,) or not np.isfinite(x).all():
         problem = f"must be {n} finite numbers, or an answer that has them as its x"
         raise InputError(problem, field="initvals", value=x.shape)
-    sizes = {"z": len(program.h), "y": len(program.b), "z_box": n}
-    each = {name: getattr(initvals, name, None) for name in sizes}
-    if all(v is None for v in each.values()):
+    like = program.multipliers(np.zeros(len(program.rows.names)))
+    given = {name: getattr(initvals, name, None) for name in like}
+    if all(v is None for v in given.values()):
         return x, None
-    multipliers = {
-        name: np.zeros(size) if (v := each[name]) is None or np.size(v) != size else np.ravel(v)
-        for name, size in sizes.items()
-    }
-    return x, program.rows.of_multipliers(**multipliers)
+    fit = [
+        np.ravel(v) if v is not None and np.size(v) == len(like[name]) else like[name]
+        for name, v in given.items()
+    ]
+    return x, np.concatenate(fit)[program.rows.slot] * program.rows.sign

@@ -11,7 +11,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.numbers.arrays import Array, Indices, Mask, checked_numbers, read_only
+from quasistatic_ref.numbers.arrays import Array, Indices, checked_numbers, read_only
 from quasistatic_ref.optional.qp.form import Block, blocks_of
 
 FIELDS = ("P", "q", "G", "h", "A", "b", "lb", "ub")
@@ -59,29 +59,40 @@ class QuadraticProgram(Plain, Shown):
     @cached_property
     def rows(self) -> Rows:
         """Its rows, equations first."""
-        eye = np.eye(len(self.q))
-        with np.errstate(invalid="ignore"):
-            fixed = self.lb == self.ub
-        lower = np.isfinite(self.lb) & ~fixed
-        upper = np.isfinite(self.ub) & ~fixed
-        bounded = np.isfinite(self.h)
-        groups = [
-            ("A", np.arange(len(self.b)), self.A, -self.b, -1),
-            ("lb", np.flatnonzero(fixed), eye[fixed], -self.lb[fixed], -1),
-            ("G", np.flatnonzero(bounded), -self.G[bounded], self.h[bounded], 1),
-            ("lb", np.flatnonzero(lower), eye[lower], -self.lb[lower], -1),
-            ("ub", np.flatnonzero(upper), -eye[upper], self.ub[upper], 1),
+        k, e, n = len(self.h), len(self.b), len(self.q)
+        eye = np.eye(n)
+        fixed = self.lb == self.ub
+        at_box = k + e
+        groups = [  # name, sign and first slot of multipliers; a, c and which of them are rows
+            ("A", -1, k, self.A, -self.b, np.full(e, True)),
+            ("lb", -1, at_box, eye, -self.lb, fixed),
+            ("G", 1, 0, -self.G, self.h, np.isfinite(self.h)),
+            ("lb", -1, at_box, eye, -self.lb, np.isfinite(self.lb) & ~fixed),
+            ("ub", 1, at_box, -eye, self.ub, np.isfinite(self.ub) & ~fixed),
         ]
-        field, place, a, c, sign = zip(*groups, strict=True)
-        lengths = [*map(len, place)]
+        some = [
+            (name, sign, first, a, c, np.flatnonzero(there))
+            for name, sign, first, a, c, there in groups
+        ]
         return Rows(
-            field=tuple(np.repeat(field, lengths).tolist()),
-            place=np.concatenate(place),
-            a=np.concatenate(a) + 0.0,
-            c=np.concatenate(c) + 0.0,
-            sign=np.repeat(sign, lengths),
-            is_equation=np.arange(sum(lengths)) < lengths[0] + lengths[1],
+            names=[f"{name}[{i}]" for name, _, _, _, _, at in some for i in at],
+            slot=np.concatenate([first + at for _, _, first, _, _, at in some]),
+            sign=np.concatenate([np.full(len(at), sign) for _, sign, _, _, _, at in some]),
+            a=np.concatenate([a[at] for _, _, _, a, _, at in some]) + 0.0,
+            c=np.concatenate([c[at] for _, _, _, _, c, at in some]) + 0.0,
+            equations=e + int(fixed.sum()),
         )
+
+    def multipliers(self, of_rows: Array) -> dict[str, Array]:
+        """The z, y and z_box of qpsolvers from `of_rows`, a multiplier of each row, (m,) [-]."""
+        every = np.zeros(len(self.h) + len(self.b) + len(self.q))
+        np.add.at(every, self.rows.slot, self.rows.sign * of_rows + 0.0)
+        return {name: np.array(values) for name, values in self.split(every).items()}
+
+    def split(self, multipliers: Any) -> dict[str, Any]:
+        """The z, y and z_box of qpsolvers from one after the other."""
+        k, e = len(self.h), len(self.b)
+        return {"z": multipliers[:k], "y": multipliers[k : k + e], "z_box": multipliers[k + e :]}
 
     @cached_property
     def blocks(self) -> list[Block]:
@@ -95,51 +106,22 @@ class Rows:
 
     Parameters
     ----------
-    field : tuple of str, length m
-        ``"G"``, ``"A"``, ``"lb"`` or ``"ub"``; where lb = ub the one row is of ``"lb"``.
-    place : ndarray of int, shape (m,)
-        Which row of the field.
+    names : list of str
+        As ``"G[3]"``, of ``"G"``, ``"A"``, ``"lb"`` and ``"ub"``; where lb = ub the one is lb's.
+    slot, sign : ndarray of int, shape (m,)
+        Where the multiplier of each stands in z, y and z_box, one after the other; and times what.
     a, c : ndarray, shapes (m, n) and (m,)
         [Any unit.]
-    sign : ndarray of int, shape (m,)
-        What makes a multiplier of the row one of qpsolvers.
-    is_equation : ndarray of bool, shape (m,)
+    equations : int
+        How many of the first are equations.
     """
 
-    field: tuple[str, ...]
-    place: Indices
+    names: list[str]
+    slot: Indices
+    sign: Indices
     a: Array
     c: Array
-    sign: Indices
-    is_equation: Mask
-
-    @cached_property
-    def names(self) -> list[str]:
-        """The name of each, as ``"G[3]"``."""
-        return [f"{f}[{i}]" for f, i in zip(self.field, self.place.tolist(), strict=True)]
-
-    def multipliers(self, of_rows: Array, program: QuadraticProgram) -> dict[str, Array]:
-        """The z, y and z_box of qpsolvers from `of_rows`, a multiplier of each row, (m,) [-]."""
-        field = np.array(self.field)
-        values = of_rows * self.sign + 0.0
-        sizes = {
-            "z": (program.h, ("G",)),
-            "y": (program.b, ("A",)),
-            "z_box": (program.q, ("lb", "ub")),
-        }
-        result = {}
-        for name, (like, fields) in sizes.items():
-            of = np.isin(field, fields)
-            result[name] = np.zeros(len(like))
-            np.add.at(result[name], self.place[of], values[of])
-        return result
-
-    def of_multipliers(self, z: Array, y: Array, z_box: Array) -> Array:
-        """The multiplier of each row, shape (m,), from z, y and z_box of qpsolvers [-]."""
-        each = {"G": z, "A": y, "lb": z_box, "ub": z_box}
-        return np.array(
-            [each[f][i] for f, i in zip(self.field, self.place, strict=True)] * self.sign
-        )
+    equations: int
 
 
 def program_of(P: Any, *arrays: Any) -> QuadraticProgram:
