@@ -1,6 +1,7 @@
 """Short runs, each with a finding: a cell a scene, which test_findings.py runs.
 
-Scenes without a finding are in healthy_scenes.py, which is built with the words of this file.
+Scenes without a finding are in healthy_scenes.py, which is built with the words of this file. In a
+cell `after` has runs with a remedy applied, by the words of the remedy.
 """
 
 from dataclasses import replace
@@ -165,9 +166,15 @@ def over_a_joint(*right, steps=200):
 
 # %% unsupported-body: two boxes touch each other and nothing else
 found = findings([box(), box(name="top", xyz=(0, 0, 0.15))], [("box", "top", 0.5, 4)])
+stack = [*STANDS, ("box", "top", 0.5, 4)]
+remedy = "add a table [contacts.NAME] of box and what should bear it"
+after = {remedy: findings([box(), box(name="top", xyz=(0, 0, 0.15))], stack)}
+
 
 # %% initial-penetration: the origin of a box is its middle, and it was set on the floor
 found = findings([box(xyz=(0, 0, 0.04))])
+after = {"start floor and box/solid#0 10 mm farther apart": findings([box(xyz=(0, 0, 0.05))])}
+
 
 # %% initial-penetration: a box in a gap narrower than itself, where no step has a solution
 found = findings([box()], [("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)], walls(0.09))
@@ -175,6 +182,9 @@ found = findings([box()], [("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)]
 # %% guided-friction: a door on its hinge that grazes the floor
 door = Body("door", joint("revolute", "0 0 1"), xyz=(0, 0, 0.05))
 found = findings([door], lies("door", mu_v=0.3))
+remedy = "leave out contacts.floor_door, and say joint_friction in [bodies.door]"
+after = {remedy: findings([door], [])}
+
 
 # %% guided-friction: a turntable with friction under it
 table = Body("table", joint("continuous", "0 0 1"), xyz=(0, 0, 0.05))
@@ -201,6 +211,10 @@ found = findings([DRAWER], [("rail", "drawer", 0.2, 4)], [RAIL], gravity=(43.5, 
 found = findings([box()], IN_SLOT, walls(0.1001), push={"box": (100, 0, 0)}, steps=5)
 (locked,) = (x for x in found if x.name == "locked-guide")
 assert "box/base.x moves by 0.2 mm under 100 N" in locked.cause
+remedy = "give contacts.wall+1_box or contacts.wall-1_box mu_v = 0, or more clearance"
+wide = findings([box()], IN_SLOT, walls(0.11), push={"box": (100, 0, 0)}, steps=5)
+after = {remedy: wide}
+
 
 # %% locked-guide: a finger that pushes a drawer which touches its rail
 finger = motor("finger", size=TIP, xyz=(-0.06, 0, 0))
@@ -213,9 +227,15 @@ found = findings(
 
 # %% too-few-points: five of the hundred points below a cloud
 found = findings([box()], lies(k=5), cloud={"box": FACE})
+after = {
+    "raise k of contacts.floor_box to 100": findings([box()], lies(k=100), cloud={"box": FACE})
+}
+
 
 # %% too-few-points: a cylinder on its end
 found = findings([TIN], lies("tin", k=2))
+after = {"raise k of contacts.floor_tin to 4": findings([TIN], lies("tin", k=4))}
+
 
 # %% too-few-points: the table is named on which it lies, not the wall beside it, which comes first
 wall = ("wall", Box(size=(0.1, 0.1, 0.1)), (0.15, 0, 0.05))
@@ -227,6 +247,8 @@ found = over_a_joint(TABLE, (0.25, 0, -0.025))
 (joint_of_two,) = (x for x in found if x.name == "flush-shapes")
 assert joint_of_two.numbers["along_N"] == pytest.approx(1.0)
 assert joint_of_two.remedy == "make left and right one shape, or set right 10 um lower"
+after = {joint_of_two.remedy: over_a_joint(TABLE, (0.25, 0, -0.02501))}
+
 
 # %% flush-shapes: before a run
 found = over_a_joint(TABLE, (0.25, 0, -0.025), steps=0)
@@ -241,6 +263,9 @@ found = over_a_joint(TABLE, (0.2, 0, -0.025), turn)
 
 # %% stray-points: two of them, side by side
 found = findings([box()], cloud={"box": [*FACE, (0.3, 0, 0.1), (0.3, 0, 0.1001)]})
+remedy = "leave them out, or make the cloud by quasistatic-ref body"
+after = {remedy: findings([box()], cloud={"box": FACE})}
+
 
 # %% inertia: 1e-9, so that the solver has something
 crate = Body("crate", joint("revolute", "0 0 1", inertia=1e-9))
@@ -265,6 +290,8 @@ found = findings(
 
 # %% unit-of-mu-omega: 3 was meant as 3 mm
 found = findings([box()], mu_omega=3.0)
+after = {"check the unit of mu_omega of contacts.floor_box": findings([box()], mu_omega=3e-3)}
+
 
 # %% force-beyond-a-limit: a palm of 2 N bears 9.81 N, whatever its K_q is
 palm = Body("palm", weak, actuated="all", xyz=(0, 0, -0.05))
@@ -272,6 +299,9 @@ found = findings([box(), palm], [("palm", "box", 0.5, 4)], steps=60)
 (effort,) = (x for x in found if x.name == "force-beyond-a-limit")
 assert effort.remedy.endswith("correct its effort in the URDF to 9.9 N or more")
 assert effort.cause.endswith("; no K_q changes what it bears")
+strong = Body("palm", weak.replace('effort="2"', 'effort="9.9"'), actuated="all", xyz=(0, 0, -0.05))
+after = {effort.remedy: findings([box(), strong], [("palm", "box", 0.5, 4)], steps=60)}
+
 
 # %% target-without-effect: the group of the actuator is switched off
 found = of_mujoco('<option actuatorgroupdisable="3"/>', '<position joint="j" kp="9" group="3"/>')
@@ -293,9 +323,17 @@ found = scene.run(progress=False).findings
 assert next(x for x in found if x.name == "crossed-margin").numbers["depth_mm"] == pytest.approx(
     12.0
 )
+scene = mujoco_scenario(
+    MjModel.from_xml_string(text), targets=lambda t: {"down": -200.0}, steps=1, margin=0.03
+)
+after = {"raise margin, or take a smaller h": scene.run(progress=False).findings}
+
 
 # %% target-beyond-a-limit: the URDF ends at 1 m
 found = findings([motor("finger")], [], target=[1.5])
+remedy = "change the target, or the limit in the URDF"
+after = {remedy: findings([motor("finger")], [], target=[1.0])}
+
 
 # %% joint-beyond-a-limit: a drawer at 0.98 m, whose URDF ends at 1 m, is pushed on by 60 mm
 drawer = Body("drawer", joint("prismatic", "1 0 0"), positions={"joint": 0.98})
@@ -306,16 +344,27 @@ found = findings([box()], lies(k=1), cloud={"box": FACE}, push={"box": (0, 0, -2
 (sunk,) = (x for x in found if x.name == "sunk-contact")
 assert sunk.remedy == "raise k of contacts.floor_box"
 assert " was not among its 1 closest at step " in sunk.cause
+every = findings([box()], lies(k=100), cloud={"box": FACE}, push={"box": (0, 0, -20)}, steps=3)
+after = {sunk.remedy: every}
+
 
 # %% sunk-contact: a rod on one point of its side
 rod = Body.of_shape("rod", Cylinder(0.01, 0.1), 0.2, xyz=(0, 0, 0.01), rpy=(0, np.pi / 2, 0))
 found = findings([rod], lies("rod", k=1), push={"rod": (0, 0.05, 0)}, steps=20)
 remedy = "take a smaller h or move slower, or raise k of contacts.floor_rod"
 assert remedy in [x.remedy for x in found]
+after = {remedy: findings([rod], lies("rod", k=4), push={"rod": (0, 0.05, 0)}, steps=20)}
+
 
 # %% starts-in-the-air, free-fall: a box far above a floor does not lie on one point of it
 found = findings([box(xyz=(0, 0, 1))], lies(k=1))
 assert len(found) == 2
+lowered = findings([box(xyz=(0, 0, 0.05))], lies(k=4))
+after = {
+    "lower box by 950 mm, or check its origin": lowered,
+    "start it on what should bear it": lowered,
+}
+
 
 # %% free-fall: a floor whose normal points down
 found = findings(
@@ -331,6 +380,17 @@ found = findings(
     target=[0.01, 0.01],
     steps=8,
 )
+remedy = "hold it more firmly or longer, or put something below it"
+below = ("below", Box(size=(0.4, 0.4, 0.1)), (0, 0, 0.9))
+borne = findings(
+    [box(xyz=(0, 0, 1)), *fingers(0.1, 1.098)],
+    [("left", "box", 0.0, 4), ("right", "box", 0.0, 4), ("below", "box", 0.5, 4)],
+    [below],
+    target=[0.01, 0.01],
+    steps=8,
+)
+after = {remedy: borne}
+
 
 # %% free-fall: a ball past the end of its table
 table = ("table", Box(size=(0.4, 0.4, 0.04)), (0, 0, -0.02))
@@ -338,12 +398,23 @@ found = findings([ball(0.02, xyz=(0.23, 0, 0.02))], [("table", "ball", 0.5, 1)],
 
 # %% failing-backend: twelve digits of OSQP, which gives nine
 found = findings([box()], push={"box": (3, 0, 0)}, backend="osqp", accuracy=1e-24)
+remedy = "choose another backend than osqp, such as clarabel or daqp"
+after = {remedy: findings([box()], push={"box": (3, 0, 0)}, backend="daqp", accuracy=1e-12)}
+
 
 # %% uncertain-forces: a box under a press of 1e9 N/m, which bears 1 N
 press = motor("press", "0 0 1", xyz=(0, 0, 0.15))
 found = findings(
     [box(), press], [*STANDS, ("box", "press", 0.5, 4)], steps=1, K_q=1e9, target=[[-1e-9]]
 )
+remedy = "read the sum of forces of each pair in the place of single ones, or take a softer K_q"
+soft = findings(
+    [box(), press], [*STANDS, ("box", "press", 0.5, 4)], steps=1, K_q=1e4, target=[[-1e-4]]
+)
+after = {remedy: soft}
+
 
 # %% time-of-proof: 11 of 12 s (those of a long run, written here)
 found = findings([box()], seconds={"solve": 1.0, "proof": 11.0})
+remedy = 'take certify = "residual", which judges each step by its residuals in less time'
+after = {remedy: findings([box()], seconds={"solve": 1.0, "proof": 0.1}, certify="residual")}

@@ -1,4 +1,7 @@
-"""Short runs with no grave finding: cells, built with the words of finding_scenes.py."""
+"""Short runs with no grave finding: cells, built with the words of finding_scenes.py.
+
+A cell titled "no NAME" only just lacks the finding NAME, which may be a note.
+"""
 
 # %% nothing: a box that starts 0.2 mm above the floor
 found = findings([box(xyz=(0, 0, 0.0502))])
@@ -63,15 +66,31 @@ found = findings([box()], cloud={"box": raft})
 # %% nothing: a passive wheel that turns about itself, and touches nothing
 found = findings([Body("wheel", joint("continuous", "0 0 1"), positions={"joint": 1.0})], [])
 
-# %% nothing: a crate that goes from one table to another, which is 10 um lower
+# %% no flush-shapes: a crate that goes from one table to another, which is 10 um lower
 found = over_a_joint(TABLE, (0.25, 0, -0.02501))
-assert "flush-shapes" not in [x.name for x in found]
 
-# %% nothing: what a finger pushes stops within its contact, whose load, the drag, goes to 1e-13 N
+# %% no uncertain-forces: what a finger pushes stops within its contact, whose load, the drag, goes to 1e-13 N
 # A step leaves m/h^2 / (K_q + m/h^2) = 1/6 of the distance to the target.
 slider = Body("slider", joint("prismatic", "1 0 0", (0.04, 0.04, 0.04), 0.01, 2.7e-6))
 pushed = [("finger", "slider", 0.0, 4)]
 found = findings(
     [slider, motor("finger", xyz=(-0.07, 0, 0))], pushed, target=[[0.01]] * 20, steps=20
 )
-assert "uncertain-forces" not in [x.name for x in found]
+
+# %% no force-beyond-a-limit: a palm of 2 N bears 1.96 N
+palm = Body("palm", weak, actuated="all", xyz=(0, 0, -0.05))
+found = findings([box(mass=0.2), palm], [("palm", "box", 0.5, 4)], steps=60)
+
+# %% no force-beyond-a-limit: an effort of 1, for want of a number, under 98 N
+palm = motor("palm", "0 0 1", xyz=(0, 0, -0.05))
+found = findings([box(mass=10.0), palm], [("palm", "box", 0.5, 4)], steps=60, K_q=5000.0)
+
+# %% no stray-points: a point one spacing beside the others
+found = findings([box()], lies(k=100), cloud={"box": [*FACE, (0.05 + 0.1 / 9, 0, -0.05)]})
+
+# %% no starts-inside: a finger whose middle is 1 mm beside a box
+finger = motor("finger", size=TIP, xyz=(-0.051, 0, 0.05))
+found = findings([box(), finger], STANDS)
+
+# %% no time-of-proof: 9 of 12 s (those of a long run, written here)
+found = findings([box()], seconds={"solve": 3.0, "proof": 9.0})

@@ -3,7 +3,8 @@
 Three scenes that do what they should (a gripper lifts a can that is known as a cloud, a pusher
 moves a box over a table, a hand turns a knob) are in ``mistakes/``, with sixty mistakes, one at a
 time. ``finding`` and ``words`` say what the first finding has to be, and which words its sentence
-has to hold. ``healthy.toml`` has thirty scenes without a mistake, made from the same three, and five near misses.
+has to hold; ``remedy``, once for each finding, is the whole remedy. ``healthy.toml`` has thirty
+scenes without a mistake, made from the same three, and five near misses.
 """
 
 import re

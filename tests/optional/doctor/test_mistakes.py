@@ -29,6 +29,13 @@ def test_a_mistake_is_named_in_the_first_finding(mistake, tmp_path):
     assert findings[0].name in mistake["finding"]
     assert findings[0].grave >= GRAVE[findings[0].name]
     assert all(word in findings[0].sentence for word in mistake["words"]), findings[0].sentence
+    assert findings[0].remedy == mistake.get("remedy", findings[0].remedy)
+
+
+def test_the_remedy_of_each_finding_of_a_mistake_is_read():
+    """Each undoes its mistake, and the scene without it has no finding."""
+    named = {name for one in mistakes() for name in one["finding"][:1]}
+    assert {one["finding"][0] for one in mistakes() if "remedy" in one} == named
 
 
 @pytest.mark.parametrize("scene", SCENES)
