@@ -117,7 +117,7 @@ np.set_printoptions(precision=8, suppress=False)  # a page before may have chang
 
 
 CLOSED_FORMS = (
-    "derivations", "exactness", "cones", "derivatives", "distances",
+    "derivations", "exactness", "cones", "derivatives", "conventions",
     "extensions", "artifacts", "findings", "studies",
 )  # fmt: skip
 """The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""

@@ -21,7 +21,6 @@ PAGES = [
     "cones.md",
     "coulomb.md",
     "derivations.md",
-    "distances.md",
     "findings.md",
     "guides/check_your_implementation.md",
     "guides/does_my_contact_hold.md",
@@ -61,7 +60,7 @@ def test_the_commands_of_a_page_run(page, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "page", ["conventions.md", pytest.param("figures.md", marks=pytest.mark.long)]
+    "page", ["conventions.md", pytest.param("guides/runs.md", marks=pytest.mark.long)]
 )
 def test_the_programs_of_a_page_run(page, tmp_path, monkeypatch, capsys):
     """A run of theirs ends a little after the grip has closed, at 0.7 s, and takes fast steps."""
