@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 from quasistatic_ref.errors import InputError
 
 if TYPE_CHECKING:
+    import pinocchio as pin
     from pandas import DataFrame
 
     from quasistatic_ref.certify.curved_cone import CurvedCone
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.contact.pairs import ContactPair
     from quasistatic_ref.model.readers.mesh import Mesh
     from quasistatic_ref.model.system import System
+    from quasistatic_ref.model.urdf.file import UrdfFile
     from quasistatic_ref.numbers.arrays import Array
     from quasistatic_ref.optional.extensions.extension import Extension, OfBodies
     from quasistatic_ref.scenario.bodies import BodyEntry
@@ -140,6 +142,13 @@ def findings_of_time(trajectory: Trajectory) -> list[Finding]:
     from quasistatic_ref.optional.doctor import checks
 
     return checks.looked(checks.OF_TIME, trajectory)[0]
+
+
+def described_model(model: pin.Model, geometry: pin.GeometryModel | None) -> tuple[UrdfFile, str]:
+    """``Body.of_pinocchio``: what a URDF file of a Model would say, and the kind of its base."""
+    with needing("Body.of_pinocchio"):
+        from quasistatic_ref.optional.models.described import described_model as described
+    return described(model, geometry)
 
 
 def pairs_by_coal(pairs: tuple[ContactPair, ...]) -> tuple[ContactPair, ...]:

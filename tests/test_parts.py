@@ -11,10 +11,12 @@ from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.model.body import Body
 from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.parts import file_mesh, is_there, needing
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -185,6 +187,7 @@ def test_a_word_is_refused_in_a_sentence_that_names_its_part(without, word, ever
 
 STEP = random_step(0)
 NAMES = {
+    "Body.of_pinocchio": ("models", lambda: Body.of_pinocchio("r", pin.Model())),
     "forces": ("forces", lambda: solve_step(STEP).forces),
     "a .stl mesh": ("readers", lambda: file_mesh(Path("m.stl"), ".stl")),
     "a function as backend": ("extensions", lambda: solve_step(STEP, max)),

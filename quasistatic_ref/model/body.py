@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,8 +14,13 @@ from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import BASES
+from quasistatic_ref.model.urdf.file import UrdfFile
 from quasistatic_ref.model.urdf.solid import Homogeneous, solid_urdf
+from quasistatic_ref.parts import described_model
 from quasistatic_ref.shapes.frozen import finite_number, freeze_array
+
+if TYPE_CHECKING:
+    import pinocchio as pin
 
 FIXED = "fixed"
 BASE_WORDS = (FIXED, *BASES)
@@ -29,9 +34,9 @@ class Body(Plain):
     ----------
     name : str
         Prefix of its links and joints, e.g. ``gripper`` for ``gripper/left_finger``.
-    urdf : str or Path
+    urdf : str or Path; or UrdfFile
         Its file; or the URDF itself, a string that begins with ``<``, whose meshes are looked for
-        in the working folder.
+        in the working folder; or what a URDF file would say, which :meth:`of_pinocchio` makes.
     base : str
         ``"fixed"``, ``"floating"``, ``"planar"`` (moving in the horizontal plane at the height of
         xyz, turning about the vertical) or ``"ball"`` (turning about xyz).
@@ -60,7 +65,7 @@ class Body(Plain):
     """
 
     name: str
-    urdf: str | Path
+    urdf: str | Path | UrdfFile
     base: str = "fixed"
     actuated: Sequence[str] = ()
     xyz: ArrayLike = (0.0, 0.0, 0.0)
@@ -92,7 +97,7 @@ class Body(Plain):
         obstacle = None if self.base == FIXED else BASES[self.base].obstacle(xyz, rpy, xyz)
         if obstacle is not None:
             raise ModelError(obstacle, field=f"{self.name}.rpy", value=rpy.tolist())
-        if not isinstance(self.urdf, str | Path):
+        if not isinstance(self.urdf, str | Path | UrdfFile):
             problem = "must be a path, or a URDF as text"
             raise ModelError(problem, field=f"{self.name}.urdf", value=type(self.urdf).__name__)
         if not isinstance(self.positions, Mapping):
@@ -132,3 +137,53 @@ class Body(Plain):
             If the shape is another one, or the mass not positive.
         """
         return cls(name, solid_urdf(shape, mass, name), **{"base": "floating", **more})
+
+    @classmethod
+    def of_pinocchio(
+        cls,
+        name: str,
+        model: pin.Model,
+        geometry: pin.GeometryModel | None = None,
+        **more: Any,
+    ) -> Body:
+        """A pinocchio Model, with the shapes of its collision GeometryModel.
+
+        Links are the Model's BODY frames. What fixed joints weld is one rigid body in pinocchio:
+        its mass is that of the link at the joint's origin, the other links have none. Meshes are
+        taken for their hulls. A root joint FreeFlyer, Planar or Spherical is the base. A Model that
+        was built without ``mimic=True`` has joints that mimic others as free ones.
+
+        Parameters
+        ----------
+        name : str
+        model : pinocchio.Model
+            Joints: revolute, prismatic or continuous about any axis, spherical, and mimics.
+        geometry : pinocchio.GeometryModel, optional
+            Boxes, spheres, capsules, cylinders, cones, ellipsoids and meshes.
+        more : object
+            Of `base` (that of the Model by default), `actuated`, `xyz`, `rpy`, `positions`; the
+            joint of a base is called ``"base"``.
+
+        Returns
+        -------
+        Body
+
+        Raises
+        ------
+        InputError
+            If `model` or `geometry` is something else, or there is no ``optional/models``.
+        ModelError
+            If a joint or a shape is of another kind, or `base` is not that of the Model.
+
+        Examples
+        --------
+        >>> import pinocchio as pin
+        >>> arm = qr.Body.of_pinocchio("arm", pin.buildSampleModelManipulator(), actuated="all")
+        >>> qr.System([arm]).n_a
+        6
+        """
+        file, base = described_model(model, geometry)
+        if base not in (FIXED, more.setdefault("base", base)):
+            problem = f"must be {base!r}, as the root joint of the Model; leave it out"
+            raise ModelError(problem, field=f"{name}.base", value=more["base"])
+        return cls(name, file, **more)

@@ -19,7 +19,6 @@ from quasistatic_ref.model.joints.joint import QUATERNION, Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.urdf.file import UrdfFile
-from quasistatic_ref.model.urdf.tree import visiting_order
 from quasistatic_ref.model.urdf.urdf import BASE, Urdf, loaded_urdf, urdf_model
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import PlacedShape
@@ -213,7 +212,7 @@ def _add_joints(body: Body, file: UrdfFile, joints: list[Joint], start: list[flo
         if base.unit_vector == QUATERNION:  # with the last bits of runs that are recorded
             entries[base.lengths :] = pin.Quaternion(rotation(rpy)).normalized().coeffs()
         add(base, BASE, entries)
-    for written in visiting_order(file.root, file.joints):
+    for written in file.in_order():
         if written.kind == FIXED or written.mimic is not None:
             continue  # it has no coordinate: its column is added to its leader's (column_map.py)
         kind = JOINTS[written.kind]

@@ -19,7 +19,7 @@ from quasistatic_ref.model.urdf.urdf import BASE
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.pivots import positive_definite
 from quasistatic_ref.scenario.checks import checked_fields
-from quasistatic_ref.scenario.paths import folders_in, inline_text, path_in, shared_folders
+from quasistatic_ref.scenario.paths import folders_in, inline_urdf, path_in, shared_folders
 from quasistatic_ref.scenario.scenario_table import (
     BODY,
     ORIGIN,
@@ -92,9 +92,9 @@ def body_entry(
     Robots are read from `roots`, too.
     """
     read = checked_fields(table, BODY)
-    text = inline_text(table, "urdf")
-    path = path_in(folder, table, "urdf", roots) if text is None else None
-    urdf = text or path
+    inline = inline_urdf(table, "urdf")
+    path = path_in(folder, table, "urdf", roots) if inline is None else None
+    urdf = inline or path
     if urdf is None:
         raise table.error_about("urdf", "is missing")
     base = read("base")

@@ -16,6 +16,7 @@ from pathlib import Path
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.readers.mesh_files import PACKAGE
+from quasistatic_ref.model.urdf.file import UrdfFile
 
 SHARED = Path("cmeel.prefix", "share")
 """Where installed packages keep robots, next to the modules of Python."""
@@ -86,12 +87,17 @@ def lies_in(path: Path, folders: Sequence[Path]) -> bool:
     return any(resolved.is_relative_to(folder.resolve()) for folder in folders)
 
 
-def inline_text(table: TableReader, field: str) -> str | None:
-    """The text of a URDF that stands in the field itself, from ``<`` on; None of anything else.
+def inline_urdf(table: TableReader, field: str) -> str | UrdfFile | None:
+    """The URDF that stands in the field itself, a text from ``<`` on or what a file would say.
+
+    None of anything else.
 
     Only of the user's own words: the meshes of a text are looked for in the working folder.
     """
     text = table.peek(field)
+    if isinstance(text, UrdfFile):
+        table.take(field)
+        return text
     is_text = isinstance(text, OwnWord) and text.lstrip().startswith("<")
     return str(table.take(field)) if is_text else None
 

@@ -16,7 +16,10 @@ DOORS = {"lab": "cli/main.py", "optional": "parts.py"}
 CONES = {"FrictionCone", "PolyhedralCone", "CurvedCone", "EllipsoidCone"}
 OF_CONES = ("step/cones.py", "certify/curved_cone.py", "optional/ellipsoid/cone.py")
 OF_JOINTS = {FIXED, *BASES, *JOINTS}
-READERS = ("model/joints/", "model/body.py", "model/urdf/", "scenario/", "cli/", "lab/")
+READERS = (
+    *("model/joints/", "model/body.py", "model/urdf/", "optional/models/"),
+    *("scenario/", "cli/", "lab/"),
+)
 
 
 def test_the_contracts_of_imports_in_pyproject_are_kept():

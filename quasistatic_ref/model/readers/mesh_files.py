@@ -161,16 +161,22 @@ def hull_of_loaded(mesh: Mesh, scale: Array) -> ConvexMesh:
 
 def hull_note(name: str, hull: ConvexMesh, mesh: Mesh) -> str:
     """What became of a mesh, as one line."""
-    corners = f"{len(hull.vertices)} corners"
     unused = len(mesh.vertices) - len(mesh.corners)
     more = f"; vertices that no triangle uses are left out: {unused}" if unused else ""
     more += f"; {mesh.note}" if mesh.note else ""
     if not len(mesh.triangles):
+        corners = f"{len(hull.vertices)} corners"
         return f"{name}: a mesh of points alone, whose convex hull is taken, {corners}{more}"
+    return hull_words(name, hull) + more
+
+
+def hull_words(name: str, hull: ConvexMesh) -> str:
+    """What became of a mesh with triangles, as one line."""
+    corners = f"{len(hull.vertices)} corners"
     if hull.is_convex:
-        return f"{name}: convex mesh, {corners}{more}"
+        return f"{name}: convex mesh, {corners}"
     percent = 100 * hull.excess
     return (
         f"{name}: mesh replaced by its convex hull, {corners}; it is not convex "
-        f"(by {percent:.2g} %), so a contact with it must say hull = true{more}"
+        f"(by {percent:.2g} %), so a contact with it must say hull = true"
     )

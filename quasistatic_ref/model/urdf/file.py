@@ -9,11 +9,12 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.files import text_read
-from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.quoting import counted, suggestion
 from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.model.readers.mesh_files import mesh_path
 from quasistatic_ref.model.readers.xml_text import xml_root
-from quasistatic_ref.model.urdf.tree import FileJoint, Mimic, checked_tree
+from quasistatic_ref.model.urdf.tree import FileJoint, Mimic, checked_tree, visiting_order
 from quasistatic_ref.model.urdf.xml import Tag
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import length, product
@@ -96,7 +97,7 @@ class FileCollision(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class FileLink:
+class FileLink(Plain):
     """A link as written.
 
     Parameters
@@ -124,16 +125,16 @@ class FileLink:
     digit: float
 
 
-@dataclass(frozen=True, eq=False)
-class UrdfFile:
-    """A URDF file as written.
+@dataclass(frozen=True, eq=False, repr=False)
+class UrdfFile(Plain):
+    """A URDF file as written, or what one would say.
 
     Parameters
     ----------
     path : Path
         ``<robot>``, in the working folder, of a text that was given in place of a file.
     text : str
-        The whole file.
+        The whole file; of what is no file a digest.
     root : str
         Name of the root link.
     links : dict of str to FileLink, in file order
@@ -153,13 +154,22 @@ class UrdfFile:
     ignored: tuple[str, ...]
     notes: tuple[str, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.path}: {counted(len(self.links), 'link')}>"
+
+    def in_order(self) -> Sequence[FileJoint]:
+        """All joints, those that move in the order in which q has them."""
+        return visiting_order(self.root, self.joints)
+
     def mesh_path(self, uri: str, package_dirs: Sequence[str | Path]) -> Path:
         """The file that a mesh's URI means; ModelError as of :func:`.mesh_files.mesh_path`."""
         return mesh_path(uri, self.path.parent, package_dirs, is_of_file=self.path != TEXT)
 
 
-def urdf_file(source: str | Path) -> UrdfFile:
+def urdf_file(source: str | Path | UrdfFile) -> UrdfFile:
     """Content of a URDF file, or of a string that is a URDF: one that begins with ``<``.
+
+    What is content already is returned.
 
     Raises
     ------
@@ -167,6 +177,8 @@ def urdf_file(source: str | Path) -> UrdfFile:
         If it is missing or malformed, contradicts itself, or says something that the model
         has no place for; the message names the file, the element and the value.
     """
+    if isinstance(source, UrdfFile):
+        return source
     if isinstance(source, str) and source.lstrip().startswith("<"):
         path = TEXT
         text = source

@@ -5,6 +5,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.numbers.arrays import Array
 
@@ -19,7 +20,7 @@ class Mimic:
 
 
 @dataclass(frozen=True, eq=False)
-class FileJoint:
+class FileJoint(Plain):
     """A joint as written.
 
     Parameters

@@ -16,7 +16,6 @@ from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.urdf.file import FileLink, UrdfFile, urdf_file
 from quasistatic_ref.model.urdf.inertia import checked_inertias, link_inertia
 from quasistatic_ref.model.urdf.shapes import placed_shapes
-from quasistatic_ref.model.urdf.tree import visiting_order
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 BASE = "base"
@@ -51,7 +50,7 @@ class Urdf:
 
 
 def loaded_urdf(
-    path: str | Path,
+    path: str | Path | UrdfFile,
     *,
     base: str = "fixed",
     actuated: Sequence[str] = (),
@@ -61,7 +60,7 @@ def loaded_urdf(
 
     Parameters
     ----------
-    path : str or Path
+    path : str or Path; or UrdfFile
     base : str
         ``"fixed"``; or ``"floating"``, ``"planar"`` or ``"ball"``: a joint named ``base``, with
         six, three or three degrees of freedom, between the world and the root link.
@@ -121,7 +120,7 @@ def urdf_model(file: UrdfFile, base: str, *, turns: bool = False) -> pin.Model:
         number = model.addJoint(0, BASES[base].pinocchio(), pin.SE3.Identity(), BASE)
     _add_link(model, file.links[file.root], number, pin.SE3.Identity(), 0)
     followed = {joint.mimic.of for joint in file.joints if joint.mimic}
-    for joint in visiting_order(file.root, file.joints):
+    for joint in file.in_order():
         parent = body_frame(model, joint.parent)
         number = model.frames[parent].parentJoint
         placement = model.frames[parent].placement * pin.SE3(joint.R, joint.t)

@@ -3,8 +3,10 @@
 from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.readers.xml_text import xml_root
 from quasistatic_ref.model.system import System
+from quasistatic_ref.model.urdf.file import UrdfFile
 from quasistatic_ref.model.urdf.xml import Tag
 
 
@@ -29,10 +31,19 @@ class UrdfJoint(NamedTuple):
 
 
 def urdf_joints(system: System, bodies: Collection[str]) -> Iterator[UrdfJoint]:
-    """The joints of one axis that move, of the bodies of these names."""
+    """The joints of one axis that move, of the bodies of these names.
+
+    Raises
+    ------
+    InputError
+        If one of these has no URDF.
+    """
     moves = {coordinate.name: (coordinate.name, 1.0, 0.0) for coordinate in system.coordinates}
     moves |= {mimic.name: (mimic.of, mimic.multiplier, mimic.offset) for mimic in system.mimics}
     for body, text in zip(system.bodies, system.texts, strict=True):
+        if body.name in bodies and isinstance(body.urdf, UrdfFile):
+            problem = 'is made of a pinocchio Model, which has no URDF: give numbers, not "urdf"'
+            raise InputError(problem, field=f"bodies.{body.name}")
         for joint in xml_root(text).findall("joint") if body.name in bodies else ():
             name = f"{body.name}/{joint.get('name')}"
             if name in moves:

@@ -58,6 +58,8 @@ def visuals(scene: Scene) -> list[Visual]:
 
 
 def _of_body(body: Body, system: System, body_colour: str) -> Iterator[Visual]:
+    if isinstance(body.urdf, UrdfFile):  # of a pinocchio Model, which has none
+        return
     file = urdf_file(body.urdf)
     robot = xml_root(file.text)
     named = {material.get("name"): material for material in robot.findall("material")}
