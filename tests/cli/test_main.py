@@ -27,7 +27,7 @@ def test_any_command_can_be_interrupted(tmp_path, cli, monkeypatch):
     ("arguments", "words"),
     [
         ([], "the following arguments are required: COMMAND"),
-        (["rnu"], "invalid choice: 'rnu'; did you mean 'run'? known: account, backends"),
+        (["rnu"], "invalid choice: 'rnu'; did you mean 'run'? known: backends"),
         (["run", "x.toml", "--bakend", "osqp"], "did you mean '--backend'?"),
         (["run", "x.toml", "contacts.a.k=3"], "did you mean '--set contacts.a.k=3'?"),
         (["run", "x.toml", "--slow"], "usage: quasistatic-ref run "),

@@ -127,7 +127,7 @@ def test_a_joint_may_be_beyond_its_limit_by_little(lower, upper, beyond, found):
 
 def test_a_target_beyond_a_limit_by_little_is_said_with_the_digits_that_differ():
     run = scene(drawer(0, 0.5), None, **actuated(0.5002)).run()
-    assert "0.5002 m at step 0, or the limit in its URDF, 0.5 m" in str(run.findings)
+    assert "0.5002 m at step 0, beyond its limit, 0.5 m" in str(run.findings)
 
 
 @pytest.mark.parametrize("start", [0.0, 0.005])

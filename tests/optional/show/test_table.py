@@ -55,8 +55,8 @@ def test_the_wide_table_has_a_row_a_step_and_a_column_a_number_by_name_and_unit(
     for name, column in expected.items():
         assert_same(table[name], column)
     assert set(table["certificate"]) == {"exact"}
-    # q 10, delta_q 8, q_bar_a 3; phi, slip, three loads and the share of 2 pairs; 3
-    assert table.shape == (5, 10 + 8 + 3 + 2 * 6 + 3)
+    # q 10, delta_q 8, q_bar_a 3; phi and three loads of 2 pairs; 3
+    assert table.shape == (5, 10 + 8 + 3 + 2 * 4 + 3)
 
 
 def exact_csv(path):
