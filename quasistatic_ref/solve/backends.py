@@ -218,8 +218,15 @@ def reached(interface: str) -> tuple[str, ...]:
 
 
 def installed(interface: str) -> tuple[str, ...]:
-    """The installed backends, reached by ``"cvxpy"`` or ``"qpsolvers"``."""
-    return tuple(name for name in BACKENDS if name in reached(interface))
+    """Names of the table's backends that are installed here and reached by an interface.
+
+    Parameters
+    ----------
+    interface : str
+        ``"cvxpy"`` or ``"qpsolvers"``.
+    """
+    have_it = [b.name for b in BACKENDS.values() if b.cvxpy or interface != "cvxpy"]
+    return tuple(name for name in have_it if name in reached(interface))
 
 
 def others_installed() -> tuple[str, ...]:

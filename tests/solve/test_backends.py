@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import BackendError, InputError, StepDataError, StepNotSolved, standard_form
-from quasistatic_ref.solve import solve
+from quasistatic_ref.solve import backends, solve
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     backend,
@@ -73,6 +73,15 @@ def test_a_step_gives_the_same_bits_whatever_was_solved_before(interface):
     alone = solve_step(steps[1], interface)
     assert_same(after_another.delta_q, alone.delta_q)
     assert_same(after_another.lam, alone.lam)
+
+
+def test_a_backend_that_cvxpy_shall_not_call_is_reached_through_qpsolvers(monkeypatch):
+    osqp = dataclasses.replace(BACKENDS["osqp"], cvxpy=False, required=False)
+    monkeypatch.setitem(BACKENDS, "osqp", osqp)
+    assert "osqp" not in installed_backends()
+    monkeypatch.setattr(backends, "REQUIRED", ())
+    with pytest.raises(BackendError, match="is available as 'qpsolvers:osqp'"):
+        backend("osqp")
 
 
 @pytest.mark.parametrize(
