@@ -17,8 +17,9 @@ from quasistatic_ref.lab.claims.claim import (
     comparison,
     sum_of_terms,
 )
-from quasistatic_ref.lab.claims.report import claims_page, summary
+from quasistatic_ref.lab.claims.report import chapter, chapters_of, claims_page, summary
 from quasistatic_ref.lab.commands import validate as command
+from tests.pages import ROOT
 
 
 def claim_of(*comparisons, **changes):
@@ -54,7 +55,7 @@ def test_a_claim_without_its_engine_is_not_run_and_says_so():
     found = claim_result(claim_of(engine="no_such_engine"))
     assert found.verdict == NOT_RUN == "not run (engine not installed)"
     assert summary(found)[0] == NOT_RUN
-    assert NOT_RUN in claims_page({"Engines": [found]})
+    assert NOT_RUN in claims_page({"Engines": [chapter(found)]})
 
 
 def test_a_claim_fails_with_its_worst_comparison_or_with_an_error():
@@ -79,6 +80,22 @@ def test_the_command_prints_a_table_and_writes_the_page(tmp_path, cli):
     page = (tmp_path / "claims.md").read_text()
     assert "2 of 2 claims hold" in page
     assert [path.name for path in tmp_path.iterdir()] == ["claims.md"]
+
+
+def test_a_claim_that_is_measured_again_changes_its_chapter_alone(tmp_path, cli, monkeypatch):
+    committed = (ROOT / "validation" / "results" / "claims.md").read_text("utf-8")
+    page = tmp_path / "claims.md"
+    page.write_text(committed, "utf-8")
+    bad = claim_of(comparison("weight [N]", 1.0, 2.0, 0.1), name="structure")
+    monkeypatch.setattr(command, "BY_NAME", command.BY_NAME | {"structure": bad})
+    cli("validate structure --out", tmp_path, status=1)
+    before, after = map(chapters_of, (committed, page.read_text("utf-8")))
+    assert list(after) == list(before)
+    assert after.pop("structure").startswith("### structure: FAILS")
+    assert before.pop("structure").startswith("### structure: holds")
+    assert after == before
+    count = len(before) + 1
+    assert f"{count - 1} of {count} claims hold" in page.read_text("utf-8")
 
 
 def test_a_claim_that_fails_ends_with_status_one_and_a_sentence(tmp_path, cli, monkeypatch):

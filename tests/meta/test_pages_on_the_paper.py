@@ -77,7 +77,7 @@ def test_every_claim_about_the_paper_is_on_its_page():
 def test_every_claim_is_in_the_committed_results_and_holds():
     page = (ROOT / "validation" / "results" / "claims.md").read_text("utf-8")
     found = re.findall(r"^### (\w+): (.+)$", page, re.MULTILINE)
-    command = "run `quasistatic-ref validate`, and copy its claims.md to validation/results"
+    command = "run `quasistatic-ref validate NAME --out validation/results`"
     assert_alike(
         BY_NAME,
         [name for name, verdict in found if verdict == "holds"],

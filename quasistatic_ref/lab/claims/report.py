@@ -1,5 +1,6 @@
 """Findings as JSON and as the page ``claims.md``."""
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -14,6 +15,8 @@ Written by `quasistatic-ref validate`. Each row is one quantity over a sweep, sh
 point: its error is relative to the largest term of the formula, or absolute where it has none.
 Formulas (R1), (R2), ... are derived in docs/derivations.md.
 """
+CHAPTER = re.compile(r"^### (\w+): .*?(?=^##|\Z)", re.MULTILINE | re.DOTALL)
+"""The chapter of a claim, up to the next heading."""
 
 
 def finding_record(finding: ClaimResult) -> dict[str, Any]:
@@ -68,26 +71,29 @@ def _share(record: Mapping[str, Any]) -> float:
     return float("inf") if error is None else error / tolerance if tolerance else float(error > 0)
 
 
-def claims_page(sections: Mapping[str, Sequence[ClaimResult]]) -> str:
-    """The page: claim, where it stands, measured, expected, verdict.
+def claims_page(sections: Mapping[str, Sequence[str]]) -> str:
+    """The text of ``claims.md``, from the chapters of claims under the titles of their sections.
 
     Parameters
     ----------
-    sections : mapping of str to sequence of ClaimResult
+    sections : mapping of str to sequence of str
+        Chapters, as :func:`chapter` writes them.
     """
-    every = [finding for findings in sections.values() for finding in findings]
-    held = sum(finding.verdict == HOLDS for finding in every)
-    lines = [HEAD, f"{held} of {len(every)} claims hold.", ""]
-    for title, findings in sections.items():
-        if not findings:
-            continue
-        lines += [f"## {title}", ""]
-        for finding in findings:
-            lines += _chapter(finding)
-    return "\n".join(lines).rstrip() + "\n"
+    every = [chapter for chapters in sections.values() for chapter in chapters]
+    held = sum(f": {HOLDS}" in chapter.partition("\n")[0] for chapter in every)
+    parts = [HEAD, f"{held} of {len(every)} claims hold."]
+    for title, chapters in sections.items():
+        parts += [f"## {title}", *chapters] if chapters else []
+    return "\n\n".join(part.strip("\n") for part in parts) + "\n"
 
 
-def _chapter(finding: ClaimResult) -> list[str]:
+def chapters_of(page: str) -> dict[str, str]:
+    """The chapters of a ``claims.md``, by the names of their claims."""
+    return {text[1]: text[0] for text in CHAPTER.finditer(page)}
+
+
+def chapter(finding: ClaimResult) -> str:
+    """The chapter of one claim: its sentence, where it stands, and what was measured."""
     record = finding_record(finding)
     engine = f"*Engine:* {record['engine']}. " if record["engine"] else ""
     lines = [
@@ -104,7 +110,7 @@ def _chapter(finding: ClaimResult) -> list[str]:
     if record["comparisons"]:
         names = ("quantity", "points", "measured", "expected", "error", "tolerance", "verdict")
         lines += [*markdown_table(names, map(_comparison_row, record["comparisons"])), ""]
-    return lines
+    return "\n".join(lines)
 
 
 def _comparison_row(comparison: Mapping[str, Any]) -> tuple[str, ...]:

@@ -9,7 +9,13 @@ from quasistatic_ref.formats.files import text_written, writable_folder
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, NOT_RUN, ClaimResult, claim_result
 from quasistatic_ref.lab.claims.registry import BY_NAME, CLAIMS
-from quasistatic_ref.lab.claims.report import claims_page, finding_record, summary
+from quasistatic_ref.lab.claims.report import (
+    chapter,
+    chapters_of,
+    claims_page,
+    finding_record,
+    summary,
+)
 from quasistatic_ref.lab.commands import reality
 
 IN = {
@@ -29,7 +35,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Measure, print a table, write claims.md; exit status 1 if a claim fails.
+    """Measure claims, print a table and write claims.md; exit status 1 if a claim fails.
+
+    If claims are named, a claims.md that is there keeps its chapters of all other claims.
 
     Raises
     ------
@@ -50,11 +58,14 @@ def run(options: argparse.Namespace) -> int:
         findings[name] = claim_result(BY_NAME[name])
         took = f"({findings[name].seconds:.1f} s)"
         shared.progress_line(options, f"{findings[name].verdict} {took}")
+    file = options.out / "claims.md"
+    before = file.read_text("utf-8") if options.names and file.exists() else ""
+    chapters = chapters_of(before) | {name: chapter(found) for name, found in findings.items()}
     sections = {
-        title: [findings[name] for name in claims if name in findings]
+        title: [chapters[name] for name in claims if name in chapters]
         for title, claims in CLAIMS.items()
     }
-    page = text_written(options.out / "claims.md", claims_page(sections))
+    page = text_written(file, claims_page(sections))
     failed = [name for name, result in findings.items() if result.verdict == FAILS]
     if options.json:
         records = [finding_record(result) for result in findings.values()]

@@ -42,7 +42,12 @@ def test_the_cases_of_a_layer_are_those_of_the_version(layer):
     texts = [
         (VECTORS / part / f"{layer}.json").read_text("utf-8") for part in ("inputs", "expected")
     ]
-    assert hashlib.sha256("".join(texts).encode()).hexdigest() == HASHES_12[layer]
+    found = hashlib.sha256("".join(texts).encode()).hexdigest()
+    assert found == HASHES_12[layer], (
+        f"inputs or expected of {layer} have changed: restore them by git; or, for a new version, "
+        f'count up RELEASE in lab/vectors/versions.py, and write "{layer}": "{found}" into '
+        "tests/lab/vectors/test_versions.py"
+    )
     before = "".join(NEW.sub("", text).replace("},\n],", "}\n],") for text in texts)
     assert hashlib.sha256(before.encode()).hexdigest() == HASHES[layer]
 
