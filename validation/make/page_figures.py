@@ -20,6 +20,8 @@ from docs.drawings import (
     cone_surfaces,
     contact_geometry,
     corner_loads,
+    coulombs_law,
+    finger_and_block,
     free_body,
     friction_and_slip,
     grasp_map,
@@ -29,13 +31,17 @@ from docs.drawings import (
     metres,
     opinion,
     phi_and_j_of_a_cloud,
+    pulled_disk,
     sliding_block,
     slow_step,
     the_program,
+    tipping_block,
     turn_and_step,
     two_moving_bodies,
+    wedged_peg,
     where_no_gradient_is,
     which_cone_is_real,
+    with_and_without_sigma,
     wrenches_of_a_grip,
 )
 from quasistatic_ref.lab.figures.labels import label_axes, legend_below
@@ -45,10 +51,11 @@ from validation.tools.scripts import RESULTS, script_options
 Record = Mapping[str, Any]
 DRAWN = (
     both_laws, cone_and_dual, cone_surfaces, contact_geometry, corner_loads,
-    free_body, friction_and_slip, grasp_map, limit_surface_and_twist, many_bodies,
-    mass_of_a_free_body, metres, opinion,
-    phi_and_j_of_a_cloud, sliding_block, slow_step, the_program, turn_and_step,
-    two_moving_bodies, where_no_gradient_is, wrenches_of_a_grip,
+    coulombs_law, finger_and_block, free_body, friction_and_slip, grasp_map,
+    limit_surface_and_twist, many_bodies, mass_of_a_free_body, metres, opinion,
+    phi_and_j_of_a_cloud, pulled_disk, sliding_block, slow_step, the_program, tipping_block,
+    turn_and_step, two_moving_bodies, wedged_peg, where_no_gradient_is,
+    with_and_without_sigma, wrenches_of_a_grip,
 )  # fmt: skip
 """Each is the figure of its name."""
 
