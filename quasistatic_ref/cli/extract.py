@@ -19,11 +19,13 @@ OF_ENTRY = 5
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     parser.add_argument("trajectory", type=Path, help="a trajectory file (.npz)")
-    parser.add_argument("--step", type=int, required=True, metavar="K", help="counted from 0")
+    parser.add_argument(
+        "--step", type=int, required=True, metavar="K", help="number of the step, counted from 0"
+    )
     parser.add_argument(
         "--body",
         metavar="NAME",
-        help="that of the group of a body alone: nothing couples it to other bodies",
+        help="write only the part of the step that is coupled to this body",
     )
     shared.add(parser, "-o", metavar="STEP.json")
 

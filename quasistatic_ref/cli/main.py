@@ -21,21 +21,21 @@ from quasistatic_ref.solve import greeting as greeting  # before CVXPY is import
 CORE = "quasistatic_ref.cli"
 LAB = "quasistatic_ref.lab.commands"
 COMMANDS = {
-    "demo": "the paper's Figure 1: the bunny grasped with and without torsional friction",
+    "demo": "draw the paper's Figure 1: a bunny grasped with and without torsional friction",
     "run": "simulate a scenario and write its trajectory",
-    "solve": "solve one step file",
-    "verify": "re-check an answer and its certificate without any solver",
-    "inspect": "show what a URDF or a scenario holds, and what the model ignores",
-    "body": "make a body of a scenario from a scan, a point cloud or a mesh",
-    "qp": "the exact answer of a quadratic program, and what solvers make of it",
-    "opinion": "say whether the contacts of a MuJoCo scene hold, next to the exact answer",
+    "solve": "solve one step and write its exact answer with a certificate",
+    "verify": "check an answer and its certificate without any solver",
+    "inspect": "show what a URDF or a scenario contains, and what the model ignores",
+    "body": "make a body for a scenario from a scan, a point cloud or a mesh",
+    "qp": "solve a quadratic program exactly, and compare the answers of solvers",
+    "opinion": "compare the contact forces of a MuJoCo scene with the exact ones",
     "extract": "write one step of a trajectory as a step file",
-    "vectors": "reference vectors: check another implementation against them, layer by layer",
-    "validate": "measure the claims about the model against the paper, formulas and other engines",
+    "vectors": "check another implementation against reference vectors, layer by layer",
+    "validate": "test claims about the model against the paper, formulas and other engines",
     "study": "compare solvers on problems with exact answers",
     "figures": "run the scripts of the gallery, and write their figures",
-    "bench": "measure what a step costs, plain and fast, unproved and proved, next to MuJoCo's",
-    "backends": "list the solvers that can be chosen here",
+    "bench": "measure the time of a step, plain and fast, proved and unproved, next to MuJoCo's",
+    "backends": "list the solvers that are installed here",
     "schema": "print the JSON Schema of scenario files, for editors, or of an opinion",
 }
 SWEEP = "sweep"

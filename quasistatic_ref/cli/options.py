@@ -21,12 +21,15 @@ from quasistatic_ref.step.files import load_step, save_step
 
 OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "step": {"type": Path, "help": "a step file (quasistatic-ref/step)"},
-    "-o": {"type": Path, "dest": "output", "help": "standard output otherwise"},
+    "-o": {"type": Path, "dest": "output", "help": "file to write (default: print)"},
     "--out": {"type": Path, "metavar": "FOLDER", "help": "folder for the results"},
-    "--backend": {"metavar": "NAME", "help": "solver; see 'quasistatic-ref backends'"},
+    "--backend": {
+        "metavar": "NAME",
+        "help": "solver of the steps; 'quasistatic-ref backends' lists them",
+    },
     "--fast": {
         "action": "store_true",
-        "help": "take the same steps sooner, to the same certified bits",
+        "help": "use compiled code: certified answers have the same bits, and come sooner",
     },
     "--cone": {
         "metavar": "NAME",
@@ -34,9 +37,14 @@ OPTIONS: Final[dict[str, dict[str, Any]]] = {
     },
     "--law": {
         "metavar": "NAME",
-        "help": "law of friction: convex (default), or coulomb, under which nothing lifts off",
+        "help": "law of friction: convex (the model's; default), or coulomb, under which sliding "
+        "contacts do not lift off",
     },
-    "--certify": {"metavar": "KIND", "help": "full (default), residual or off"},
+    "--certify": {
+        "metavar": "KIND",
+        "help": "what is proved of each step: full (the exact optimum; default), "
+        "residual (Eqs. (9)-(12) in float64) or off",
+    },
     "--set": {
         "action": "append",
         "default": [],
@@ -49,15 +57,16 @@ OPTIONS: Final[dict[str, dict[str, Any]]] = {
         "default": [],
         "metavar": "FOLDER",
         "dest": "roots",
-        "help": "folder from which robots are read, too, and in which package:// is looked for",
+        "help": "another folder in which robots and package:// paths are looked for",
     },
     "--ignore": {
         "action": "append",
         "default": [],
         "metavar": "NAME",
-        "help": "do not say findings of this name, nor count them for --strict; also NAME,NAME",
+        "help": "do not print findings of this name, and do not count them for --strict; "
+        "NAME,NAME names several",
     },
-    "--json": {"action": "store_true", "help": "print one JSON object, nothing else"},
+    "--json": {"action": "store_true", "help": "print one JSON object and nothing else"},
 }
 SOLVER: Final = ("--backend", "--fast", "--cone", "--certify")
 

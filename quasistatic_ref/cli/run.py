@@ -57,20 +57,22 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--strict", action="store_true", help="end with status 1 if a finding is grave"
     )
     parser.add_argument(
-        "--notes", action="store_true", help="print findings that are not grave as sentences, too"
+        "--notes",
+        action="store_true",
+        help="print notes, the findings that are not grave, as sentences, too",
     )
     parser.add_argument(
         "--table",
         type=Path,
         metavar="FILE",
-        help="write positions, targets and sums of pairs, a row a step: FILE.csv (extra 'pandas') "
-        "or FILE.parquet (extra 'parquet' as well)",
+        help="write a row for each step, with positions, targets and sums of pairs: FILE.csv "
+        "(extra 'pandas') or FILE.parquet (extra 'parquet' as well)",
     )
     parser.add_argument(
         "--contacts-table",
         type=Path,
         metavar="FILE",
-        help="write the contacts, a row a contact and step, to such a file",
+        help="write a row for each contact and step to such a file",
     )
     parser.add_argument(
         "--view",
@@ -80,9 +82,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run it; exit status 3 where a step has no solution, its steps so far being kept.
+    """Simulate the scenario of the options, write its trajectory and print a summary.
 
-    With ``--strict`` a run with a grave finding ends with status 1.
+    The exit status is 3 if a step has no solution; the steps before it are written. With
+    ``--strict`` it is 1 if a finding is grave.
     """
     scenario = scenario_of(options)
     path = options.out / f"{scenario.path.stem}.npz"
@@ -135,7 +138,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _check_parts(options: argparse.Namespace, tables: Mapping[str, Path]) -> None:
-    """Refuse an option whose part or package is missing: before the work, not after it."""
+    """Refuse an option whose optional part or package is missing, before anything is simulated."""
     if options.view:
         with needing("--view"):
             from quasistatic_ref.optional.show.figures.viewer import viewer_package
@@ -149,7 +152,7 @@ def _check_parts(options: argparse.Namespace, tables: Mapping[str, Path]) -> Non
 
 
 def summary_record(scenario: Scenario, trajectory: Trajectory, path: Path) -> dict[str, Any]:
-    """What is said of a run, as plain data."""
+    """The summary of a run that ``--json`` prints, as plain data."""
     header = trajectory.header
     record: dict[str, Any] = {
         "trajectory": str(path),
@@ -255,6 +258,7 @@ def worst_residual(trajectory: Trajectory) -> float | None:
 
 def _artifacts(header: Header) -> str:
     Pi = header.quasi_dynamic_number
-    number = "not defined" if Pi is None else f"{Pi:.2g}"
+    number = "none, no un-actuated body bears friction" if Pi is None else f"{Pi:.2g}"
     layer = 1e6 * (header.largest_boundary_layer or 0.0)
-    return f"largest quasi-dynamic number {number}, largest boundary layer {layer:.3g} um"
+    drag = f"largest quasi-dynamic number (drag over friction): {number}"
+    return f"{drag}; largest boundary layer: {layer:.3g} um"

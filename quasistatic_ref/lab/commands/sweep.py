@@ -5,6 +5,7 @@ import argparse
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.lab.sweep import DONE, TABLE, simulate_many, swept_values
 from quasistatic_ref.scenario.scenario import load_scenario
 
@@ -16,7 +17,7 @@ OF_ONE_RUN = ("view", "strict", "table")
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run all of them. Status 1 if any was not done.
+    """Run the scenario with each combination of swept values; exit status 1 if a run failed.
 
     Raises
     ------
@@ -65,6 +66,6 @@ def run(options: argparse.Namespace) -> int:
     shared.print_rows(table)
     speed = "fast" if fast else "plain"
     print(
-        f"{len(rows)} runs ({speed} path), {failed} of which not done; wrote {options.out / TABLE}"
+        f"{counted(len(rows), 'run')} ({speed} path), {failed} failed; wrote {options.out / TABLE}"
     )
     return int(failed > 0)

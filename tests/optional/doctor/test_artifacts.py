@@ -35,7 +35,7 @@ def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, cli):
     # (tau - mu m g) h / I = 14.7 rad/s and rises by mu_omega h omega = 1.47 mm.
     arguments = ["run", "sphere_spin", "--out", tmp_path]
     printed = cli(*arguments, "--set", "steps=39")
-    assert "largest quasi-dynamic number 0, largest boundary layer 0 um" in printed.out
+    assert "(drag over friction): 0; largest boundary layer: 0 um" in printed.out
     assert printed.err == ""
     cli(*arguments)
     header = load_trajectory(tmp_path / "sphere_spin.npz").header

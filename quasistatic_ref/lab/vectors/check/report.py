@@ -165,7 +165,7 @@ class Report:
 
     @property
     def ok(self) -> bool:
-        """Whether every layer is."""
+        """Whether every layer that has answers is right."""
         return all(layer.ok for layer in self.layers)
 
     @property
@@ -190,15 +190,15 @@ class Report:
         if wrong:
             sentences.append(usual_sentence(wrong[0].layer))
         if self.digits is not None:
-            sentences.append(f"acceptable are answers that are right to {self.digits:g} digits")
+            sentences.append(f"answers that are right to {self.digits:g} digits are acceptable")
         unanswered = [layer.layer for layer in self.layers if not layer.present]
         if unanswered:
-            sentences.append(f"not answered, so nothing is said of them: {', '.join(unanswered)}")
+            sentences.append(f"not checked, because they have no answers: {', '.join(unanswered)}")
         return [*sentences, self.verdict]
 
     @property
     def verdict(self) -> str:
-        """What was passed, or which layers are not right, in one last line.
+        """The last line of the report: what was passed, or which layers are not right.
 
         Examples
         --------
