@@ -44,9 +44,9 @@ def grasp_evidence() -> Evidence:
 
 GRASP = Claim(
     name="grasp",
-    sentence="Without torsional friction the grasped bunny rotates about its contact points, "
-    "however its cloud was drawn; with it, it does not, wherever mu_omega is half as much again as "
-    "the closed grip needs.",
+    sentence="Without torsional friction the grasped bunny turns about the points at which the "
+    "fingers hold it, however its cloud was drawn. With torsional friction it does not turn, if "
+    "mu_omega of the fingers is at least 1.5 times what the closed grip needs.",
     where="the paper, Fig. 1 and section III-B; docs/derivations.md (R39) for other clouds",
     sweep="bunny_grasp, 300 steps, with and without mu_omega on the fingers; the largest rotation "
     f"from the closed grip, t = {CLOSED:g} s, to the end of the lift, t = {TOP:g} s. Then 480 "
@@ -178,7 +178,8 @@ def sticking_evidence() -> Evidence:
 STICKING = Claim(
     name="exact_when_sticking",
     sentence="A contact that bears load ends the step with the gap max(mu_v |slip_1|, mu_v "
-    "|slip_2|, mu_omega |spin|): nothing when it sticks, where Coulomb's law then holds exactly.",
+    "|slip_2|, mu_omega |spin|). If the contact sticks, this gap is zero, and Coulomb's law holds "
+    "exactly.",
     where="the paper, section II-A, after Anitescu; docs/derivations.md (R19)",
     sweep="every loaded contact of bunny_grasp with and without torsion, 600 steps",
     reason="CLOSED_FORM, relative to the largest product in the sum of the gap. Sticking is a slip "

@@ -78,8 +78,8 @@ FALL = Claim(
 
 APPROACH = Claim(
     name="approach",
-    sentence="A body closes its gap in one step if it can, and is pushed out of penetration in "
-    "one step by N = m g - m phi / h^2.",
+    sentence="A body above the floor closes its gap in one step if its weight moves it so far. A "
+    "body in the floor is pushed out in one step, by N = m g - m phi / h^2.",
     where="docs/derivations.md (R4)",
     sweep="three masses, nine gaps from -1 mm to 1 cm, three time steps",
     reason="CLOSED_FORM, relative to the larger of weight and push.",

@@ -57,8 +57,8 @@ def pressed_evidence() -> Evidence:
 
 FREE = Claim(
     name="free_impedance",
-    sentence="Without contact an actuated coordinate reaches its target, plus what its load bends "
-    "it.",
+    sentence="Without contact an actuated coordinate reaches its target, displaced by the load "
+    "over the stiffness.",
     where="docs/derivations.md (R1)",
     sweep="1 to 7 coordinates, 28 random stiffnesses, three time steps",
     reason="CLOSED_FORM: relative to the larger of target and sag.",
@@ -67,7 +67,8 @@ FREE = Claim(
 
 PRESSED = Claim(
     name="pressed_impedance",
-    sentence="A target beyond a wall presses with K times the depth of the target in the wall.",
+    sentence="An actuated coordinate whose target is behind a wall presses on the wall with K "
+    "times the depth of the target in it.",
     where="docs/derivations.md (R2)",
     sweep="K from 10 to 1e5 N/m, gaps of 0 to 2 mm, targets in front of, at and in the wall, loads",
     reason="CLOSED_FORM; the depth is a difference of a target and a gap, rounded before the step "

@@ -144,9 +144,9 @@ THRESHOLD = Claim(
 
 SLIP = Claim(
     name="sliding_point",
-    sentence="A pulled point slides by its closed form, off the floor, stuck, or with one row or "
-    "two at their limits, and its gap goes to mu_v times the slip at the rate mu_v^2 / (1 + "
-    "mu_v^2).",
+    sentence="A point that is pulled slides as a closed form says: off the floor, stuck, or with "
+    "one or two rows at their limits. While it slides, its gap tends to mu_v times the slip of a "
+    "step, at the rate mu_v^2 / (1 + mu_v^2).",
     where="docs/derivations.md (R8)",
     sweep="forces, directions, mu_v, gaps and time steps: 270 steps; six sequences of 15 steps",
     reason="CLOSED_FORM, relative to the largest term of the slip.",

@@ -102,8 +102,9 @@ def tip_evidence() -> Evidence:
 
 SLIDE = Claim(
     name="incline_sliding",
-    sentence="A block on an incline stays while tan a <= mu_v; beyond, its slip goes to h^2 g "
-    "(sin a - mu_v cos a) a step at the rate mu_v^2 / (1 + mu_v^2), and it does not turn.",
+    sentence="A block on an incline of slope a stays while tan a <= mu_v. On a steeper one it "
+    "slides without turning, and its slip in a step tends to h^2 g (sin a - mu_v cos a), at the "
+    "rate mu_v^2 / (1 + mu_v^2).",
     where="docs/derivations.md (R10)",
     sweep="five slopes, three mu_v, two heights of the centre of mass; eight steps each",
     reason="4 CLOSED_FORM: gaps are differences of world coordinates a thousand times larger.",
