@@ -12,6 +12,7 @@ import pytest
 from quasistatic_ref import load_scenario, load_trajectory
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.resources import models_folder
+from quasistatic_ref.lab.grasp import grasp_report
 from quasistatic_ref.optional.doctor.motions import rotation_angle
 from tests.closeness import assert_relative, assert_same
 from tests.tolerances import (
@@ -160,3 +161,15 @@ def test_each_point_of_the_sample_is_the_farthest_from_those_before(build, rng):
     for k in range(1, 20):
         gaps = [min(sum((p - points[i]) ** 2) ** 0.5 for i in chosen[:k]) for p in points]
         assert chosen[k] == gaps.index(max(gaps))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("k", "mu_omega", "degrees"),
+    [(1, 0.003, 0.208), (20, 0.003, 0.208), (1, 0.0, 67.617), (2, 0.0, 49.931), (20, 0.0, 49.931)],
+)
+def test_how_many_points_a_finger_keeps_matters_only_if_it_is_one(k, mu_omega, degrees):
+    settings = {"contacts.grip.mu_omega": mu_omega, "contacts.grip.k": k, "solver.certify": "off"}
+    scenario = load_scenario("bunny_grasp", settings, fast=True)
+    run = scenario.run(progress=False, findings=False)
+    assert grasp_report(scenario, run)["rotation_deg"] == pytest.approx(degrees, abs=1e-3)
