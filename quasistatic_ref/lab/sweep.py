@@ -23,7 +23,7 @@ from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.parallel import workers as workers_here
 from quasistatic_ref.optional.doctor.telling import by_name, numbers_of
-from quasistatic_ref.scenario.overrides import parsed
+from quasistatic_ref.scenario.overrides import OptionChange, parsed
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar
@@ -167,8 +167,11 @@ def _value_list(name: str, values: Iterable[float | str]) -> list[Any]:
 
 def _changes(point: Mapping[str, Any], settings: Sequence[str]) -> list[str]:
     """One combination of values as changes of the scenario."""
-    fields = [f"{field}={json_text(value)}" for name, value in point.items()
-           for field in name.split(",")]  # fmt: skip
+    fields = []
+    for name, value in point.items():
+        for field in name.split(","):
+            change = f"{field}={json_text(value)}"
+            fields.append(OptionChange(change, change))
     return [*settings, *fields, 'record="light"', "fast=true"]
 
 

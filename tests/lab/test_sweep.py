@@ -177,7 +177,10 @@ BAD = {
     "nothing varied": ({}, "variations: must make 1 to 100000 runs"),
     "too many": ({"h": range(1000), "K": range(1000)}, "must make 1 to 100000 runs"),
     "an unknown field": ({"contacts.rouhg.mu_v": [0.5]}, "rouhg"),
-    "a value": ({"contacts.rough.mu_v": np.array([0.5, -1.0])}, "mu_v: must be at least 0"),
+    "a value": (
+        {"contacts.rough.mu_v": np.array([0.5, -1.0])},
+        "^contacts.rough.mu_v=-1.0: must be at least 0",
+    ),
     "a cone that the backend does not take": (
         {"solver.backend": ["daqp"], "cone": ["pyramid", "ellipsoid"]},
         "accepts only linear rows",

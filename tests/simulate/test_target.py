@@ -130,5 +130,7 @@ def test_more_than_half_a_turn_at_once_is_refused(load, tmp_path, changes, says)
     if not says:
         load_scenario(path, changes)
         return
-    with refusal(ScenarioError, f"{path}: bodies.{says} from the pose before"):
+    # Where the changes write the target, the file is not to blame.
+    file = f"{path}: " if says.startswith("rail") else ""
+    with refusal(ScenarioError, f"{file}bodies.{says} from the pose before"):
         load_scenario(path, changes)
