@@ -1,1 +1,1 @@
-"""The judge: what an answer is worth, decided without the solver that gave it."""
+"""The judge: proves or refutes the answer of a step without the solver that gave it."""

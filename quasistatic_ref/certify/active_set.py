@@ -72,7 +72,7 @@ def most_violated(minimiser: Minimiser) -> int | None:
 
 
 def least_index(minimiser: Minimiser) -> int | None:
-    """The violated row of least index; None if the exact signs show that none is violated.
+    """The violated row with the smallest index; None if exact signs show that no row is violated.
 
     The choice depends on exact signs alone: every implementation of the method takes the same path.
     """
@@ -143,7 +143,7 @@ def _start(form: ExactForm, warm: Sequence[int]) -> Minimiser:
 
 
 def _contradicted_equation(form: ExactForm, working: Sequence[int]) -> Combination | None:
-    """The proof that an equation outside of W, which depends on those in W, contradicts them."""
+    """A proof that an equation contradicts the equations in W on which it depends."""
     held = [i for i in working if i < form.equations]
     for p in sorted({*range(form.equations)} - {*held}):
         c = combination(form, held, p)
@@ -158,7 +158,7 @@ def _contradicted_equation(form: ExactForm, working: Sequence[int]) -> Combinati
 
 
 def _walk(minimiser: Minimiser, p: int) -> Minimiser | Combination:
-    """The minimiser that the violated row p leads to, or a proof that there is none."""
+    """The minimiser after the violated row p enters W, or a proof that the program has none."""
     while True:
         working = minimiser.working
         line = minimiser.towards(p)
@@ -247,12 +247,12 @@ def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:
 
 
 def basic_rows(lam: Array) -> list[int]:
-    """The rows of multipliers that belong to independent rows already, in that order, (m,) [-]."""
+    """Rows with positive multipliers lam (m,) [-], the largest multiplier first."""
     return [int(i) for i in np.argsort(-lam, kind="stable")[: np.count_nonzero(lam > 0)]]
 
 
 def _basic(A: Array, lam: Array) -> Array:
-    """Lam >= 0 of the same A'lam whose positive entries belong to independent rows.
+    """Multipliers >= 0 with the same A'lam, positive on linearly independent rows only.
 
     A block of rows after the other, each with the rows that are kept of those before it.
     """
@@ -266,7 +266,7 @@ def _basic(A: Array, lam: Array) -> Array:
 
 
 def _basic_of_block(A: Array, lam: Array) -> Array:
-    """What :func:`_basic` is of so few rows that all of their dependences can be formed."""
+    """:func:`_basic` of a block of few rows, all of whose dependences are computed."""
     dependences = np.eye(len(A))
     if A.size:
         _, size, directions = np.linalg.svd(A.T)

@@ -1,4 +1,4 @@
-"""What a cone that no rows describe proves of its answers."""
+"""What a friction cone without linear rows, such as the ellipsoid, has to provide."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ class Enclosed(Protocol):
         """A'lam, shape (n_v,) [N s, N m s]."""
 
     def certificate(self, step: StepData, residuals: Mapping[str, float]) -> Certificate:
-        """Its certificate, with its residuals in natural units [-]."""
+        """The certificate of this optimum, with the given residuals in natural units [-]."""
 
 
 class CurvedCone(FrictionCone):
-    """A cone that no rows describe: an optional part, which proves its own answers.
+    """A friction cone without linear rows: it proves the answers of its own steps.
 
     Each contact has four rows in A, J_n and its slips and spin, and as many multipliers. Everything
     that :class:`~quasistatic_ref.step.cones.PolyhedralCone` does by its rows, and the core by exact
@@ -57,7 +57,7 @@ class CurvedCone(FrictionCone):
 
     @abstractmethod
     def judge(self, mu: Array) -> Judge:
-        """How far from holding Eqs. :eq:`eq-10`-:eq:`eq-12` are, at any slacks and multipliers.
+        """A function that measures the violation of Eqs. :eq:`eq-10`-:eq:`eq-12`.
 
         Parameters
         ----------
@@ -72,7 +72,7 @@ class CurvedCone(FrictionCone):
 
     @abstractmethod
     def optimum(self, step: StepData, start: tuple[Array, Array] | None) -> Enclosed | None:
-        """The proved optimum of a step; None if none is.
+        """The optimum of a step with a proved error bound; None if the proof fails.
 
         Parameters
         ----------
@@ -89,7 +89,7 @@ class CurvedCone(FrictionCone):
     def forces(
         self, step: StepData, compliance: float, near: tuple[Array, Array]
     ) -> tuple[Array, Array]:
-        """The forces of a group, (n_c, 4) [N, N m], and where it ends, (n_v,) [m, rad].
+        """Contact forces of a group, (n_c, 4) [N, N m], and its displacement, (n_v,) [m, rad].
 
         Parameters
         ----------
@@ -113,18 +113,18 @@ class CurvedCone(FrictionCone):
 
 
 def curved_cone(step: StepData) -> CurvedCone | None:
-    """The cone of a step where no rows describe it, which proves its own answers; else None."""
+    """The curved cone of a step; None if the step's cone is polyhedral."""
     of_step = cone(step.cone)
     return of_step if isinstance(of_step, CurvedCone) else None
 
 
 def judge_of(step: StepData) -> Judge:
-    """How far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding in the cone of a step."""
+    """A function that measures the violation of Eqs. :eq:`eq-10`-:eq:`eq-12` in a step's cone."""
     curved = curved_cone(step)
     return row_violations if curved is None else curved.judge(step.contacts.mu)
 
 
 def claims_of(step: StepData) -> Claims:
-    """What certificates of each kind hold in the cone of a step."""
+    """The claims that each kind of certificate makes in the cone of a step."""
     curved = curved_cone(step)
     return CLAIMS if curved is None else curved.claims

@@ -31,7 +31,7 @@ from quasistatic_ref.step.data import StepData
 
 
 class Degeneracy(NamedTuple):
-    """What the rows without slack say of an optimum.
+    """Whether multipliers are unique and x is differentiable at an optimum.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class Degeneracy(NamedTuple):
 
 
 def step_degeneracy(step: StepData, working: Sequence[int]) -> Degeneracy:
-    """That of the optimum of a step in a polyhedral cone, group by group.
+    """The degeneracy of the optimum of a step in a polyhedral cone, group by group.
 
     Parameters
     ----------
@@ -62,14 +62,14 @@ def step_degeneracy(step: StepData, working: Sequence[int]) -> Degeneracy:
 
 
 def form_degeneracy(form: ExactForm, working: Sequence[int]) -> Degeneracy:
-    """That of the optimum of a program, which is the minimiser on such rows."""
+    """The degeneracy of a program at the minimiser on a working set."""
     minimiser = Minimiser(form, tuple(working))
     unique, smooth = degeneracy(form, working, minimiser.implied_rows, minimiser.tight_rows)
     return Degeneracy(unique, smooth, minimiser.smallest_slack() if smooth else 0.0)
 
 
 def _of_all(every: Iterable[Degeneracy]) -> Degeneracy:
-    """That of a step from those of its groups: a row is implied by others of its group alone."""
+    """The degeneracy of a step, joined from the degeneracies of its groups."""
     unique, smooth, slacks = zip(*every, strict=True)
     return Degeneracy(
         all(unique), all(smooth), min((s for s in slacks if s is not None), default=None)

@@ -98,7 +98,7 @@ def form_optimum(
 
 
 def rounded_optimum(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
-    """The optimum that the method ended with, its numbers rounded."""
+    """The optimum at which the exact method ended, rounded correctly to float64."""
     working = minimiser.working
     lam = np.zeros(form.m)
     lam[list(working)] = minimiser.rounded(lambda m: m.y, form.h)
@@ -167,7 +167,7 @@ def optimum_by_groups(
     starts: Sequence[Sequence[int]],
     proofs: Proofs | None = None,
 ) -> ExactOptimum:
-    """The exact optimum, however long it is, by the groups of the step.
+    """The exact optimum of a step, computed group by group, without a limit on its length.
 
     Parameters
     ----------
@@ -219,7 +219,7 @@ def optimum_by_groups(
 
 
 def check_length(step: StepData, delta_q: Array, parts: Parts) -> None:
-    """Refuse a delta_q, shape (n_v,) [m, rad], that is absurdly long in one of the step's groups.
+    """Raise StepIllPosed if delta_q (n_v,) [m, rad] is absurdly long in a group of the step.
 
     Parameters
     ----------
@@ -286,7 +286,7 @@ def relative_length(step: StepData, delta_q: Array) -> float:
 
 
 class Proofs:
-    """The proofs of the groups of the last step: of equal data and start the same, bit for bit.
+    """A cache of the last step's proofs, by group: equal data and start give the same proof.
 
     What it gives depends on nothing else, and so on no step before.
     """
@@ -296,14 +296,14 @@ class Proofs:
         self._last: dict[int, tuple[StepData, list[int], ExactOptimum]] = {}
 
     def kept(self, i: int, part: StepData, start: Sequence[int]) -> ExactOptimum | None:
-        """The optimum of the group number i, if that is what it was in the last step."""
+        """The kept optimum of group i, if its data and start equal those of the last step."""
         if i not in self._last:
             return None
         last, begun, optimum = self._last[i]
         return optimum if begun == [*start] and part.same_as(last) else None
 
     def keep(self, i: int, part: StepData, start: Sequence[int], optimum: ExactOptimum) -> None:
-        """Keep the proof of the group number i in place of that of the last step."""
+        """Replace the kept proof of group i."""
         for array in (optimum.delta_q, optimum.lam, optimum.net):
             read_only(array)
         self._last[i] = part, [*start], optimum

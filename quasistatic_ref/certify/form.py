@@ -87,7 +87,7 @@ def fraction(number: float | arb) -> fmpq:
 
 
 def columns(rows: Sequence[Row], of: slice) -> arb_mat:
-    """Some columns of rows, as a matrix."""
+    """A matrix made of some columns of `rows`."""
     return arb_mat(len(rows), of.stop - of.start, [v for row in rows for v in row[of]])
 
 
@@ -120,7 +120,7 @@ class ExactForm(ABC):
 
     @abstractmethod
     def exact_rows(self, some: Iterable[int]) -> list[Row]:
-        """Some rows [a, c]."""
+        """The given rows [a, c] as an exact matrix."""
 
     @property
     @abstractmethod
@@ -129,7 +129,7 @@ class ExactForm(ABC):
 
     @abstractmethod
     def sizes(self, most: Array) -> Array:
-        """At least the sum of sizes that each slack is rounded from, shape (m,) [m].
+        """An upper bound of the sizes of the terms that add up to each slack, shape (m,) [m].
 
         Parameters
         ----------
@@ -164,22 +164,22 @@ class ExactForm(ABC):
         return A @ x - b, (2 * self.n + 64) * UNIT * self.sizes(most) + TINY
 
     def implied_by_cone(self, working: Sequence[int], some: Iterable[int]) -> list[int]:
-        """Those of some rows that W implies wherever its contacts are: their slacks are zero."""
+        """The given rows that follow from rows of the same contact in W: their slack is zero."""
         return []
 
     def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
-        """The a x + c of some rows at z = [x; 1], shape (n + 1, 1), at the present precision."""
+        """Slacks a x + c of the given rows at z = [x; 1], (n + 1, 1), in the current precision."""
         return [value for (value,) in self.values(some, z)]
 
     def values(self, some: Iterable[int], z: arb_mat) -> list[list[arb]]:
-        """The [a, c] z of some rows, for each column of z, shape (n + 1, d)."""
+        """Products [a, c] z of the given rows with each column of z, shape (n + 1, d)."""
         values: list[list[arb]] = (
             columns(self.exact_rows(some), slice(0, self.n + 1)) * z
         ).tolist()
         return values
 
     def integers(self, some: Iterable[int]) -> list[list[fmpz]]:
-        """Some rows [a, c] times a power of two that they have in common."""
+        """The given rows [a, c], scaled to integers by one common power of two."""
         rows = self.exact_rows(some)
         numbers = whole_numbers([v for row in rows for v in row])
         size = self.n + 1
@@ -228,7 +228,7 @@ class MatrixForm(ExactForm):
         self._rows = rows.tolist()
 
     def exact_rows(self, some: Iterable[int]) -> list[Row]:
-        """Some rows [a, c]."""
+        """The given rows [a, c] as an exact matrix."""
         return [self._rows[i] for i in some]
 
     @cached_property
@@ -238,7 +238,7 @@ class MatrixForm(ExactForm):
         return rows[:, :-1], -rows[:, -1]
 
     def sizes(self, most: Array) -> Array:
-        """That of a row is `|a|` `most` + `|b|`, shape (m,); `most` is (n,) [any unit]."""
+        """The bound `|a|` `most` + `|b|` of each row, (m,); `most` (n,) bounds x [any unit]."""
         return row_sizes(*self.inequalities, most)
 
 
@@ -290,7 +290,7 @@ class StepForm(ExactForm):
         return inequalities(self._step)
 
     def sizes(self, most: Array) -> Array:
-        """That of a contact's rows is `|phi|` + F R, shape (m,) [m]; `most` is (n,) [m, rad].
+        """The bound `|phi|` + F R of a contact's rows, (m,) [m]; `most` (n,) bounds x [m, rad].
 
         R is the largest entry of `|J|` `most`, and more than what underflows in it; F is more than
         the sum of the sizes of the frame with friction. An entry of a row combines four products of
@@ -308,7 +308,7 @@ class StepForm(ExactForm):
         return np.concatenate([of_rows, row_sizes(extra.A, extra.b, most)])
 
     def factors(self, c: int) -> tuple[arb_mat, arb_mat, arb_mat]:
-        """What the rows [a, c] of a contact are the product of; a user's own row counts as one.
+        """Three exact factors whose product is the rows [a, c] of contact c, or of a user's row.
 
         The matrix of the cone, the frame with friction, and J with phi, of shapes (R, 4), (4, 5)
         and (5, n + 1). Of 106 bits or more, the present precision makes the last two exact.
@@ -356,7 +356,7 @@ class StepForm(ExactForm):
         return values
 
     def implied_by_cone(self, working: Sequence[int], some: Iterable[int]) -> list[int]:
-        """Rows that W implies since the six rows of a contact have rank four."""
+        """Rows that follow from rows of the same contact in W: six rows have rank four."""
         held: dict[int, tuple[int, ...]] = {}
         for c, kind in sorted(self._places[i] for i in working):
             held[c] = (*held.get(c, ()), kind)
@@ -395,7 +395,7 @@ def _hessian(
 
 @lru_cache(maxsize=64)
 def _places(cone_name: str, rows: bytes) -> tuple[Indices, list[tuple[int, int]]]:
-    """The contact of each row, (m,), and with it which of the cone's rows that is."""
+    """For each row its contact, (m,), and its number within the cone's rows."""
     contact, kind = np.nonzero(row_layout(cone_name, rows).mask)
     return contact, [*zip(contact.tolist(), kind.tolist(), strict=True)]
 
@@ -407,7 +407,7 @@ def _cone_matrix(cone_name: str) -> arb_mat:
 
 @lru_cache(maxsize=1024)
 def _implied_kinds(cone_name: str, held: tuple[int, ...]) -> list[bool]:
-    """Which rows of a contact follow from some of them, which are independent, whatever it is."""
+    """Rows of any contact that follow from its independent rows `held`."""
     rows = exact_matrix(cone(cone_name).matrix).tolist()
     numbers = [whole_numbers(row) for row in rows]
     return implied([numbers[kind] for kind in held], numbers)

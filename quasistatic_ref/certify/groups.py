@@ -22,7 +22,7 @@ from quasistatic_ref.step.data import StepData
 
 
 class Group(NamedTuple):
-    """Part of a step, by where it stands in it; each array is ascending.
+    """Indices of a group's coordinates, contacts and rows within a step, each ascending.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ class Group(NamedTuple):
     rows: Indices
 
     def within(self, rows: Sequence[int]) -> list[int]:
-        """Those of some rows of the step that are in the group, counted in it, in their order."""
+        """The given rows of the step that belong to this group, renumbered within the group."""
         place = {row: i for i, row in enumerate(self.rows.tolist())}
         return [place[row] for row in rows if row in place]
 
@@ -69,7 +69,7 @@ def groups(step: StepData) -> list[Group]:
 def _groups(
     coupling: bytes, coordinate: bytes, shape: tuple[int, int], row_counts: bytes
 ) -> tuple[Group, ...]:
-    """The groups of all steps whose numbers differ from zero in the same places.
+    """The groups of a step, from the pattern of its nonzero numbers.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def parted(
 
 
 def labels(couplings: Mask) -> tuple[Indices, Indices]:
-    """As :func:`linked`, of the coordinates of each coupling: a mask, shape (couplings, n)."""
+    """Group labels, as of :func:`linked`, from a mask of coordinates, shape (couplings, n)."""
     coupling, coordinate = np.nonzero(couplings)
     return linked(coupling, coordinate, couplings.shape)
 
@@ -153,7 +153,7 @@ def group_steps(step: StepData) -> list[tuple[Group, StepData]]:
 
 
 def group_step(step: StepData, group: Group) -> StepData:
-    """The step of one group, right by construction; the step itself if it has no other."""
+    """One group as a step of its own; the step itself if it has a single group."""
     c = group.coordinates
     if len(c) == step.n_v and len(group.rows) == step.m:
         return step
@@ -198,7 +198,7 @@ def flat_rows(step: StepData, pairs: Iterable[tuple[int, int]]) -> tuple[int, ..
 
 
 def row_owners(step: StepData, rows: Iterable[int]) -> dict[str, list[str]]:
-    """Names of the contacts that some rows belong to, each with the names of those rows.
+    """Names of the contacts that own the given rows, each with the names of these rows.
 
     The user's own rows stand under ``"extra"``.
     """

@@ -1,4 +1,4 @@
-"""The proof of a right guess: the minimiser on a working set W, and every sign at it.
+"""The minimiser on a working set W, and the exact signs of its multipliers and slacks.
 
 The sign of a slack is taken from the first of these sources that shows it:
 
@@ -45,14 +45,14 @@ from quasistatic_ref.numbers.precision import all_nearest, nearest, working_prec
 
 
 class Line(Protocol):
-    """What the multipliers on W go to in a walk, or the direction in which they go."""
+    """End values, or directions, of the multipliers on W in a step of the dual method."""
 
     @property
     def ends(self) -> list[arb]:
-        """Of each of them, in balls."""
+        """The end of each multiplier, as balls."""
 
     def end(self, j: int) -> fmpq:
-        """One of these without rounding, times a positive number that they have in common."""
+        """The end of multiplier j as an exact number, scaled by a positive factor common to all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +92,7 @@ class Relation:
         return u
 
     def end(self, j: int) -> fmpq:
-        """As of a line."""
+        """As :class:`Line` defines it."""
         assert self.exact is not None  # it is a relation
         return self.exact[j]
 
@@ -136,7 +136,7 @@ class Minimiser:
 
     @cached_property
     def near_sets(self) -> NearSets:
-        """What finds multipliers on working sets near this one."""
+        """A solver for multipliers on working sets that differ from this one by few rows."""
         if self._near is not None and self._near_balls is not None:
             return self._near
         try:
@@ -146,7 +146,7 @@ class Minimiser:
 
     @cached_property
     def _near_balls(self) -> Point | None:
-        """The solution from the system of a set near this one; None where radii hide it.
+        """The solution in balls by way of a nearby set; None if the balls are too wide.
 
         They grow with each row by which the sets differ, and more where rows nearly depend on each
         other.
@@ -183,16 +183,16 @@ class Minimiser:
 
     @cached_property
     def fractions(self) -> Point:
-        """The solution in fractions: milliseconds, so only where it is needed."""
+        """The solution in exact fractions, which takes milliseconds."""
         return fraction_point(self.form, self.working)
 
     @property
     def ends(self) -> list[arb]:
-        """As of a line."""
+        """As :class:`Line` defines it."""
         return self.balls.y
 
     def end(self, j: int) -> fmpq:
-        """As of a line."""
+        """As :class:`Line` defines it."""
         return fraction(self.fractions.y[j])
 
     def positive(self) -> tuple[int, ...]:
@@ -223,7 +223,7 @@ class Minimiser:
 
     @property
     def lowest_shown(self) -> list[int]:
-        """The rows outside of W that float64 shows to be violated, and that may be so most."""
+        """Rows outside of W that are violated in float64 and may be the most violated ones."""
         slack, error = self.float_slacks
         violated = slack < -error
         violated[list(self.working)] = False
@@ -239,12 +239,12 @@ class Minimiser:
         return null_space(self.form.integers(self.working), self.form.n + 1)
 
     def beyond_cones(self, some: Sequence[int]) -> list[int]:
-        """Those of some rows that their contact's cone does not show to be implied."""
+        """The given rows that are not already implied by rows of the same contact."""
         by_cone = {*self.form.implied_by_cone(self.working, some)}
         return [i for i in some if i not in by_cone]
 
     def doubtful(self, some: list[int]) -> list[int]:
-        """Those of some rows that a guess does not show to be implied.
+        """The given rows that a quick test does not show to be implied by W.
 
         The guess is that a row is the sum of rows of W, each some halves of times.
         """
@@ -272,7 +272,7 @@ class Minimiser:
         return [i for i in some if i not in proved]
 
     def implied(self, some: Sequence[int]) -> list[int]:
-        """Those of some rows, in increasing order, that are combinations [a, c] of rows of W."""
+        """The given rows [a, c] that are linear combinations of rows of W, in ascending order."""
         doubtful = self.doubtful(self.beyond_cones(some))
         values = []
         if doubtful:
@@ -283,7 +283,7 @@ class Minimiser:
 
     @cached_property
     def slack_balls(self) -> dict[int, arb]:
-        """The slacks in balls of the open rows that no contact's cone shows to be implied."""
+        """Slacks, as balls, of the open rows that are not implied by rows of the same contact."""
         rows = self.beyond_cones(self.open_rows)
         with working_precision(PRECISION):
             return dict(zip(rows, self.form.slacks(rows, self.balls.z), strict=True))
@@ -305,7 +305,7 @@ class Minimiser:
         }
 
     def towards(self, p: int) -> Minimiser | Relation:
-        """The minimiser on W and a row; the relation of the row to W where it depends on that."""
+        """The minimiser on W and row p; if row p depends on W, the relation between them."""
         near = self.near_sets
         working = self.working
         try:
@@ -409,12 +409,12 @@ def rounded_quotients(numerators: Iterable[arb], denominator: arb) -> Array:
 
 
 def _chosen(where: Sequence[bool], here: Sequence[arb], elsewhere: Sequence[arb]) -> list[arb]:
-    """Numbers of two lists: the first `where` it is true."""
+    """Entries of `here` where the mask is true, and of `elsewhere` where it is false."""
     return [a if first else b for first, a, b in zip(where, here, elsewhere, strict=True)]
 
 
 def _vanish(rows: Iterable[Iterable[arb]]) -> list[bool]:
-    """Of each row, whether all of its numbers are zero."""
+    """A mask of the rows whose numbers are all zero."""
     return [all(v.is_zero() for v in row) for row in rows]
 
 

@@ -78,7 +78,7 @@ def energy_norm(H: Array) -> EnergyNorm:
 
 @lru_cache(maxsize=64)
 def _energy_norm(entries: bytes, n: int) -> EnergyNorm:
-    """The norm, kept for as many groups: most steps of a run have the same H in each."""
+    """The energy norm of H, cached, because most steps of a run have the same H."""
     H = np.frombuffer(entries).reshape(n, n)
     unit = 1 / np.sqrt(np.diag(H))
     try:
@@ -153,7 +153,7 @@ def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()
 
 
 def _length(moved: float, moved_by: Iterable[float], softest: float) -> float:
-    """Of lengths of the optimum and of the unconstrained steps, and the least entry of H."""
+    """The length that errors are divided by, from lengths of the optimum and of single loads."""
     length = max(moved, *moved_by, UNMOVED * math.sqrt(softest))
     return length if length < math.inf else math.nan
 
@@ -178,7 +178,7 @@ def single_lengths(parts: Parts) -> list[list[float]]:
 
 
 def joined(lengths: Sequence[Sequence[float]]) -> list[float]:
-    """Lengths of all of a step [(N m s)^0.5] from those of its groups.
+    """Lengths of a whole step [(N m s)^0.5], joined from the lengths of its groups.
 
     Parameters
     ----------

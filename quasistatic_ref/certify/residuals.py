@@ -68,7 +68,7 @@ def largest(x: Array) -> float:
 
 
 def row_violations(slack: Array, lam: Array) -> Violations:
-    """How far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding, row by row.
+    """The violation of Eqs. :eq:`eq-10`-:eq:`eq-12` in each row.
 
     Parameters
     ----------

@@ -24,7 +24,7 @@ UNKNOWN = "are not known: a step holds no costs or nonlinear constraints"
 
 @dataclass(frozen=True, eq=False)
 class SolverStatistics(Plain):
-    """What the solver said and what it cost; never evidence, never written to a solution file.
+    """What the solver reported and how long it took: no evidence, and in no solution file.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ class StepSolution(Plain, Shown):
 
     @property
     def imbalance(self) -> float:
-        """The share of the load that the forces leave, at most some 1e-6 as a rule [-].
+        """The share of the load that the forces do not balance [-], mostly below 1e-6.
 
         That of :class:`~quasistatic_ref.certify.solution.ContactForces`.
         """
@@ -144,7 +144,7 @@ class StepSolution(Plain, Shown):
 
     @cached_property
     def wrench(self) -> Array:
-        """What lam combines to, as (f_d1, f_d2, f_n, tau_n) [N, N m], shape (n_c, 4).
+        """Contact wrenches that lam adds up to, (f_d1, f_d2, f_n, tau_n) [N, N m], (n_c, 4).
 
         It is the proof's: one of several where multipliers are not unique.
         """
@@ -155,7 +155,7 @@ class StepSolution(Plain, Shown):
 
     @property
     def proved(self) -> bool:
-        """Whether it is proved: to be the optimum, or within its certificate's error bound."""
+        """Whether delta_q is proved: the optimum, or within the certificate's error bound of it."""
         return self.certificate.kind in ("exact", "enclosure")
 
     @property
@@ -195,7 +195,7 @@ CLAIMS: Claims = {
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Certificate(Plain, HasPage):
-    """What is known about an answer, and how.
+    """What is proved about an answer, and the kind of proof.
 
     Parameters
     ----------
@@ -249,11 +249,11 @@ class Certificate(Plain, HasPage):
 
     @property
     def step_sha256(self) -> str | None:
-        """SHA-256 of the step that it is about, as in a solution file; formed when it is read."""
+        """SHA-256 of the step that this certificate is about, as in a solution file."""
         return None if self.step is None else step_sha256(self.step)
 
     def is_of(self, step: StepData) -> bool:
-        """Whether it is about this step: the same object, or one with the same SHA-256."""
+        """Whether the certificate is about this step: the same object or the same SHA-256."""
         return self.step is step or self.step_sha256 == step_sha256(step)
 
 

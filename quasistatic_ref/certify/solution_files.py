@@ -41,7 +41,7 @@ MAY_BE_NULL = {
 
 @dataclass(frozen=True, eq=False)
 class SolutionFile:
-    """What a solution file says about a step; nothing of it is believed before it is verified.
+    """What a solution file claims about a step; :meth:`verdict` proves or refutes it.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ class SolutionFile:
     farkas: tuple[str, ...] | None = None
 
     def verdict(self) -> Verdict:
-        """Whether all that it claims is proved: the answer and its wrench, or that there is none.
+        """Whether all claims of the file are proved: an answer with wrenches, or infeasibility.
 
         Raises
         ------
@@ -224,7 +224,7 @@ def _certificate(table: TableReader, step: StepData) -> Certificate:
 
 
 def _claim(table: TableReader, name: str, may_be_null: bool) -> Any:
-    """One claim, read as its type in a certificate wants."""
+    """One claim of a file, read as the type that the certificate's field has."""
     if may_be_null and table.is_null(name):
         return table.take(name)
     if name == "active":

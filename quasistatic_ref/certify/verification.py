@@ -43,7 +43,7 @@ class HasVerdict(Protocol):
     """An answer of another kind that can check itself: of a file, or of ``exact_qp``."""
 
     def verdict(self) -> Verdict:
-        """Whether all that it claims is so."""
+        """Whether all claims of the answer hold."""
 
 
 def verify(solution: StepSolution | HasVerdict) -> Verdict:
@@ -169,7 +169,7 @@ def verify_answer(
 def wrong_sign(
     form: ExactForm, working: Sequence[int], y: Sequence[arb], slack: Sequence[arb]
 ) -> tuple[int, str] | None:
-    """The first row that the minimiser on a working set does not do right, and what is wrong.
+    """The first row with a wrong sign at the minimiser on a working set, and which sign it is.
 
     Parameters
     ----------
@@ -195,7 +195,7 @@ def wrong_sign(
 def unique_and_smooth(
     form: ExactForm, working: Sequence[int], slack: Sequence[arb]
 ) -> tuple[bool, bool]:
-    """Whether multipliers are unique, and x differentiable, where all signs are right.
+    """Whether multipliers are unique and x is differentiable, at a proved optimum.
 
     Parameters
     ----------

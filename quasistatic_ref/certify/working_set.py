@@ -1,4 +1,4 @@
-r"""What x and the multipliers are on a working set: in balls, or without rounding.
+r"""The solution of a working set's equations: x and multipliers, in balls or exactly.
 
 On sets that differ by few rows balls share their work. Let G be the inverse of
 :math:`S = A H^{-1} A^T` over the rows of one working set, the base. On another one the rows E have
@@ -73,7 +73,7 @@ class Point:
         return not radius.max(initial=0.0) <= UNIT * np.abs(x).max(initial=0.0)
 
     def in_fractions(self, numerators: Iterable[arb]) -> list[fmpq]:
-        """Some of its numerators, or of other numbers at it, over the denominator."""
+        """The given numerators over the point's denominator, as fractions."""
         denominator = fraction(self.denominator)
         return [fraction(v) / denominator for v in numerators]
 
@@ -84,7 +84,7 @@ class Point:
 
 
 class Pull(NamedTuple):
-    """What a row does to a base.
+    """The response of the minimiser on a base set to a unit multiplier of one row.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ class NearSets:
         return len({*working} ^ {*self._place}) <= FEW + len(self._place) // 4
 
     def pull(self, i: int) -> Pull:
-        """What a row does to the base."""
+        """The response of the base to a unit multiplier of row i."""
         if i not in self._pulls:
             a = columns(self.form.exact_rows([i]), slice(0, self.form.n))
             with working_precision(PRECISION):
