@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _check_size(n_v: int, n_c: int) -> None:
-    """Refuse a step that would not be read again."""
+    """Refuse to write a step file that is too large to be read again."""
     if OF_ENTRY * n_v * (n_v + 4 * n_c) > LARGEST_TEXT:
         problem = "is too large for a step file; extract the group of one body, with --body"
         raise InputError(problem, field="step")

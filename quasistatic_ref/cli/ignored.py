@@ -79,7 +79,7 @@ def unknown_elements(system: Mechanism) -> str:
 
 
 def _words(entry: str) -> str:
-    """Which kind an entry is of: ``joint[hip].armature`` is <joint.armature>."""
+    """The kind of an ignored entry: ``joint[hip].armature`` becomes <joint.armature>."""
     kind = re.sub(r"\[[^\]]*\]|^robot\.", "", entry)
     last = kind.rpartition(".")[2]
     return WORDS.get(kind) or WORDS.get(last) or f"<{kind}>"

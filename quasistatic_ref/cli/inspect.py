@@ -35,7 +35,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Print what there is."""
+    """Print the content of a URDF or a scenario."""
     if Path(options.file).suffix.lower() in (".urdf", ".xml"):
         path = Path(options.file)
         body = Body(body_name(path), path, actuated="all", package_dirs=options.roots)
@@ -85,7 +85,7 @@ def system_record(
 
 
 def body_name(path: Path) -> str:
-    """A name for the one body of a file: its stem, without what a body's name must not hold."""
+    """The name of a URDF's body: the file's stem without characters that names must not have."""
     return re.sub(r"[/#*\s]", "_", path.stem).replace("world", "world_") or "robot"
 
 
@@ -117,7 +117,7 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
 
 
 def steps_by(scenario: Scenario) -> str:
-    """What takes the steps of a scenario, in words."""
+    """The solver and the path, plain or fast, that take a scenario's steps, in words."""
     if not scenario.fast:
         return "the plain path, which is the definition; --fast takes the same steps sooner"
     with needing("fast"):

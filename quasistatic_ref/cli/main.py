@@ -64,7 +64,7 @@ class Parser(argparse.ArgumentParser):
         super().error(f"{problem}{hint}")
 
     def parse_known_args(self, *arguments: Any) -> Any:  # type: ignore[override]  # one method for all of typeshed's overloads
-        """Nothing is left over: the command or action that was given it prints its own usage."""
+        """Parse all arguments; an unknown one is reported by the command that received it."""
         options, unknown = super().parse_known_args(*arguments)
         if unknown:
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
@@ -72,7 +72,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def _is_field(name: str) -> bool:
-    """Whether it is a field of scenarios, as of --steps 5."""
+    """Whether a name is a top-level field of scenarios, such as ``steps``."""
     tables = import_module("quasistatic_ref.scenario.scenario_table")
     return name in tables.TABLES[tables.TOP]
 
@@ -134,7 +134,7 @@ def status(options: argparse.Namespace) -> int:
 
 
 def _not_installed(error: ImportError) -> str:
-    """What is missing, in a sentence; the error itself, raised, where it is a mistake of ours."""
+    """A sentence on the package that is missing; an import error of our own is raised again."""
     library = re.match(r"(\S+\.so\S*): cannot open shared object", str(error))
     if library is not None:
         problem = f"{library[1]}, which a package needs, is not installed on this system"
@@ -209,7 +209,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _discard_output() -> None:
-    """Send what is left in the buffer nowhere, or the interpreter would try again at its end."""
+    """Discard buffered output, which the interpreter would otherwise write again at exit."""
     null = os.open(os.devnull, os.O_WRONLY)
     os.dup2(null, sys.stdout.fileno())
     os.close(null)
