@@ -29,7 +29,7 @@ MOST: Final = 512
 
 
 class AllPairs:
-    """What is the same in every step about the closest points of some pairs.
+    """Closest points of a fixed list of pairs, prepared once for all steps.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ class AllPairs:
         return contacts
 
     def write(self, kinematics: Kinematics, contacts: ClosestPoints) -> None:
-        """Write the same into fields of shape (n_c, ...); ContactError as of that."""
+        """Write the contacts into given arrays of shape (n_c, ...); errors as of closest_points."""
         R = kinematics.R
         t = kinematics.t
         if not (all_finite(R.ravel()) and all_finite(t.ravel())):
@@ -105,7 +105,7 @@ def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> Clos
 
 
 def kind_of(pair: ContactPair) -> Kind | None:
-    """Of which batch a pair is, P pairs of one kind; None of one that is searched by itself."""
+    """The kind of batch that a pair belongs to; None if the pair is searched by itself."""
     sides = (pair.alpha.shape, pair.beta.shape)
     ball_last = isinstance(sides[1], Sphere)
     ball, other = sides[::-1] if ball_last else sides

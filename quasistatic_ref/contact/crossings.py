@@ -115,7 +115,7 @@ def edges(body: ShapeInWorld, x: Array, n: Array) -> Edges:
 
 
 def line(shape: Revolved, above: float, way: Array) -> tuple[Array, Indices]:
-    """The line on the side of a solid of revolution that faces a way, if one does.
+    """The line on the side of a solid of revolution that faces a direction, or None.
 
     Parameters
     ----------
@@ -208,6 +208,6 @@ def crossing_number(first: Indices, second: Indices, count: int) -> Indices:
 
 
 def every(first: int, second: int) -> tuple[Indices, Indices]:
-    """Numbers of every two of some things and others, each of shape (first * second,)."""
+    """Indices of all pairs of `first` and `second` things, each of shape (first * second,)."""
     i, j = np.indices((first, second)).reshape(2, -1)
     return i, j

@@ -100,7 +100,7 @@ class ClosestPoints(NamedTuple):
 
 
 class Search(NamedTuple):
-    """What the contacts of a pair are chosen from: N candidates, or points of a cloud.
+    """The N candidates of a pair, or the points of a cloud, from which contacts are chosen.
 
     Parameters
     ----------
@@ -317,7 +317,7 @@ def _crossings(
 
 
 def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
-    """Which way the other body is, in this body's frame, shape (3,); the length has no meaning.
+    """A direction from this body to the other, in this body's frame, (3,), of any length.
 
     Where the closest point is on a rim, the point itself gives this direction more accurately than
     the normal does: near contact the normal is computed from a difference that cancels.

@@ -18,7 +18,7 @@ BLOCK: Final = 400_000
 
 
 class ContactGeometry:
-    """Contacts of the same links at every step.
+    """Jacobians of contacts between fixed links, prepared once for all steps.
 
     Parameters
     ----------

@@ -121,7 +121,7 @@ class ContactPair(Plain):
 
     @cached_property
     def size(self) -> float:
-        """Size of its smaller shape [m], which is no single point; 0 where neither has one."""
+        """Size of the smaller shape [m], single points excepted; 0 if neither shape has one."""
         extents = [side.shape.extent for side in (self.alpha, self.beta)]
         return min((x for x in extents if 0 < x < np.inf), default=0.0)
 
@@ -152,7 +152,7 @@ class ContactPair(Plain):
 
 @dataclass(frozen=True, eq=False)
 class ContactLayout(Plain):
-    """What is the same in every step about the contacts of a list of pairs.
+    """The constant fields of a step's contacts: names, friction and rows of each.
 
     Parameters
     ----------

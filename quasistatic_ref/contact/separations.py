@@ -44,7 +44,7 @@ SAYS = {
 
 
 def rounding(solid: ShapeInWorld, other: ShapeInWorld) -> float:
-    """Difference of two heights over a solid that is rounding [m]: of sizes and of places."""
+    """The largest difference [m] of two heights that rounding can cause."""
     places = float(max(np.abs(solid.t).max(), np.abs(other.t).max()))
     extents = [s.shape.extent for s in (solid, other) if not isinstance(s.shape, PointCloud)]
     return TIED_FACES * max([places, *(x for x in extents if np.isfinite(x))])
@@ -119,7 +119,7 @@ def tied_normals(
 
 
 def _of_centre(a: ShapeInWorld, b: ShapeInWorld, nearest: Witness) -> tuple[Array, Array]:
-    """Of a sphere and a solid: heights of its centre over the faces, less the radius."""
+    """Gaps of a sphere over each face of a solid."""
     solid, ball, sign = (a, b, 1.0) if isinstance(b.shape, Sphere) else (b, a, -1.0)
     assert isinstance(ball.shape, Sphere)
     heights, normals = solid.shape.faces(product(ball.t - solid.t, solid.R)[None])

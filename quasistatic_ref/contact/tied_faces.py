@@ -63,7 +63,7 @@ def faces_apart(heights: Array, normals: Array, within: float | Array) -> tuple[
 def corner_surface(
     shape: Shape, x: Array, n: Array, within: float | Array, near: float | Array
 ) -> Surface:
-    """What corners of another solid have on a solid.
+    """Distances and normals of another solid's corners on a solid.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def cloud_surface(
     phi: Array,
     normal: Array,
 ) -> Surface:
-    """What points of a cloud have on a solid.
+    """Distances and normals of a cloud's points on a solid, where several faces may tie.
 
     Parameters
     ----------

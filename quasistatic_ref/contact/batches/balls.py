@@ -23,14 +23,14 @@ from quasistatic_ref.shapes.shape import DIRECTIONS
 
 
 def points_of(solid: Shape) -> tuple[Array, float]:
-    """Its corners, shape (N, 3) [m], or its centre; and the radius of the ball about each [m]."""
+    """Corners of a solid, (N, 3) [m], or its centre, and the radius of the balls there [m]."""
     if isinstance(solid, Sphere):
         return np.zeros((1, 3)), solid.radius
     return solid.corners(DIRECTIONS[0])
 
 
 class Balls(Batch):
-    """Points, as many of each pair, of solids that all are alpha's or all are beta's."""
+    """Pairs of a solid and N points with balls about them, searched together."""
 
     def __init__(self, pairs: Sequence[ContactPair]) -> None:
         super().__init__(pairs)
@@ -58,11 +58,11 @@ class Balls(Batch):
         """
 
     def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
-        """The n_c points that rank first."""
+        """The contacts at the n_c points that rank first."""
         return self.of_poses(*self.in_world(R, t)[:: self._turn])
 
     def of_poses(self, solid: Pose, other: Pose) -> tuple[Mask, ClosestPoints]:
-        """The same from the poses of both sides."""
+        """The contacts that rank first, from the poses of the solids and of the others."""
         back = solid[0].mT
         x = rotated(product(back, other[0])[:, None], self._points)
         x += rotated(back, other[1] - solid[1])[:, None]
@@ -123,7 +123,7 @@ class Spheres(Balls):
         self._extent = np.array([max(shape.extent for shape in side) for side in sides])
 
     def surface(self, x: Array) -> tuple[Array, Array]:
-        """Of centres `x`, (P, 1, 3): distances (P, 1) [m] and normals (P, 1, 3)."""
+        """Distances (P, 1) [m] and normals (P, 1, 3) of the spheres' centres `x` (P, 1, 3)."""
         phi, normal = distance_to_rounded_box(x[:, 0], self._cores, self._margins)
         return phi[:, None], normal[:, None]
 

@@ -31,7 +31,7 @@ class Batch(ABC):
 
     @abstractmethod
     def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
-        """The contacts, as they rank, at poses of the links, (L, 3, 3) and (L, 3) [m].
+        """Ranked contacts at given poses of the links, (L, 3, 3) and (L, 3) [m].
 
         Returns
         -------

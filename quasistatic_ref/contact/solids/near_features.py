@@ -54,7 +54,7 @@ def are_fine(a: Polytope, b: Polytope) -> bool:
 
 
 def giving_way(a: Polytope, b: Polytope) -> float:
-    """How much bounds of gaps give way, for what rounds in the gaps of all [m].
+    """Slack added to bounds of gaps to allow for rounding [m].
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ class _Side:
         self.edge_bound = np.full(len(self.sides), np.inf)
 
     def bounded_by(self, point: Array) -> None:
-        """Take a point of the other body, (3,) [m], into account."""
+        """Tighten the bounds of this body's faces by a point (3,) [m] of the other body."""
         above = self.normals @ point - self.offsets
         np.minimum(self.bound, above, out=self.bound)
         first, second = self.sides.T

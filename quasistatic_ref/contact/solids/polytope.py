@@ -61,12 +61,12 @@ class Polytope:
 
     @cached_property
     def ways(self) -> Array:
-        """From there to its end, shape (E, 3) [m]."""
+        """The vector from the beginning of each edge to its end, shape (E, 3) [m]."""
         return self.vertices[..., self.edges[:, 1], :] - self.tails
 
     @cached_property
     def alone(self) -> "Polytope":
-        """A stack of this one alone."""
+        """This polytope as a stack of one."""
         return stacked([self])
 
     def moved(self, R: Array, t: Array) -> "Polytope":
@@ -118,7 +118,7 @@ def stacked(polytopes: Sequence[Polytope]) -> Polytope:
 
 @lru_cache(maxsize=256)
 def polytope(shape: Shape) -> Polytope | None:
-    """The polytope that a shape is, in its own frame; None where it is none."""
+    """A shape as a polytope in its own frame; None if it is not one."""
     match shape:
         case Capsule():
             ends, radius = shape.corners(UP)
