@@ -15,7 +15,7 @@ from quasistatic_ref.formats.table_reader import REQUIRED, TableReader
 
 @dataclass(frozen=True)
 class Field:
-    """One field of a table.
+    """One field of a table in a file: kind of value, bounds, unit, default and meaning.
 
     Parameters
     ----------

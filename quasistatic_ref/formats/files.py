@@ -67,7 +67,7 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Pat
 
 
 def is_stream(path: Path) -> bool:
-    """Whether it is no regular file and no folder, or stands in /dev; InputError if no name."""
+    """Whether a path is a stream, such as a pipe or a file in /dev."""
     target = _resolved(path)
     is_special = target.exists() and not target.is_file() and not target.is_dir()
     return is_special or path.is_relative_to("/dev")
@@ -103,7 +103,7 @@ def _named(temporary: str, target: Path) -> None:
 
 @cache
 def _swept(folder: Path) -> None:
-    """Remove, once in each process, what processes that were killed had half written there."""
+    """Remove half-written files of killed processes from a folder, once in each process."""
     for path in folder.glob(f".*{PARTIAL}"):
         with suppress(OSError), path.open("rb") as file:
             if _locked(file.fileno()):

@@ -36,7 +36,7 @@ MOST_ARRAYS = 256
 
 
 class NoSuchArray(ValueError):
-    """What is wrong with an array of a file, in our words."""
+    """An array of a file is missing or unusable; the message says why."""
 
 
 UNREADABLE: tuple[type[Exception], ...] = (

@@ -28,7 +28,7 @@ class Plain:
         return bool(bits(self) == bits(other))
 
     def same_as(self, other: Plain) -> bool:
-        """Whether both are of one class and keep the same bits: at the first that differs, no.
+        """Whether two objects have the same class and the same bits in all fields.
 
         It says no of -0.0 and 0.0, which are equal, and of two that keep their fields otherwise.
         """
@@ -40,23 +40,23 @@ class Plain:
 
     @classmethod
     def compared_as(cls) -> Any:
-        """The class whose object it equals: its own, unless it forms fields of another one late."""
+        """The class that comparisons use: a subclass with late fields counts as its parent."""
         return cls
 
     @classmethod
     def kept(cls) -> tuple[str, ...]:
-        """Names of what an object keeps, and a copy gets: its fields."""
+        """Names of the fields that copies and pickles keep."""
         return tuple(field.name for field in fields(cls))
 
     @classmethod
     def unchecked(cls, **fields: Any) -> Self:
-        """An object of fields that are right by construction: nothing of them is checked."""
+        """An object made of valid fields, without running the checks."""
         made = cls.__new__(cls)
         made.__dict__.update(fields)
         return made
 
     def with_fields(self, **changes: Any) -> Self:
-        """A copy with other fields, which are right by construction: nothing of it is checked."""
+        """A copy with some valid fields replaced, without running the checks."""
         copy: Self = self.compared_as().unchecked(**(field_values(self) | changes))
         return copy
 
@@ -90,17 +90,17 @@ class Late(Plain):
     kept_instead: ClassVar[tuple[str, ...]]
 
     def __new__(cls, *_: object, **fields: Any) -> Any:
-        """Such data as any other where all fields are given, as by ``dataclasses.replace``."""
+        """An object of the plain parent class if all fields are given, as by ``replace``."""
         return cls.compared_as()(**fields) if fields else super().__new__(cls)
 
     @classmethod
     def compared_as(cls) -> type:
-        """The class whose fields it forms."""
+        """The class whose fields this one computes late."""
         return cls.__bases__[1]
 
     @classmethod
     def kept(cls) -> tuple[str, ...]:
-        """As of that class, without what is formed."""
+        """Names of the parent's fields, without those that are computed late."""
         every = (name for name in super().kept() if name not in cls.formed)
         return *every, *cls.kept_instead
 

@@ -55,7 +55,7 @@ def one_line(text: str) -> str:
 
 
 def no_formula(text: str) -> str:
-    """A cell of a CSV: what spreadsheets would take for a formula begins with a quotation mark."""
+    """A cell of a CSV that no spreadsheet takes for a formula."""
     return f"'{text}" if text.startswith(("=", "+", "-", "@", "\t", "\r")) else text
 
 
@@ -100,7 +100,7 @@ def short_words(text: str) -> str:
 
 
 def shown_value(value: object) -> str:
-    """What `repr` says of a value, on one line and of at most 80 characters."""
+    """The `repr` of a value, on one line and cut to 80 characters."""
     try:
         text = " ".join(repr(value).split())
     except (RecursionError, ValueError):  # nested without end; an integer of too many digits

@@ -194,7 +194,7 @@ class TableReader:
         return value
 
     def table(self, field: str, default: Any = REQUIRED) -> "TableReader":
-        """A field that is a table."""
+        """The reader of a field that is a table."""
         return TableReader(self.take(field, default), self.name(field), self.error)
 
     def check_format(self, name: str, *versions: int) -> int:

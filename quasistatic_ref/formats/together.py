@@ -12,7 +12,7 @@ _READ: ContextVar[dict[Hashable, Any] | None] = ContextVar("what is read togethe
 
 @contextmanager
 def together() -> Iterator[None]:
-    """Within it, and within those inside of it, what :func:`once` makes is kept."""
+    """A context within which :func:`once` reads each file only once."""
     if _READ.get() is not None:
         yield
         return
@@ -24,7 +24,7 @@ def together() -> Iterator[None]:
 
 
 def once(key: Hashable, made: Callable[[], T]) -> T:
-    """What is made of a file, of which the key is the name: once for all that are read together."""
+    """The value of ``made()``, computed once for each key within :func:`together`."""
     read = _READ.get()
     if read is None:
         return made()
