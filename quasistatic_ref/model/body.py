@@ -1,4 +1,4 @@
-"""What a user says about one URDF: where it stands and what of it is actuated."""
+"""A body: one URDF, where it stands, and which of its joints are actuated."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ class MimicJoint:
 
 
 def no_coordinate(of: str) -> str:
-    """What is said where a coordinate is asked of a joint that mimics another."""
+    """The sentence that a joint which mimics another has no coordinate."""
     return (
         f"mimics {of!r} and has no coordinate of its own: name {of!r}, whose spring moves both "
         "and whose force K_q e they share"

@@ -31,7 +31,7 @@ from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 @runtime_checkable
 class StepSystem(Protocol):
-    """What a step asks a system for: these six names, and no other.
+    """The interface of a system that a simulator needs.
 
     A System has them from pinocchio, and a MuJoCo scene's from MuJoCo.
     """
@@ -54,7 +54,7 @@ class StepSystem(Protocol):
 
     @property
     def lock(self) -> RLock:
-        """Held by who takes a step."""
+        """A lock that is held during a step."""
 
     def at(self, q: ArrayLike | State) -> State:
         """The system at a configuration, shape (n_q,), or at a state of its own."""
@@ -245,7 +245,7 @@ class Mechanism(ABC):
         return unit_configuration(self.joints, self.n_q, q)
 
     def of(self, q: ArrayLike, name: str) -> Array:
-        """What q holds of a body, a joint or one entry, as ``block``, ``arm/elbow``, ``block.z``.
+        """Entries of q of a body, joint or coordinate: ``block``, ``arm/elbow``, ``block.z``.
 
         Parameters
         ----------
@@ -267,7 +267,7 @@ class Mechanism(ABC):
         return _taken(q, places, {self.n_q, self.n_q_a}, "q", name)
 
     def change_of(self, delta_q: ArrayLike, name: str) -> Array:
-        """What delta_q, or a generalised force, shape (..., n_v), holds of a name; as :meth:`of`.
+        """Entries of delta_q or of a force (..., n_v) of a body, joint or coordinate.
 
         Its single entries are coordinates, such as ``block/base.rz`` [m, rad; N, N m].
         """

@@ -172,7 +172,7 @@ class System(Mechanism):
         return whole(self.mass_blocks)
 
     def workspace(self) -> Workspace:
-        """A workspace of the caller's own."""
+        """A new workspace, which no other caller uses."""
         return Workspace(self._world, self._order)
 
     def neutral(self) -> Array:
@@ -229,7 +229,7 @@ class SystemState(State):
 
     @cached_property
     def _q_parts(self) -> list[Array]:
-        """Q of the parts of the workspace."""
+        """The entries of q of each part of the workspace."""
         return self.system._workspace.q_parts(self.q)
 
     @cached_property

@@ -134,7 +134,7 @@ def world_of(bodies: tuple[Body, ...]) -> World:
 
 
 def joined(bodies: Sequence[Body], models: Sequence[pin.Model]) -> pin.Model:
-    """All bodies in one model, by halves: to append a body takes time in proportion to the rest."""
+    """All bodies in one pinocchio model, joined in halves, since appending takes long."""
     if len(bodies) > 1:
         half = len(bodies) // 2
         first = joined(bodies[:half], models[:half])

@@ -32,12 +32,12 @@ class AxisJoint(Joint):
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
-        """Its entry of delta_q."""
+        """The joint's one entry of delta_q."""
         return (Coordinate(self.name, self.name, self.measure, self.actuated),)
 
     @property
     def positions(self) -> tuple[Position, ...]:
-        """Its entry of q."""
+        """The joint's one entry of q."""
         return (Position(self.name, self.measure),)
 
     @classmethod
@@ -50,7 +50,7 @@ class AxisJoint(Joint):
 
     @classmethod
     def at(cls, position: float) -> list[float]:
-        """Its entries of q at a position [m, rad]."""
+        """The joint's entries of q at a position [m, rad]."""
         return [position]
 
     def moved(self, q: list[float], delta_q: list[float]) -> list[float]:

@@ -22,7 +22,7 @@ def _wheel(axis: Array) -> Any:
 
 
 class Continuous(AxisJoint):
-    """A wheel."""
+    """A joint that turns without limits; q holds the cosine and sine of its angle."""
 
     pinocchio = (pin.JointModelRUBX, pin.JointModelRUBY, pin.JointModelRUBZ, _wheel)
     unit_vector = COSINE_SINE

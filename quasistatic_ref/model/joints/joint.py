@@ -48,7 +48,7 @@ class Position(NamedTuple):
 
     @property
     def heading(self) -> str:
-        """What tables and files call it: ``arm/elbow [rad]``."""
+        """The heading of this entry in tables and files: ``arm/elbow [rad]``."""
         return f"{self.name} [{self.unit}]"
 
 
@@ -102,12 +102,12 @@ class Joint(Plain, ABC):
     @property
     @abstractmethod
     def coordinates(self) -> tuple[Coordinate, ...]:
-        """Its entries of delta_q."""
+        """The joint's entries of delta_q."""
 
     @property
     @abstractmethod
     def positions(self) -> tuple[Position, ...]:
-        """Its entries of q."""
+        """The joint's entries of q."""
 
     @property
     def unit_part(self) -> slice:
@@ -116,8 +116,8 @@ class Joint(Plain, ABC):
 
     @abstractmethod
     def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
-        """Its entries of q (+) delta_q, from its entries of both [m, rad, -]."""
+        """The joint's entries of q (+) delta_q, from its entries of both [m, rad, -]."""
 
     @abstractmethod
     def change(self, q: list[float], q_next: list[float]) -> list[float]:
-        """Its entries of q_next (-) q, from its entries of both [m, rad]."""
+        """The joint's entries of q_next (-) q, from its entries of both [m, rad]."""

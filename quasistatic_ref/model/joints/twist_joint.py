@@ -51,11 +51,11 @@ class TwistJoint(Joint):
     @classmethod
     @abstractmethod
     def at(cls, xyz: Array, rpy: Array) -> list[float]:
-        """Its entries of q at an origin [m] and roll, pitch, yaw [rad], each of shape (3,)."""
+        """The joint's entries of q at an origin [m] and roll, pitch, yaw [rad], shapes (3,)."""
 
     @classmethod
     def obstacle(cls, xyz: Array, rpy: Array, start: Array) -> str | None:
-        """Why it cannot get to a pose, as of `at`, from the origin `start`, shape (3,) [m]."""
+        """Why the joint cannot reach a pose from the origin `start` (3,) [m]; None if it can."""
         way = [*(xyz - start), *rpy]
         if all(i in cls.twist or part == 0 for i, part in enumerate(way)):
             return None

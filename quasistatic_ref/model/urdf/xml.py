@@ -26,7 +26,7 @@ MISPRINT = 0.6
 
 @dataclass(frozen=True)
 class Tag:
-    """An element, with what it is called in messages.
+    """An XML element with its name in messages.
 
     Parameters
     ----------
