@@ -40,7 +40,7 @@ def _quietly(function: Callable[..., Result], arguments: tuple[object, ...]) -> 
 
 @contextmanager
 def with_warnings() -> Iterator[None]:
-    """Around code of a user, inside of :func:`without_warnings`: NumPy warns as outside of it."""
+    """A context for a user's code within :func:`without_warnings`, where NumPy warns again."""
     before = _WARNINGS.get()
     if before is None:
         yield

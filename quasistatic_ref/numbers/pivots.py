@@ -80,7 +80,7 @@ def symmetric(key: str, S: Array) -> Array:
 
 
 def positive_sum(S: Array, terms: Iterable[tuple[Fraction, Array]]) -> bool:
-    """Whether the exact sum that S was formed as obeys the rule.
+    """Whether the exact sum of `terms`, of which S is the rounded one, is positive definite.
 
     Float64 shows it where S is normal and no diagonal term is negative: each entry is then off by
     at most 8 u (S_ii S_jj)^1/2, so that the exact sum is at least S - 8 n u D, D the diagonal of S.
@@ -103,12 +103,12 @@ def positive_sum(S: Array, terms: Iterable[tuple[Fraction, Array]]) -> bool:
 
 @lru_cache(maxsize=16)
 def _positive_pivots(entries: bytes, shape: tuple[int, ...]) -> bool:
-    """As :func:`positive_pivots`, kept: K_q, and mostly M_u, are those of all steps of a run."""
+    """:func:`positive_pivots`, cached, because most steps of a run have the same matrices."""
     return positive_pivots(np.frombuffer(entries).reshape(shape))
 
 
 def positive_pivots(S: Array) -> bool:
-    """Whether each matrix of a stack obeys the rule.
+    """Whether each matrix of a stack counts as positive definite.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def _exactly_positive(S: Any) -> bool:
 
 
 def _surely_positive(S: Array) -> bool:
-    """Whether float64 shows it of all matrices of a stack (..., n, n) [any unit]."""
+    """Whether float64 shows that all matrices (..., n, n) are positive definite [any unit]."""
     n = S.shape[-1]
     least, most = RANGE
     try:
