@@ -71,7 +71,7 @@ class BodyEntry(Plain):
 
     @property
     def extends(self) -> bool:
-        """Whether it adds to the step: friction other than that of contacts, or joint limits."""
+        """Whether the body has joint friction, a support or joint limits, which extend the step."""
         return any(x is not None for x in (self.joint_friction, self.support, self.joint_limits))
 
     def actuated(self, system: System) -> list[Joint]:
@@ -217,7 +217,7 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
 
 
 def _followers(system: System, entry: BodyEntry) -> dict[str, str]:
-    """What is said of each joint of a body that mimics another, where a coordinate is asked."""
+    """For each joint that mimics another: the sentence that it has no coordinate of its own."""
     body = f"{entry.body.name}/"
     return {
         one.name.removeprefix(body): no_coordinate(one.of.removeprefix(body))

@@ -26,7 +26,7 @@ Chains of rotations leave 1e-15 a link; a joint between them moves one of them b
 
 
 def ignored_findings(table: TableReader) -> tuple[str, ...]:
-    """The names in a table [findings] that are not said; ScenarioError if one is no finding."""
+    """Names of findings that a table [findings] ignores; ScenarioError if one is unknown."""
     names = tuple(checked_fields(table, FINDINGS)("ignore"))
     for name in names:
         with about_field(table.name("ignore")):
@@ -82,7 +82,7 @@ def _as_setting(near: str, other: str, table: TableReader) -> str:
 
 
 def check_made(made: Collection[tuple[str, str]], tables: dict[str, Any]) -> None:
-    """Refuse a body or a contact that changes alone have made, and have not made whole.
+    """Refuse a change whose dotted key names a body or contact table that does not exist.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def check_sizes(value: Any, name: str = "") -> None:
 
 
 def check_motion(system: System, pairs: Sequence[ContactPair]) -> None:
-    """Refuse what cannot move.
+    """Refuse a system without coordinates, and pairs whose two sides never move apart.
 
     Raises
     ------

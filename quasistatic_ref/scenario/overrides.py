@@ -58,7 +58,7 @@ def about_changes(settings: Changes, named: Mapping[str, Any]) -> Iterator[None]
 
 
 def _change(field: str, settings: Changes, named: Mapping[str, Any]) -> str | None:
-    """How the user wrote the value of a field: the last of the changes that it is part of.
+    """The text of the last change that wrote a field; None if no change did.
 
     In Python it is the field itself; None where no change wrote it.
     """
@@ -76,7 +76,7 @@ def _change(field: str, settings: Changes, named: Mapping[str, Any]) -> str | No
 
 
 def _of_text(setting: str) -> tuple[str, str]:
-    """The key of a change, and how the user wrote it."""
+    """The dotted key of a ``key=value`` change, and the text of the change."""
     written = setting.option if isinstance(setting, OptionChange) else f"{SET} {setting}"
     return setting.partition("=")[0].strip(), written
 
@@ -84,7 +84,7 @@ def _of_text(setting: str) -> tuple[str, str]:
 def apply_settings(
     tables: dict[str, Any], settings: Changes, named: Mapping[str, Any]
 ) -> set[tuple[str, str]]:
-    """Make changes in place.
+    """Apply the user's changes to a scenario's tables, in place.
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ def parsed(text: str) -> Any:
 
 
 def python_value(field: object, value: Any, of_others: bool = False) -> Any:
-    """A value of Python's as a parser would have returned it.
+    """A Python value in the form in which a TOML parser would return it.
 
     Its paths are the user's own, unless it is of others.
 

@@ -111,7 +111,7 @@ class Scenario(Settings, Plain, Shown):
     of_bodies: OfBodies | None = None
 
     def simulator(self, extension: ExtensionOfQ | None = None) -> Simulator:
-        """A simulator of this scenario, with an `extension` as it takes one."""
+        """A new simulator of this scenario, with the user's own constraints and costs, if any."""
         if self.of_bodies is not None:
             extension = self.of_bodies.beside(extension)
         simulator = Simulator(**self.settings(), extension=extension)
@@ -119,7 +119,7 @@ class Scenario(Settings, Plain, Shown):
 
     @property
     def target(self) -> Target:
-        """q_bar_a as :func:`~quasistatic_ref.simulate.rollout.rollout` takes it."""
+        """The targets q_bar_a as a function of time, which ``rollout`` takes."""
         return self.targets
 
     @property
