@@ -157,7 +157,7 @@ class Shape(Plain):
 
     @property
     def sizes(self) -> dict[str, Any]:
-        """The arguments that make it again, by the names that files give them [m, -].
+        """The sizes of the shape by their names in files [m, -].
 
         Raises
         ------

@@ -36,5 +36,5 @@ class Sphere(Rounded):
 
     @property
     def sizes(self) -> dict[str, Any]:
-        """Its radius [m]."""
+        """The radius by its name in files [m]."""
         return {"radius": self.radius}
