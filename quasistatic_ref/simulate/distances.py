@@ -14,7 +14,7 @@ DISTANCES: tuple[Distances, ...] = get_args(Distances)
 
 
 def measured_pairs(pairs: tuple[ContactPair, ...], distances: str) -> tuple[ContactPair, ...]:
-    """Pairs whose shapes take their distances to points from where `distances` says.
+    """Pairs that measure distances of clouds as `distances` says: closed forms, or coal.
 
     Raises
     ------

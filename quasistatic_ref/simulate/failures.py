@@ -13,7 +13,7 @@ if TYPE_CHECKING:  # a trajectory needs pinocchio, which the commands of single 
 
 
 class LimitExceeded(StepNotSolved):
-    """A run has gone where no step should be taken from.
+    """A run has reached a limit of penetration or distance, beyond which no step is taken.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ from quasistatic_ref.parts import finding_names
 
 @dataclass(frozen=True, eq=False)
 class Finding(Plain):
-    """One finding; docs/findings.md has each, with its cause and its remedy.
+    """One finding: what is wrong with a scene or doubtful in a run, and what to do.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def check_finding_name(name: str) -> None:
 
 
 def severity(grave: bool) -> str:
-    """Of a finding in one word."""
+    """The severity of a finding, ``"grave"`` or ``"note"``."""
     return "grave" if grave else "note"
 
 
@@ -103,7 +103,7 @@ def _named(findings: Sequence[Finding]) -> str:
 
 
 def finding_table(finding: Finding) -> dict[str, Any]:
-    """A finding as it stands in files.
+    """A finding as the table that files hold.
 
     Its fields are ``name``, ``grave``, ``sentence``, ``remedy``, ``numbers`` and ``of``.
 

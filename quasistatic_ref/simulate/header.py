@@ -22,7 +22,7 @@ RECORDS: tuple[Record, ...] = get_args(Record)
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Header(Plain):
-    """What a trajectory says of its run.
+    """The header of a trajectory: settings, names, findings and outcome of its run.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ class Header(Plain):
 
 
 def header_table(header: Header) -> dict[str, Any]:
-    """A header as it stands in files: what is as by default is left out."""
+    """A header as the table that files hold; fields with default values are left out."""
     table: dict[str, Any] = {"format": FORMAT, "version": VERSION}
     for field in fields(Header):
         value = getattr(header, field.name)

@@ -34,6 +34,6 @@ class Interrupt:
         self.noted = True
 
     def check(self) -> None:
-        """Raise KeyboardInterrupt if there was one."""
+        """Raise KeyboardInterrupt if Ctrl-C was pressed since this object was opened."""
         if self.noted:
             raise KeyboardInterrupt

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Recording(Protocol):
-    """What an observer asks of a run so far: a :class:`~quasistatic_ref.Recorder`.
+    """The part of a :class:`~quasistatic_ref.Recorder` that observers may read.
 
     Attributes
     ----------

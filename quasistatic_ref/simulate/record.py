@@ -27,7 +27,7 @@ OWN_COST: Final = "own cost, full"
 
 
 class Kept(NamedTuple):
-    """One array of a record.
+    """One array that a trajectory may hold: its name, its shape and how it is read.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ NEEDED = ("t", "q", "delta_q", "mu_v", "mu_omega", "rows")
 
 
 class Reading:
-    """What a record keeps of one step, where the step's result has it in another form.
+    """The numbers of one step's result in the form in which a trajectory keeps them.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ class Reading:
 
     @property
     def delta_q(self) -> Array:
-        """Shape (n_v,) [m, rad]."""
+        """The displacement delta_q of the step, shape (n_v,) [m, rad]."""
         return self.solution.delta_q[: self.n_v]
 
     @property
@@ -131,12 +131,12 @@ class Reading:
 
     @property
     def lam(self) -> Array:
-        """Of the contacts, shape (m,) [N s]."""
+        """Multipliers of the contacts, shape (m,) [N s]."""
         return self.solution.lam[: self.step.offsets[-1]]
 
     @property
     def worst_residual(self) -> float:
-        """In natural units [-]; NaN where nothing was certified."""
+        """The largest residual in natural units [-]; NaN if nothing was certified."""
         return max(self.solution.certificate.residuals.values(), default=np.nan)
 
     @property
@@ -148,7 +148,7 @@ class Reading:
 
     @cached_property
     def form(self) -> StandardForm:
-        """Its program."""
+        """The quadratic program of the step."""
         return standard_form(self.step)
 
     @cached_property
@@ -160,12 +160,12 @@ class Reading:
 
     @property
     def forces(self) -> Array:
-        """Shape (n_c, 4) [N, N m]; NaN where none are found."""
+        """Forces of single contacts, shape (n_c, 4) [N, N m]; NaN if none are found."""
         return self._forces[0]
 
     @property
     def imbalance(self) -> float:
-        """The share of the load that they leave [-]; NaN where none are found."""
+        """The share of the load that the forces do not balance [-]; NaN if none are found."""
         return self._forces[1]
 
 
@@ -191,7 +191,7 @@ def arrays_of(readings: Sequence[Reading], names: Sequence[str]) -> StepArrays:
 
 
 def no_steps(header: Header, rows: Indices, n_q_a: int = 0) -> dict[str, NDArray[Any]]:
-    """All arrays of a record of no steps, of the shapes that its letters say.
+    """All arrays of a run without steps, empty along the axis of steps.
 
     Parameters
     ----------
@@ -240,7 +240,7 @@ def _constant(name: str) -> bool:
 
 
 def _lengths(header: Header) -> dict[str, int]:
-    """What the letters of shapes mean, as far as a header knows."""
+    """Lengths of the axes that the header knows, by the letters of the table of arrays."""
     return {
         "T": header.steps,
         "T+1": header.steps + 1,
@@ -318,7 +318,7 @@ def check_arrays(header: Header, arrays: Mapping[str, NDArray[Any]]) -> None:
 
 
 def _check_array(name: str, array: NDArray[Any], lengths: dict[str, int]) -> None:
-    """Refuse an array of another type or shape; a letter means what the first array says."""
+    """Refuse an array of the wrong type or shape; a letter's length is set by its first use."""
     kept = ARRAYS[name]
     if array.dtype.kind not in ("U" if kept.dtype is np.str_ else "fiu"):
         raise InputError("must contain numbers", field=name, value=str(array.dtype))

@@ -155,7 +155,7 @@ class Recorder:
         self._since = now
 
     def _check(self, result: StepResult) -> None:
-        """Check a result that is added; errors as of :meth:`add`."""
+        """Refuse a result that does not belong to this run; errors as of :meth:`add`."""
         rows = result.step.extra.names
         if self.steps and rows != self.extra:
             pairs = zip_longest(self.extra, rows, fillvalue="no row")
@@ -174,7 +174,7 @@ class Recorder:
         self.with_cost = with_cost
 
     def flush(self) -> None:
-        """Make a part of the steps since the last flush, and ask the observers about them.
+        """Collect the steps since the last flush into arrays, and pass them to the observers.
 
         Steps of which something cannot be known are dropped: the run ends before them.
         """
@@ -200,7 +200,7 @@ class Recorder:
                 arrays[name] = _checked_note(name, note, len(results), before.get(name))
 
     def _arrays(self, results: Sequence[StepResult]) -> tuple[StepArrays, StepArrays]:
-        """What is kept of the last steps, and what observers get besides."""
+        """Arrays of the last steps: those that the trajectory keeps, and those for observers."""
         readings = [Reading(result, self.system.n_v) for result in results]
         law, rows, cost = self.simulator.law, bool(self.extra), bool(self.with_cost)
         arrays: StepArrays = {
@@ -217,7 +217,7 @@ class Recorder:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Names of what the observers keep of each step."""
+        """Names of the arrays that observers keep."""
         return tuple(name for observer in self.observers for name in observer.notes)
 
     def noted(self, name: str) -> NDArray[Any]:

@@ -73,17 +73,17 @@ class StepResult(Plain, Shown):
 
     @classmethod
     def kept(cls) -> tuple[str, ...]:
-        """All fields but the scene and the end."""
+        """Names of the fields that copies and pickles keep: all but the scene and the end."""
         return tuple(name for name in super().kept() if name not in ("scene", "end"))
 
     @property
     def forces(self) -> Array:
-        """Forces of single contacts, shape (n_c, 4) [N, N m]: those of the solution."""
+        """Forces of single contacts, shape (n_c, 4) [N, N m]."""
         return self.solution.forces
 
     @property
     def imbalance(self) -> float:
-        """The share of the load that the forces leave [-]: that of the solution."""
+        """The share of the load that the forces do not balance [-]."""
         return self.solution.imbalance
 
     def pair_forces(self) -> dict[str, Array]:
@@ -134,6 +134,6 @@ class StepResult(Plain, Shown):
 
     @property
     def tied(self) -> dict[str, str]:
-        """The contacts whose normal was one of several, and how it was chosen, by their names."""
+        """By name, the contacts with several possible normals, and how one was chosen."""
         chosen = zip(self.step.contacts.name, self.points.tie.tolist(), strict=True)
         return {name: SAYS[tie] for name, tie in chosen if tie != UNIQUE_NORMAL}

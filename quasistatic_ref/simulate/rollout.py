@@ -46,7 +46,7 @@ def rollout(
     ignore: Sequence[str] = (),
     observers: Sequence[Observer] = (),
 ) -> Trajectory:
-    """Step after step, recorded.
+    """Take steps in sequence and return them as a trajectory.
 
     The step from t to t + h uses the target and the external force at t + h; where they are
     functions of (t, q), that is t + h as well, and q is where the step starts. As functions of

@@ -8,7 +8,7 @@ from quasistatic_ref.model.system import System
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Scene:
-    """What moves, and what may touch: a Scenario and a Simulator are scenes, too.
+    """A system and the pairs of its shapes that may touch; Scenario and Simulator are scenes.
 
     Parameters
     ----------

@@ -16,7 +16,7 @@ from quasistatic_ref.tolerances import ACCURACY
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Settings(Scene):
-    """What a scenario and a simulator have in common: checked once, it does not change.
+    """The checked settings that a scenario and a simulator share.
 
     Parameters
     ----------
@@ -71,5 +71,5 @@ class Settings(Scene):
         freeze_copies(self, "K_q", "gravity", "gravity_acts")
 
     def settings(self) -> dict[str, Any]:
-        """All of them by name."""
+        """All settings by name."""
         return {setting.name: getattr(self, setting.name) for setting in fields(Settings)}

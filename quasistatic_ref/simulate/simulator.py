@@ -54,7 +54,7 @@ GRAVITY = (0.0, 0.0, -9.81)
 
 @contextmanager
 def by_one_thread(system: StepSystem) -> Iterator[None]:
-    """Around a step of a system: refused while another thread takes one.
+    """A context for one step of a system; it refuses a second thread.
 
     Raises
     ------
@@ -71,7 +71,7 @@ def by_one_thread(system: StepSystem) -> Iterator[None]:
 
 
 def stopwatch(times: dict[str, float]) -> Callable[[str], None]:
-    """What writes the wall time [s] since its last call, or its making, into `times` by a name."""
+    """A function that writes the wall time [s] since its last call into `times`, by a name."""
     last = time.perf_counter()
 
     def lap(name: str) -> None:
@@ -94,12 +94,12 @@ def _checked_acts(acts: ArrayLike, n_a: int) -> Mask:
 
 
 def _remade(kind: type[Simulator], settings: dict[str, Any]) -> Simulator:
-    """A simulator from what it was made of: the arguments that a deep copy copies."""
+    """A new simulator from the arguments of another, as a deep copy needs it."""
     return kind(**settings)
 
 
 class Simulator(Settings, Shown):
-    """A system, what may touch in it, and how each step is solved.
+    """Takes steps of a system: finds contacts, builds the program of Eq. (13), and solves it.
 
     A simulator keeps what is slow to make and serves many steps: which coordinates move which
     contact, the solver. A copy is a new simulator with the same settings. Simulators of one system
@@ -226,12 +226,12 @@ class Simulator(Settings, Shown):
 
     @cached_property
     def all_pairs(self) -> AllPairs:
-        """Which pairs are searched at once."""
+        """The pairs of this simulator, arranged for a joint search of closest points."""
         return AllPairs(measured_pairs(self.pairs, self.distances))
 
     @cached_property
     def geometry(self) -> ContactGeometry:
-        """Which coordinates move which contact."""
+        """The constant part of the contacts' Jacobians: which coordinates move which contact."""
         return ContactGeometry(self.layout, self.system.column_map)
 
     def __repr__(self) -> str:
@@ -372,7 +372,7 @@ class Simulator(Settings, Shown):
         return tuple(findings_of_scene(self, q, checked_force(self.system, force)))
 
     def extended(self, step: StepData, q: Array) -> StepSolution:
-        """A step solved, with the user's own constraints and costs at q, (n_q,), if any."""
+        """Solve a step, with the user's own constraints and costs at q (n_q,), if there are any."""
         if self.extension is None:
             return self.solution(step)
         return extended_solution(self, step, self.extension(q))
@@ -384,7 +384,7 @@ class Simulator(Settings, Shown):
         return self.solver
 
     def solution(self, step: StepData) -> StepSolution:
-        """A step solved under the simulator's law, by the solver that is kept."""
+        """Solve a step under the simulator's law of friction, by the solver that is kept."""
         solver = self.fitting_solver(step)
         if self.law == COULOMB:
             return coulomb_solution(step, solver, self.accuracy)
@@ -394,7 +394,7 @@ class Simulator(Settings, Shown):
             return self.otherwise_solved(step, failure)
 
     def solved(self, scaled: ScaledStep, solver: Solver) -> StepSolution:
-        """A step by one solver; errors as of :func:`~quasistatic_ref.solve.solve.solve_step`."""
+        """Solve a step by a given solver; errors as of ``solve_step``."""
         solution = without_warnings(
             solved, scaled, solver, self.accuracy, self.certify, self.working_set
         )
@@ -403,7 +403,7 @@ class Simulator(Settings, Shown):
         return solution
 
     def otherwise_solved(self, step: StepData, failure: StepNotSolved) -> StepSolution:
-        """A step that the backend failed, by the next one that solves it, or exactly.
+        """Solve a step on which the backend failed: by another backend, or by the exact method.
 
         Its ``statistics.unanswered`` counts such steps. A backend that was asked for by name is
         replaced with ``"residual"`` only, unless it is a default one: ``"full"`` needs none, and

@@ -46,7 +46,7 @@ def stiffness_matrix(system: System, K_q: ArrayLike | Mapping[str, ArrayLike]) -
 
 
 def stiffness_block(numbers: ArrayLike, name: str, n: int) -> Array:
-    """A matrix of shape (n, n) from a number, a diagonal or itself [N/m, N m/rad].
+    """A stiffness matrix (n, n) from a number, a diagonal or a matrix [N/m, N m/rad].
 
     Raises
     ------

@@ -80,7 +80,7 @@ class JointTrack(Plain):
         return np.reshape(rows, (len(t), joint.q.stop - joint.q.start)).astype(np.float64)
 
     def _within(self, i: int, s: float) -> list[float]:
-        """Where it is in interval i, a share s of which has passed: nq entries of q."""
+        """Entries of q in interval i, after the share s of its duration."""
         start: list[float] = self.values[i].tolist()
         if s == 0:
             return start

@@ -132,7 +132,7 @@ class Trajectory(Plain, HasPage):
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """What is wrong with its scene or doubtful in it: causes first, then what comes of them.
+        """Findings on the scene and the run: causes come before their effects.
 
         There are none without ``optional/doctor``, nor in files from before there were findings;
         what is found of ``seconds`` is kept in memory only, as they are. Those of
@@ -142,7 +142,7 @@ class Trajectory(Plain, HasPage):
 
     @property
     def ignored_findings(self) -> tuple[Finding, ...]:
-        """Findings that the scene, or the user, has asked not to hear."""
+        """Findings that the scene or the user has chosen to ignore."""
         return tuple(one for one in self._findings if one.name in self.header.ignore)
 
     @property
@@ -207,7 +207,7 @@ class Trajectory(Plain, HasPage):
 
     @cached_property
     def imbalance(self) -> Array:
-        """The share of the load that the forces of each step leave, shape (steps,) [-].
+        """The share of the load that the forces of each step do not balance, (steps,) [-].
 
         That of :class:`~quasistatic_ref.certify.solution.ContactForces`.
 

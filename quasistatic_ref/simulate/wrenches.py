@@ -39,7 +39,7 @@ class ContactsOverSteps(NamedTuple):
         return np.asarray(np.einsum("kci,kcix->kcx", self.wrench[:, :, :3], self.frame))
 
     def check(self, scene: Scene) -> None:
-        """Refuse another scene than theirs: InputError."""
+        """Raise InputError if a scene is not the one that these contacts belong to."""
         n_c = len(contact_layout(scene.pairs).names)
         if self.wrench.shape[1] != n_c or self.q.shape[1] != scene.system.n_q:
             problem = "is another one than that of the steps: numbers of contacts or of q differ"
@@ -102,7 +102,7 @@ def wrench_on(contacts: ContactsOverSteps, scene: Scene, name: str) -> Array:
 
 
 class ByPair(dict[str, Array]):
-    """What is known of each pair, by its name; another name is answered by the names of all."""
+    """A mapping by the names of pairs; an unknown name is answered with all known names."""
 
     def __missing__(self, name: str) -> Array:
         raise MissingKey(f"is no pair; {known_names(self)}", field=str(name))
