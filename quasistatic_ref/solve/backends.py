@@ -32,7 +32,7 @@ and all at 1e-9; of 40 grasp steps 37 at 1e-12 and all at 1e-11."""
 
 @dataclass(frozen=True)
 class Backend:
-    """One line of the table.
+    """A solver as this package knows it: its name, its options for an accuracy, and its limits.
 
     Parameters
     ----------
@@ -87,12 +87,12 @@ class Backend:
 
     @property
     def to_install(self) -> str:
-        """The package that it comes in."""
+        """The name under which pip installs the solver."""
         return self.package or self.name
 
     @property
     def to_install_it(self) -> str:
-        """What to type for it: its package, or the extra that has every solver."""
+        """The command that installs the solver, as a message shows it."""
         alone = f"pip install {self.to_install}"
         return alone if self.required else f"{alone}, or 'quasistatic-ref[study]' for every solver"
 
@@ -151,7 +151,7 @@ def _piqp(accuracy: float) -> OptionSets:
 
 
 def at_accuracy(*names: str, **others: Any) -> Callable[[float], OptionSets]:
-    """One set of options, of which some are the accuracy, and others are what they are."""
+    """One set of options: those in `names` are the accuracy, those in `others` are fixed."""
     return lambda accuracy: (dict.fromkeys(names, accuracy) | others,)
 
 
@@ -203,7 +203,7 @@ NONE = "none"
 
 @cache  # CVXPY tries to import every solver it knows: 2 ms
 def reached(interface: str) -> tuple[str, ...]:
-    """Every solver that is here, by ``"cvxpy"`` or, with its optional part, ``"qpsolvers"``."""
+    """Names of all installed solvers that ``"cvxpy"`` or ``"qpsolvers"`` can call."""
     if not find_spec(interface):  # a light installation
         return ()
     if interface == "cvxpy":
@@ -230,7 +230,7 @@ def installed(interface: str) -> tuple[str, ...]:
 
 
 def others_installed() -> tuple[str, ...]:
-    """Names of what CVXPY, and behind ``qpsolvers:`` qpsolvers, have that is not in the table."""
+    """Names of installed solvers that are not in the table, those of qpsolvers with prefix."""
     names = [*reached("cvxpy"), *(QPSOLVERS + name for name in reached("qpsolvers"))]
     return tuple(name for name in names if name.removeprefix(QPSOLVERS) not in BACKENDS)
 
@@ -248,13 +248,13 @@ def is_function(name: str) -> bool:
 
 
 def installed_backends() -> tuple[str, ...]:
-    """Names of the solvers here: those through CVXPY first, then those through qpsolvers."""
+    """Names of the installed backends: those through CVXPY first, then through qpsolvers."""
     names = (*installed("cvxpy"), *(QPSOLVERS + name for name in installed("qpsolvers")))
     return tuple(name for name in names if not BACKENDS[name.removeprefix(QPSOLVERS)].no_steps)
 
 
 def backend_names() -> tuple[str, ...]:
-    """Every name that a user may write here, as messages, completion and ``backends`` list them."""
+    """Every name of a backend that a user may write, ``"none"`` included."""
     return (*installed_backends(), NONE)
 
 
@@ -327,7 +327,7 @@ CERTIFY: tuple[Certify, ...] = get_args(Certify)
 
 
 def check_backend(name: str, cone_name: str, certify: str = CERTIFY[0]) -> None:
-    """Refuse what no step can be solved with: before a run, rather than in its first step.
+    """Refuse a combination of backend, cone and proof with which no step can be solved.
 
     Parameters
     ----------
@@ -356,7 +356,7 @@ def check_backend(name: str, cone_name: str, certify: str = CERTIFY[0]) -> None:
 
 
 def check_certify(name: str | None, certify: str) -> None:
-    """Refuse a way to certify.
+    """Refuse a value of `certify` that is unknown, or that the backend ``"none"`` cannot give.
 
     Raises
     ------

@@ -25,7 +25,7 @@ logging.getLogger("__cvxpy__").addFilter(_is_none_of_those)
 
 @cache
 def greeting_silenced() -> None:
-    """Let HiGHS greet where nobody reads it."""
+    """Discard what HiGHS prints when it starts."""
     highspy = import_module("highspy")
     sys.stdout.flush()
     try:

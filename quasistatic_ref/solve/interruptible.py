@@ -16,7 +16,7 @@ class InterruptibleOsqp(OSQP):  # type: ignore[misc]
     """CVXPY's interface to OSQP under another name, which CVXPY asks of a custom solver."""
 
     def name(self) -> str:
-        """Its name in CVXPY."""
+        """The name under which CVXPY calls this solver."""
         return "INTERRUPTIBLE_OSQP"
 
     def solve_via_data(self, *data: Any, **options: Any) -> Any:
@@ -30,7 +30,7 @@ class InterruptibleScs(SCS):  # type: ignore[misc]
     """CVXPY's interface to SCS under another name, which CVXPY asks of a custom solver."""
 
     def name(self) -> str:
-        """Its name in CVXPY."""
+        """The name under which CVXPY calls this solver."""
         return "INTERRUPTIBLE_SCS"
 
     def solve_via_data(self, *data: Any, **options: Any) -> Any:

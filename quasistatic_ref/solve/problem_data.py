@@ -25,7 +25,7 @@ anew, which takes less time than to compile them and to apply the map."""
 
 @dataclass(frozen=True, eq=False)
 class ProblemData:
-    """What ``cvxpy.Problem.get_problem_data`` returns.
+    """A compiled CVXPY problem: what ``cvxpy.Problem.get_problem_data`` returns.
 
     Parameters
     ----------

@@ -22,7 +22,7 @@ from quasistatic_ref.step.units import Units
 
 
 class _ByGroups(ScaledStep):
-    """A step whose natural forms are formed group by group, of many bodies none as large as J."""
+    """A step whose standard form is built group by group, in natural units."""
 
     @cached_property
     def natural_by_group(self) -> list[StandardForm]:
@@ -35,7 +35,7 @@ class _ByGroups(ScaledStep):
 
 
 class ExactCertificate(Late, Certificate):
-    """The certificate of an exact optimum, whose working set decides on the rest of it.
+    """The certificate of an exact optimum; its other fields are computed when they are read.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class ExactCertificate(Late, Certificate):
 
     @cached_property
     def degeneracy(self) -> Degeneracy:
-        """What the rows without slack say of the optimum."""
+        """Whether multipliers are unique and delta_q is differentiable at the optimum."""
         return without_warnings(step_degeneracy, self.step, self.working_set)
 
     @property

@@ -8,7 +8,7 @@ from quasistatic_ref.numbers.arrays import Array
 
 @dataclass(eq=False)
 class Reply:
-    """What a solver answered: as it is, not judged; of a step, in natural units.
+    """The unchecked answer of a solver; that to a step is in natural units.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class Reply:
 
     @property
     def answer(self) -> tuple[Array, Array]:
-        """Its x, shape (n,), and lam, shape (m,), where it has both [-]."""
+        """The solver's x (n,) and multipliers lam (m,) [-]; None unless it gave both."""
         assert self.x is not None
         assert self.lam is not None
         return self.x, self.lam

@@ -63,7 +63,7 @@ def solve_scaled(problem: cp.Problem, data: ProblemData, options: Options) -> No
 
 
 class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
-    """Data of a cone program in natural units; in a chain, before its solver, what leads back.
+    """A CVXPY reduction that scales a cone program to natural units and its solution back.
 
     Parameters
     ----------

@@ -276,7 +276,7 @@ def proved(
 def starts(
     scaled: ScaledStep, solver: Solver, claimed: Reply | None, start: Sequence[int]
 ) -> list[list[int]]:
-    """The rows from which the exact method starts, of each group, counted in it.
+    """For each group, the rows from which the exact method starts.
 
     Parameters
     ----------
@@ -304,7 +304,7 @@ def starts(
 
 
 def judged(scaled: ScaledStep, solver: Solver, reply: Reply, certify: Certify) -> StepSolution:
-    """A backend's own answer as a solution in SI units.
+    """A backend's answer as a solution in SI units, with its residuals as certificate.
 
     Parameters
     ----------

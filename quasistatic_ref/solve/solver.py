@@ -38,7 +38,7 @@ FREE = "not called: the step has no rows"
 
 
 class Solver(ABC):
-    """What solves steps of one kind.
+    """A solver of steps that have the same sizes, cone and friction.
 
     A copy, or one that was pickled, compiles its problem again and starts cold.
 
@@ -100,7 +100,7 @@ class Solver(ABC):
             raise InputError(problem, field="solver", value=f"{self.name}, {self.interface}")
 
     def differences(self, step: StepData) -> list[str]:
-        """In what of ``fixed`` a step is not like the one that the problem was compiled for."""
+        """Names of the fields in which a step differs from the one the problem was compiled for."""
         return differences(self.template, step, self.fixed)
 
     @abstractmethod

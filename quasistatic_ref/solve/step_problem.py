@@ -24,7 +24,7 @@ Additions = Callable[["StepProblem"], Sequence[cp.Constraint | cp.Expression]]
 
 
 class StepProblem:
-    """Eq. :eq:`eq-13`, for the steps of one h, mu_v, mu_omega, cone, row count and size.
+    """Eq. :eq:`eq-13` in CVXPY, for all steps with the same h, mu_v, mu_omega, cone and size.
 
     ``problem`` is an ordinary :class:`cvxpy.Problem`, filled with a step in SI units: print it, or
     put another in its place, as below. Its costs are about 1e-7, below the tolerances of every

@@ -124,7 +124,7 @@ def _power_of_two(x: float) -> float:
 
 
 def of_group(form: StandardForm, group: Group) -> StandardForm:
-    """Those matrices of a program that are of one group."""
+    """The matrices of one group of a program."""
     c = group.coordinates
     if len(c) == len(form.g) and len(group.rows) == len(form.b):
         return form
@@ -149,12 +149,12 @@ class ScaledStep:
 
     @cached_property
     def form(self) -> StandardForm:
-        """Its standard form, SI units."""
+        """The standard form of the step in SI units."""
         return standard_form(self.step)
 
     @cached_property
     def units(self) -> Units:
-        """Its natural units.
+        """The natural units of the step.
 
         Raises
         ------
@@ -172,12 +172,12 @@ class ScaledStep:
 
     @cached_property
     def natural(self) -> StandardForm:
-        """Its standard form in natural units."""
+        """The standard form of the step in natural units."""
         return natural_form(self.form, self.units)
 
     @cached_property
     def groups(self) -> list[tuple[Group, StepData]]:
-        """Its groups, each as a step in SI units."""
+        """The groups of the step, each as a step of its own in SI units."""
         return group_steps(self.step)
 
     @cached_property
@@ -187,7 +187,7 @@ class ScaledStep:
 
     @cached_property
     def lengths(self) -> list[list[float]]:
-        """Of each group, those of :func:`~quasistatic_ref.certify.norm.single_lengths`."""
+        """For each group the :func:`~quasistatic_ref.certify.norm.single_lengths`."""
         return single_lengths(self.groups)
 
     @cached_property
@@ -237,7 +237,7 @@ class ScaledStep:
 
 
 def out_of_range() -> StepDataError:
-    """The error about a step whose numbers are finite, but not what is made of them."""
+    """The error for a step whose numbers are finite but whose natural units are not."""
     return StepDataError(
         "its numbers are too large, too small or too different: products of them exceed the "
         "range of float64; look for a wrong unit"
