@@ -84,7 +84,7 @@ class FrictionCone(ABC):
 
     @abstractmethod
     def row_coefficients(self, mu: Array) -> Array:
-        """What slips and spin are multiplied by in A, (n_c, 3) [-, -, m]; `mu` as of contacts."""
+        """Factors of the slips and the spin in A, (n_c, 3) [-, -, m], from friction `mu`."""
 
 
 class PolyhedralCone(FrictionCone):
@@ -93,7 +93,7 @@ class PolyhedralCone(FrictionCone):
     polyhedral = True
 
     def row_coefficients(self, mu: Array) -> Array:
-        """The coefficients of friction `mu`, (n_c, 3) [-, -, m], themselves."""
+        """The coefficients of friction `mu` (n_c, 3) [-, -, m], unchanged."""
         return mu
 
 
@@ -162,7 +162,7 @@ def facets(K: int) -> ConeFunction:
 
 
 def checked_cone(name: object) -> FrictionCone:
-    """The cone of a name from outside; StepDataError, too, where it is no text."""
+    """The cone with a name from a file or a user; StepDataError if there is none."""
     if not isinstance(name, str):
         problem = "must be the name of a cone, such as 'pyramid'"
         raise StepDataError(problem, field="cone", value=name)
@@ -171,7 +171,7 @@ def checked_cone(name: object) -> FrictionCone:
 
 @cache
 def cone(name: str) -> FrictionCone:
-    """The cone of a name.
+    """The friction cone with a name, such as ``"pyramid"`` or ``"facets-8"``.
 
     Parameters
     ----------

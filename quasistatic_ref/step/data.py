@@ -101,7 +101,7 @@ class Extra(Plain, Shown):
 
     @property
     def empty(self) -> bool:
-        """Whether it holds neither rows nor a cost."""
+        """Whether there are neither rows nor a cost."""
         return not self.names and self.cost is None
 
     def of(self, rows: Indices, coordinates: Indices) -> Extra:
@@ -248,7 +248,7 @@ class StepData(Plain, HasPage):
             raise StepDataError(problem, field="extra.H", value=extra.cost[0].tolist())
 
     def _definite_with(self, of_cost: Array) -> bool:
-        """Whether H, with that of a cost, shape (n_v, n_v), is positive definite without rounding.
+        """Whether H plus the H of a cost (n_v, n_v) is positive definite, decided exactly.
 
         It is judged times h over a power of two near h: no entry then leaves float64's range.
         """
@@ -268,12 +268,12 @@ class StepData(Plain, HasPage):
 
     @property
     def coupled_entries(self) -> tuple[Indices, Indices]:
-        """Row and column of each of these entries, (k,)."""
+        """Rows and columns, (k,) each, of the entries of H that may be nonzero."""
         i, j = np.nonzero(self.coupled())
         return i, j
 
     def coupled(self) -> Mask:
-        """Which entries of H a term of it may have, shape (n_v, n_v)."""
+        """A mask of the entries of H that may be nonzero, shape (n_v, n_v)."""
         coupled = np.zeros((self.n_v, self.n_v), dtype=bool)
         coupled[: self.n_a, : self.n_a] = self.K_q != 0
         coupled[self.n_a :, self.n_a :] = self.M_u != 0
@@ -353,7 +353,7 @@ KIND: dict[str, Callable[[StepData], ArrayLike]] = {
 
 
 def differences(template: StepData, step: StepData, names: Iterable[str] = KIND) -> list[str]:
-    """In what of those `names` of ``KIND`` a step is not like another."""
+    """Those of `names` in which two steps differ."""
     return [n for n in names if not np.array_equal(KIND[n](template), KIND[n](step))]
 
 

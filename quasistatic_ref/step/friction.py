@@ -32,7 +32,7 @@ def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, A
 
 
 def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
-    """The rows [J'(n~ + d~_i)]' of Eq. :eq:`eq-4`, for each contact all that the cone has.
+    """The rows [J'(n~ + d~_i)]' of Eq. :eq:`eq-4`: for each contact all rows of the cone.
 
     Parameters
     ----------

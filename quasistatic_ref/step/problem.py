@@ -18,7 +18,7 @@ from quasistatic_ref.step.units import FAR, Units, ends_within, si_units
 
 @dataclass(eq=False)
 class Page:
-    """What stands on the paper's page.
+    """The paper's program (13) in CVXPY: its variable, parameters, constraints and problem.
 
     Parameters
     ----------

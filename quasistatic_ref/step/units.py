@@ -1,4 +1,4 @@
-r"""A step in other units: the same program in other numbers.
+r"""Units in which a step's numbers are expressed.
 
 With :math:`\delta q = \rho\,S\,x` and lengths in units of :math:`\rho\,\ell`, Eqs. :eq:`eq-13` and
 :eq:`eq-4` keep their form.
@@ -39,7 +39,7 @@ class Units(NamedTuple):
 
 
 def si_units(n_v: int) -> Units:
-    """Units in which a step of n_v coordinates has the numbers that it has."""
+    """SI units for a step of n_v coordinates: all factors are one."""
     return Units(np.ones(n_v), 1.0, 1.0)
 
 
