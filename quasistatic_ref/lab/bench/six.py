@@ -51,7 +51,7 @@ class Steps:
         self._k = 0
 
     def step(self) -> None:
-        """Take the next one."""
+        """Take the next step."""
         self._k += 1
         target = self._scene.target(self._simulator.h * self._k, self._q)
         self._q = self._simulator.step(self._q, target, self._scene.force).q
@@ -103,7 +103,7 @@ def _repeated(job: Job, often: int) -> None:
 
 
 def _wall(scene: Scene, certify: Certify, steps: int) -> float:
-    """Wall time of a run with all that it says [s]; its simulator is made before."""
+    """Wall time of a run with its findings [s], without the making of the simulator."""
     simulator = scene.simulator(certify, True)
     start = time.perf_counter()
     run = rollout(

@@ -99,7 +99,7 @@ def within(what: str, measured: ArrayLike, low: float, high: float) -> Compariso
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What measuring a claim brought.
+    """The comparisons that were measured for a claim.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ class Evidence:
 
     @classmethod
     def of(cls, *comparisons: Comparison) -> "Evidence":
-        """Comparisons one after another."""
+        """Evidence made of the given comparisons."""
         return cls(comparisons)
 
 

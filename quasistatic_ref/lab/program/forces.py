@@ -10,7 +10,7 @@ COMPLIANCE = 1e-9
 
 
 def compliances(contacts):
-    """The c of each contact [m/N]."""
+    """The compliance c of each contact [m/N]."""
     return [contact.get("compliance", COMPLIANCE) for contact in contacts]
 
 

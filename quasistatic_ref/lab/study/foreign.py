@@ -19,7 +19,7 @@ from quasistatic_ref.step.units import Units
 
 @dataclass(frozen=True)
 class Foreign:
-    """A program of somebody's, as :class:`~quasistatic_ref.lab.study.program.Known`.
+    """A user's quadratic program as a problem of a study.
 
     Parameters
     ----------
@@ -36,17 +36,17 @@ class Foreign:
 
     @property
     def family(self) -> str:
-        """Its name without the number at its end."""
+        """The problem's family: its name without the number at its end."""
         return self.id.rstrip("0123456789") or self.id
 
     @property
     def feasible(self) -> bool:
-        """Whether it has a solution."""
+        """Whether the program has a solution."""
         return isinstance(self.answer, ExactQP)
 
     @cached_property
     def program(self) -> Program:
-        """Its matrices: rows a x + c >= 0 as A = a and b = -c, equations first."""
+        """The program's matrices, with rows A x >= b, equations first."""
         problem = self.answer.problem
         rows = problem.rows
         return Program(
@@ -55,7 +55,7 @@ class Foreign:
 
     @cached_property
     def units(self) -> Units:
-        """Its natural units."""
+        """The program's natural units."""
         return units_of(StandardForm(*self.program[:4]))
 
     def digits(self, x: Array) -> float:

@@ -19,7 +19,7 @@ RESIDUALS = ("primal", "dual", "gap")
 def facts_of_reply(
     problem: Known, units: str, reply: Reply, solver: Solver, accuracy: float | None
 ) -> dict[str, Any]:
-    """What one reply is, as fields of a row.
+    """The fields of a study's row that grade one reply of a solver.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def facts_of_reply(
 
 
 def no_reply(status: str, accuracy: float | None, seconds: float | None = None) -> dict[str, Any]:
-    """The same fields of a call without an answer.
+    """The fields of a study's row for a call without an answer.
 
     Parameters
     ----------

@@ -7,7 +7,7 @@ from quasistatic_ref.errors import InputError
 
 @dataclass(frozen=True)
 class Limits:
-    """What calls may take.
+    """Limits of time and memory for the calls of a study.
 
     Parameters
     ----------

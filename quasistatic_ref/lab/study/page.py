@@ -109,7 +109,7 @@ def _natural(table: Any) -> Any:
 
 
 def _sayings(table: Any) -> list[str]:
-    """How many calls of each solver said what, a line a solver and one for all."""
+    """How often each solver gave each answer: a line for each solver and one for all."""
     asked = _natural(table)[lambda rows: rows["accuracy"].notna()]
     truth = asked["feasible"].map({True: ", a solution", False: ", no solution"})
     arrived = asked["reached"].map({True: ", reached", False: ", not reached"})
@@ -122,7 +122,7 @@ def _sayings(table: Any) -> list[str]:
 
 
 def _by_setting(table: Any) -> Any:
-    """A line for each solver, door and setting."""
+    """A table with a line for each solver, interface and setting."""
     solvable = _natural(table)[lambda rows: rows["feasible"]]
     lines = (
         solvable.assign(
@@ -149,7 +149,7 @@ def _by_setting(table: Any) -> Any:
 
 
 def _best(every: Any) -> Any:
-    """Of each solver, whatever its door, the line that most often has six digits."""
+    """For each solver its best line: the one with six digits most often, by any interface."""
     order = every.sort_values(["six", "ms"], ascending=[False, True])
     return order[~order["label"].str.partition(":")[2].duplicated()]
 
@@ -191,7 +191,7 @@ def _families(table: Any) -> list[str]:
 
 
 def _units(table: Any) -> Iterator[str]:
-    """Digits of the same calls in either units."""
+    """Digits of the same calls in SI and in natural units."""
     raw = table[table["units"] != NATURAL]
     both = table[
         table["problem"].isin(raw["problem"])

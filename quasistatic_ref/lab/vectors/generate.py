@@ -47,7 +47,7 @@ def new_record(name: str, case: Case) -> dict[str, Json]:
 
 
 def generate_folder(source: Path, out: Path, progress: bool = True) -> dict[str, int]:
-    """Copy what is expected of the inputs in a folder, add that of new cases, write it whole.
+    """Write a folder of vectors: copy known expected outputs, and compute those of new cases.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ OPEN: Final = 1e-4
 
 
 class Side(NamedTuple):
-    """The steps on one side.
+    """The steps on one side of the current parameters, and their difference quotients.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 
 
 class Check(NamedTuple):
-    """One line of the table.
+    """One check: the findings that it can give, and when it cannot be made.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def looked(checks: Iterable[Check], of: Start | Trajectory) -> tuple[list[Findin
 
 
 def failure(error: Exception) -> str:
-    """What failed, in a line."""
+    """The message of an exception, on one line."""
     return one_line(f"{type(error).__name__} {error}".rstrip())
 
 

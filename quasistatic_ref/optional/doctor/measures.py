@@ -42,7 +42,7 @@ SMALL = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class PairMeasures(Plain):
-    """What two shapes did.
+    """Measures of one pair of shapes in a run: touching, sliding and spinning.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ class Motion(Plain):
 
 @dataclass(frozen=True, eq=False)
 class Drive(Plain):
-    """What an actuated joint or base did.
+    """Measures of an actuated joint or base in a run: error, way and spring force.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ class Drive(Plain):
 
 @dataclass(frozen=True, eq=False)
 class Measures(Plain):
-    """What happened in a run, without forces.
+    """Measures of all pairs, bodies and joints in a run.
 
     Parameters
     ----------
@@ -136,7 +136,7 @@ class Measures(Plain):
 
 
 def measures(trajectory: Trajectory, settings: Settings) -> Measures:
-    """What happened in a run of a scenario or simulator."""
+    """Measures of a run, from its trajectory and the settings of its scenario."""
     system = settings.system
     joints = system.joints
     hands = [joint for joint in joints if joint.actuated and joint.free]

@@ -53,7 +53,7 @@ class Doctor(Observer):
     def after(
         self, recorder: Recording, results: Sequence[StepResult], arrays: StepArrays
     ) -> dict[str, Array]:
-        """What is read at the end, of each step.
+        """Note the numbers of each step that findings need at the end of the run.
 
         J delta_q, shape (steps, n_c, 4) [m, m, m, rad], of which a light record holds nothing; M_u
         delta_q_u, (steps, n_u) [kg m, kg m^2]; what springs give along n, (steps, n_c) [m/N].
@@ -125,7 +125,7 @@ class LateHeader(Header):
 
     @classmethod
     def compared_as(cls) -> type:
-        """As any header."""
+        """The class :class:`Header`, as which a late header is compared."""
         return Header
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -133,17 +133,17 @@ class LateHeader(Header):
 
     @cached_property
     def _diagnosis(self) -> tuple[tuple[Finding, ...], str]:
-        """Findings, and what was not looked at."""
+        """The findings, and the checks that were not made."""
         return _looked_for(self.at, self.failed is not None)
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
-        """As of a header."""
+        """The field of :class:`Header` of this name, computed when it is first read."""
         return self._diagnosis[0]
 
     @cached_property
     def not_looked_at(self) -> str:
-        """As of a header."""
+        """The field of :class:`Header` of this name, computed when it is first read."""
         return self._diagnosis[1]
 
 
@@ -152,7 +152,7 @@ def _header(values: dict[str, Any]) -> Header:
 
 
 def _looked_for(at: Start, failed: bool) -> tuple[tuple[Finding, ...], str]:
-    """The findings, and what was not looked at."""
+    """The findings at the end of a run, and the checks that were not made."""
     checks: tuple[Check, ...] = OF_SCENE
     if isinstance(at, Run):
         checks += OF_RUN

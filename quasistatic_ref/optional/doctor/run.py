@@ -72,18 +72,18 @@ class Run(Start):
 
     @cached_property
     def pair_measures(self) -> list[PairMeasures]:
-        """What its pairs did, whatever the record holds."""
+        """Measures of each pair in the run, computed from any record."""
         return pair_measures(self.trajectory, self.noted("moved"))
 
     def held_by(self, i: int) -> tuple[str, str]:
-        """What is free in a pair, and what acts on it."""
+        """Names of the two sides of pair i: the one that nothing drives comes first."""
         pair = self.pairs[i]
         names = side(self.system, pair.alpha), side(self.system, pair.beta)
         return names if self.free[pair.alpha.link] else names[::-1]
 
     @cached_property
     def bodies_of(self) -> tuple[Body, ...]:
-        """What un-actuated coordinates move together."""
+        """The groups of un-actuated coordinates that move together."""
         return tuple(bodies(self))
 
     @cached_property
@@ -125,7 +125,7 @@ class Run(Start):
 
     @cached_property
     def asked(self) -> Asked:
-        """What its bodies lack, and what the model adds."""
+        """The results of the steps that were asked: missing forces, and what the model adds."""
         return Asked(self)
 
     @cached_property
@@ -140,7 +140,7 @@ class Run(Start):
 
     @property
     def scaled_slips(self) -> Array:
-        """The same times friction, as cones take them, shape (steps, n_c, 3) [m]."""
+        """Slips and turns multiplied by mu_v and mu_omega, shape (steps, n_c, 3) [m]."""
         return self.mu * self.slips
 
     @cached_property

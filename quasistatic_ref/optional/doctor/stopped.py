@@ -61,7 +61,7 @@ class Part(NamedTuple):
 
     @property
     def large(self) -> bool:
-        """Whether it is too large to be asked."""
+        """Whether the part is too large for its equilibrium to be checked."""
         return 4 * len(self.contacts) * len(self.group.coordinates) > GROUP
 
 
@@ -129,7 +129,7 @@ class Scene:
         self._turns = ~lengths & (coordinates >= step.n_a)
 
     def parts(self) -> Iterator[Part]:
-        """Its groups."""
+        """The groups of the scene, each as a part."""
         for group in groups(self.step):
             turns = self._turns[group.coordinates]
             slow = Slow(group_step(self.step, group), self._sizes[group.contacts], turns)

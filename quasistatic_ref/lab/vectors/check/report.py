@@ -19,7 +19,7 @@ HEADER = ("layer", *KINDS, "worst digits", "first failure")
 
 @dataclass(frozen=True)
 class LayerReport:
-    """What became of one layer.
+    """The verdicts on all cases of one layer.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class LayerReport:
     must: bool = False
 
     def required(self) -> "LayerReport":
-        """The same of a layer that has to be answered."""
+        """This report for a layer that must be answered: missing cases count as wrong."""
         return replace(self, must=True)
 
     def count(self, verdict: str) -> int:
@@ -123,7 +123,7 @@ class LayerReport:
 
     @property
     def row(self) -> tuple[str, ...]:
-        """Its line of the table."""
+        """The layer's line in the printed table."""
         counts = (str(self.count(v)) for v in KINDS)
         digits = f"{self.worst.digits:.1f}" if self.worst else "-"
         first = self.first.id if self.present and self.first else "-"
@@ -148,7 +148,7 @@ class LayerReport:
 
 @dataclass(frozen=True)
 class Report:
-    """What became of a folder of answers.
+    """The outcome of a check: the reports on all layers of a folder of answers.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ class Report:
 
     @property
     def sentences(self) -> list[str]:
-        """What the table does not say: why a layer fails, where to look first, what is missing."""
+        """Sentences below the table: why a layer fails, where to look first, what is missing."""
         sentences = []
         for layer in self.layers:
             if layer.trouble and not layer.ok:

@@ -59,7 +59,7 @@ class Difference:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What becomes of one case.
+    """The verdict on one case.
 
     Parameters
     ----------
@@ -91,11 +91,11 @@ class Verdict:
 
     @property
     def record(self) -> dict[str, Json]:
-        """As it stands in a JSON report."""
+        """The verdict as a JSON report holds it."""
         return asdict(self) | {"digits": None if self.digits is None else round(self.digits, 2)}
 
     def named(self, id: str) -> "Verdict":
-        """The same about a case of that id."""
+        """This verdict with the id of its case."""
         return replace(self, id=id)
 
 
