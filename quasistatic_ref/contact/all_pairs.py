@@ -80,7 +80,7 @@ class AllPairs:
         return contacts
 
     def write(self, kinematics: Kinematics, contacts: ClosestPoints) -> None:
-        """Write the contacts into given arrays of shape (n_c, ...); errors as of closest_points."""
+        """Write the contacts into arrays of shape (n_c, ...); ContactError as of closest_points."""
         R = kinematics.R
         t = kinematics.t
         if not (all_finite(R.ravel()) and all_finite(t.ravel())):

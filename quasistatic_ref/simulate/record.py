@@ -191,7 +191,7 @@ def arrays_of(readings: Sequence[Reading], names: Sequence[str]) -> StepArrays:
 
 
 def no_steps(header: Header, rows: Indices, n_q_a: int = 0) -> dict[str, NDArray[Any]]:
-    """All arrays of a run without steps, empty along the axis of steps.
+    """All arrays of a run without steps, each of its shape in the table with steps = 0.
 
     Parameters
     ----------

@@ -66,7 +66,7 @@ class Polytope:
 
     @cached_property
     def alone(self) -> "Polytope":
-        """This polytope as a stack of one."""
+        """The polytope as a stack of one."""
         return stacked([self])
 
     def moved(self, R: Array, t: Array) -> "Polytope":

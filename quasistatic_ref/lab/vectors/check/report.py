@@ -44,7 +44,7 @@ class LayerReport:
     must: bool = False
 
     def required(self) -> "LayerReport":
-        """This report for a layer that must be answered: missing cases count as wrong."""
+        """The report for a layer that must be answered: missing cases count as wrong."""
         return replace(self, must=True)
 
     def count(self, verdict: str) -> int:

@@ -95,7 +95,7 @@ class Verdict:
         return asdict(self) | {"digits": None if self.digits is None else round(self.digits, 2)}
 
     def named(self, id: str) -> "Verdict":
-        """This verdict with the id of its case."""
+        """The verdict with the id of its case."""
         return replace(self, id=id)
 
 
