@@ -147,9 +147,9 @@ def test_a_solver_that_cvxpy_does_not_call_and_whole_numbers_are_refused():
         page.solve("highs")
 
 
+@pytest.mark.extra("study")
 def test_multipliers_of_a_solve_that_gave_none_are_not_those_of_the_solve_before():
     """HiGHS gives none where an unknown is a whole number; CVXPY keeps the earlier ones."""
-    pytest.importorskip("highspy", reason="needs the extra study")
     page = qr.StepProblem(pinch())
     assert page.dual() is None
     page.solve()

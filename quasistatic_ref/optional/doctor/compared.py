@@ -33,6 +33,8 @@ NULL = 1e-9
 """Singular value that is none, over the largest; slip that is none [m, rad]."""
 INNER = 1e-6
 """Part of an inner load, of length 1, that is none in the resultants of a pair [-]."""
+EQUAL = 1e-6
+"""Difference of two shares of a change that is none: a force and its torque have equal ones."""
 TORQUE = 2
 SLIP = 3
 SPIN = 4
@@ -119,7 +121,7 @@ def _changes(run: Run, k: int, part: Part) -> Iterator[Change]:
         layer = convex - slowly
         change = np.minimum(np.abs(here - slowly), np.maximum(np.abs(drag), np.abs(layer)))
         shares = counts * quotient(change, sizes)
-        j = int(shares.argmax())
+        j = int((shares >= (1 - EQUAL) * shares.max()).argmax())  # the force, where it is as much
         amounts = (float(x[j]) for x in (here, slowly, drag, layer))
         yield Change(float(shares[j]), k, i, j, *amounts)
 
