@@ -40,6 +40,8 @@ class ConvexMesh(Shape):
     excess : float
         How much more than the mesh that it stands for it holds, from 0 (that mesh is convex)
         to 1 [-]; see :func:`hull_of_mesh`.
+    surface : ndarray, shape (S, 3, 3), optional
+        Corners of the triangles of that mesh [m], if it is not convex.
     """
 
     vertices: Array
@@ -48,6 +50,7 @@ class ConvexMesh(Shape):
     offsets: Array
     volume: float
     excess: float = 0.0
+    surface: Array | None = None
 
     def __post_init__(self) -> None:
         T = len(self.triangles)
@@ -55,6 +58,8 @@ class ConvexMesh(Shape):
         freeze_array(self, "normals", (T, 3))
         freeze_array(self, "offsets", (T,))
         self.triangles.setflags(write=False)
+        if self.surface is not None:
+            freeze_array(self, "surface", (len(self.surface), 3, 3))
 
     @property
     def is_convex(self) -> bool:
@@ -235,7 +240,8 @@ def hull_of_mesh(vertices: ArrayLike, triangles: Indices) -> ConvexMesh:
     excess = abs(hull.volume - enclosed) / hull.volume
     if excess <= CONVEX_EXCESS:
         excess = max(excess, _deepest(hull, every) / float(np.ptp(every, axis=0).max()))
-    return replace(hull, excess=min(excess, 1.0))
+    surface = points[triangles] if excess > CONVEX_EXCESS else None
+    return replace(hull, excess=min(excess, 1.0), surface=surface)
 
 
 def _deepest(hull: ConvexMesh, points: Array) -> float:

@@ -10,6 +10,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor.contradictions import farthest_points, hull_of
 from quasistatic_ref.optional.doctor.equilibrium import at_rest, borne
+from quasistatic_ref.optional.doctor.hollow import hull_alone
 from quasistatic_ref.optional.doctor.start import (
     Start,
     joining,
@@ -97,12 +98,19 @@ def penetration(start: Start) -> Iterator[Finding]:
         name = table(start, pair)
         deeper = name not in deepest or 1e3 * depth > deepest[name].numbers["depth_mm"]
         if depth > SUNK * least(pair) and deeper:
+            remedy = (
+                f"start {pair.alpha.name} and {pair.beta.name} {1e3 * depth:.3g} mm farther apart"
+            )
+            cause = f"{pair.name} is {1e3 * depth:.3g} mm deep at the start"
+            if hollow := hull_alone(start, pair, SUNK * least(pair)):
+                remedy = f"split the mesh of {hollow.name} into convex parts, each a <collision>"
+                cause += f": the hull of {hollow.name} overlaps, and the mesh itself does not"
             deepest[name] = Finding(
                 "initial-penetration",
                 True,
-                f"start {pair.alpha.name} and {pair.beta.name} {1e3 * depth:.3g} mm farther apart",
-                f"{pair.name} is {1e3 * depth:.3g} mm deep at the start, and a step undoes that at "
-                f"once, with {depth / start.h**2:.3g} N for each kilogram",
+                remedy,
+                f"{cause}; a step undoes that at once, with {depth / start.h**2:.3g} N for "
+                "each kilogram",
                 {"depth_mm": 1e3 * depth},
             )
     yield from deepest.values()
