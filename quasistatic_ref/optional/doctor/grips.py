@@ -7,7 +7,7 @@ import numpy as np
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import least_mean, table
+from quasistatic_ref.optional.doctor.start import friction_of, least_mean, table
 from quasistatic_ref.optional.doctor.stopped import Scene, missing
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.optional.doctor.tolerances import SLIPPED
@@ -111,13 +111,15 @@ def _finding(
     more = "" if lacks is None else f", and {lacks} are missing"
     slipped = way > SLIPPED * float(run.sizes[on].min())
     if turn > TURNED and (not slipped or (lacks is not None and lacks.turning > COUNTS)):
-        rows = "" if all(run.pairs[i].rows == 6 for i in pairs) else " (rows = 6)"
-        remedy = f"raise mu_omega of {tables}{rows}, or hold {body.name} nearer to its centre of "
-        remedy += "mass"
+        six = "condim 4" if run.system.of_mjcf else "rows = 6"
+        rows = "" if all(run.pairs[i].rows == 6 for i in pairs) else f" ({six})"
+        remedy = f"raise {friction_of(run, 'mu_omega', tables)}{rows}, or hold {body.name} nearer "
+        remedy += "to its centre of mass"
         does = f"turns by {amount(turn, 'rad')} in {holders} and slips by {length(way)}"
         says += f"mu_omega bears {float(normal[on] @ run.mu[on, 2]):.3g} N m"
     else:
-        remedy = f"raise mu_v of {tables}, or K_q of what closes it or how far it closes"
+        remedy = f"raise {friction_of(run, 'mu_v', tables)}, or K_q of what closes it or how far "
+        remedy += "it closes"
         does = f"slips by {length(way)} along {holders}"
         says += f"its friction bears {float(normal[on] @ run.mu[on, 0]):.3g} N"
     return Finding(

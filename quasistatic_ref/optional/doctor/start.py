@@ -233,6 +233,14 @@ def table(start: Start, pair: ContactPair) -> str:
     return f"contacts.{pair.name.partition('(')[0]}"
 
 
+def friction_of(start: Start, coefficient: str, names: str) -> str:
+    """A coefficient, mu_v or mu_omega, of some tables or MuJoCo pairs, by the scene's own field."""
+    if start.system.of_mjcf:
+        number = {"mu_v": "first", "mu_omega": "second"}[coefficient]
+        return f"the {number} number of friction of the geoms of {names}"
+    return f"{coefficient} of {names}"
+
+
 def joining(start: Start, names: str) -> str:
     """What lets some bodies touch, by the scene's own elements."""
     if start.system.of_mjcf:

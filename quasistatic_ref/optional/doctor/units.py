@@ -1,12 +1,13 @@
 """Numbers that look like another unit, or like nothing that is meant, and a run of no steps."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Start, least, table
+from quasistatic_ref.optional.doctor.start import Start, friction_of, least, table
 from quasistatic_ref.optional.doctor.tolerances import IN_METRES
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import PointCloud
@@ -54,16 +55,16 @@ def long_shapes(start: Start) -> Iterator[Finding]:
 
 
 def large_mu_omega(start: Start) -> Iterator[Finding]:
-    """mu_omega longer than the smaller body, once for each table of contacts."""
+    """mu_omega longer than the smaller body, once for each table of contacts or MuJoCo scene."""
     rough = [pair for pair in start.pairs if pair.mu_omega > least(pair)]
-    for name, pair in {table(start, pair): pair for pair in rough}.items():
+    for name, pair, others in _once(start, rough, lambda pair: pair.mu_omega / least(pair)):
+        field = friction_of(start, "mu_omega", name)
         yield Finding(
             "unit-of-mu-omega",
             True,
-            f"check the unit of mu_omega of {name}",
-            f"mu_omega of {name} is a length in metres, and {pair.mu_omega:.3g} m is more than "
-            "the size of the "
-            f"smaller body, {least(pair):.3g} m",
+            f"check the unit of {field}",
+            f"{field} is a length in metres, and {pair.mu_omega:.3g} m is more than the size of "
+            f"the smaller body, {least(pair):.3g} m{others}",
             {"mu_omega_m": pair.mu_omega, "size_m": least(pair)},
         )
 
@@ -87,17 +88,33 @@ def far_targets(run: Run) -> Iterator[Finding]:
 
 
 def friction(start: Start) -> Iterator[Finding]:
-    """A mu_v beyond that of anything, once for each table."""
-    rough = {table(start, pair): pair.mu_v for pair in start.pairs if pair.mu_v > ROUGH}
-    for name, mu_v in rough.items():
+    """A mu_v beyond that of anything, once for each table or MuJoCo scene."""
+    rough = [pair for pair in start.pairs if pair.mu_v > ROUGH]
+    for name, pair, others in _once(start, rough, lambda pair: pair.mu_v):
+        field = friction_of(start, "mu_v", name)
         yield Finding(
             "no-friction-coefficient",
             True,
-            f"check mu_v of {name}",
-            f"a friction coefficient is the ratio of two forces, of rubber on asphalt 1, and mu_v "
-            f"of {name} is {mu_v:g}",
-            {"mu_v": mu_v},
+            f"check {field}",
+            f"a friction coefficient is the ratio of two forces, of rubber on asphalt 1, and "
+            f"{field} is {pair.mu_v:g}{others}",
+            {"mu_v": pair.mu_v},
         )
+
+
+def _once(
+    start: Start, rough: list[ContactPair], excess: Callable[[ContactPair], float]
+) -> Iterator[tuple[str, ContactPair, str]]:
+    """The last pair of each table, or the worst of a MuJoCo scene, with words on the others.
+
+    A MuJoCo scene has a pair for any two geoms that may touch, and one default for their friction.
+    """
+    if start.system.of_mjcf and rough:
+        worst = max(rough, key=excess)
+        others = f" ({len(rough) - 1} more pairs are as suspect)" if len(rough) > 1 else ""
+        yield table(start, worst), worst, others
+        return
+    yield from ((name, pair, "") for name, pair in {table(start, p): p for p in rough}.items())
 
 
 def angle(start: Start) -> Iterator[Finding]:

@@ -293,6 +293,17 @@ found = findings([box()], mu_omega=3.0)
 after = {"check the unit of mu_omega of contacts.floor_box": findings([box()], mu_omega=3e-3)}
 
 
+# %% unit-of-mu-omega: six pads of 0.6 mm with the friction that MuJoCo gives by default, said once
+pads = "".join(f'<geom size="0.0006" pos="{i / 100} 0 0"/>' for i in range(6))
+body = f'<body pos="0 0 0.0006"><freejoint/>{pads}</body>'
+floor = '<geom type="plane" size="1 1 0.1"/>'
+condim = '<default><geom condim="4"/></default>'
+text = f"<mujoco>{condim}<worldbody>{floor}{body}</worldbody></mujoco>"
+found = mujoco_scenario(MjModel.from_xml_string(text), h=0.01, steps=1).findings()
+(unit,) = (x for x in found if x.name == "unit-of-mu-omega")
+assert unit.remedy.startswith("check the unit of the second number of friction of the geoms of ")
+assert unit.cause.endswith("the size of the smaller body, 0.0012 m (5 more pairs are as suspect)")
+
 # %% force-beyond-a-limit: a palm of 2 N bears 9.81 N, whatever its K_q is
 palm = Body("palm", weak, actuated="all", xyz=(0, 0, -0.05))
 found = findings([box(), palm], [("palm", "box", 0.5, 4)], steps=60)
