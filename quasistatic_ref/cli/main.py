@@ -7,6 +7,7 @@ import argparse
 import io
 import os
 import re
+import shlex
 import sys
 from collections.abc import Container, Mapping, Sequence
 from importlib import import_module
@@ -113,6 +114,7 @@ def status(options: argparse.Namespace) -> int:
     try:
         return _run(options)
     except InputError as error:
+        error.change = error.change or _option(error, options)
         return _failed(error, 2)
     except QuasistaticError as error:
         return _failed(error, 3)
@@ -131,6 +133,15 @@ def status(options: argparse.Namespace) -> int:
             return _failed(f"{clipped(str(error.filename))}: cannot be used: {reason}", 2)
         _discard_output()
         return _failed(f"standard output: cannot be written: {reason}", 2)
+
+
+def _option(error: InputError, options: argparse.Namespace) -> str | None:
+    """The option that wrote the value of an error, as the user wrote it; None if none did."""
+    written = getattr(options, str(error.field), None)
+    if written is None or written is False or written != error.value:
+        return None
+    word = f"{written:g}" if isinstance(written, float) else str(written)
+    return f"--{error.field} {shlex.quote(word)}"
 
 
 def _not_installed(error: ImportError) -> str:

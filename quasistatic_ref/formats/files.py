@@ -27,7 +27,7 @@ LARGEST_TOML = 2**20
 MOST_PARTS = 10
 """Most parts of a dotted key: a parser of TOML takes memory with the square of their number."""
 _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
-_LONG_KEY = re.compile(rf"(?<![\w.-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{MOST_PARTS}}}", re.ASCII)
+LONG_KEY = re.compile(rf"(?<![\w.-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{MOST_PARTS}}}", re.ASCII)
 PARTIAL = ".partial"
 """End of the names of files that are being written."""
 
@@ -264,7 +264,7 @@ def toml_read(
     with about_file(path):
         try:
             text = text_read(path, error, LARGEST_TOML)
-            if long_key := _LONG_KEY.search(text):
+            if long_key := LONG_KEY.search(text):
                 line = text.count("\n", 0, long_key.start()) + 1
                 problem = f"a key has more than {MOST_PARTS} parts"
                 raise error(problem, field=f"line {line}")

@@ -8,7 +8,7 @@ from pathlib import PurePath
 from typing import Any
 
 from quasistatic_ref.errors import InputError, ScenarioError
-from quasistatic_ref.formats.files import MOST_PARTS, plain
+from quasistatic_ref.formats.files import LONG_KEY, MOST_PARTS, plain
 from quasistatic_ref.scenario.paths import OwnWord
 
 Changes = Sequence[str] | Mapping[str, Any]
@@ -165,9 +165,12 @@ def _put(tables: dict[str, Any], key: str, value: Any, field: str, source: objec
 
 
 def parsed(text: str) -> Any:
-    """The value of a setting that is given as text: TOML, or else a plain word."""
+    """The value of a setting that is given as text: TOML, or else a plain word.
+
+    What has a key of more than `MOST_PARTS` parts is a word, too.
+    """
     try:
-        tables = tomllib.loads(f"value = {text}")
+        tables = {} if LONG_KEY.search(text) else tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
         tables = {}
     # Anything but one value, such as a second line, is taken as a word.
