@@ -1,12 +1,15 @@
 """Engines side by side: the committed page is that of the results, and answers hang on friction."""
 
+from dataclasses import replace
 from importlib import import_module
 
+import numpy as np
 import pytest
 
 from validation.make.engines import ENGINES, RESULTS, records
-from validation.programs.engines import ask
-from validation.programs.engines.phenomena import PHENOMENA
+from validation.programs.engines import ask, quasistatic
+from validation.programs.engines.phenomena import PHENOMENA, RADIUS, on_turntable
+from validation.programs.engines.scenes import simulated
 from validation.programs.engines.table import CROSSES, crosses, page, reason
 
 COMMITTED = records(RESULTS / "engines")
@@ -22,6 +25,18 @@ def test_every_cross_has_a_sentence_and_every_sentence_a_cross():
     }
     written = {name: {entry["why"] for entry in CROSSES.get(name, ())} for name in COMMITTED}
     assert said == written
+
+
+def test_a_body_on_a_turntable_keeps_its_radius_where_friction_bears_the_drag():
+    """A step turns the table and what sticks on it by one screw; drag is m v / h up to mu_v m g."""
+    scene = on_turntable()
+    setting = quasistatic.SETTINGS["pyramid, steps of 0.1 s"]
+    motion = simulated(scene, quasistatic.Engine(scene, setting), setting["h"])
+    assert np.abs(np.linalg.norm(motion.places[:, :2], axis=1) - RADIUS).max() < 1e-8
+    assert motion.turns.sum() == pytest.approx(2.0)
+    slippery = replace(scene, mu_v=0.01)
+    motion = simulated(slippery, quasistatic.Engine(slippery, setting), setting["h"])
+    assert motion.places[-1, 1] < RADIUS / 10  # hardly carried along
 
 
 @pytest.mark.extra("compared")

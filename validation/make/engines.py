@@ -26,7 +26,7 @@ COMMITTED = ("newton", "pinocchio")
 """Engines whose results were measured once; their adapters are gone."""
 PYTHON = (3, 11)
 """The only one for which pybullet has wheels and that this project runs on."""
-TIMEOUT = 900.0
+TIMEOUT = 1800.0
 """For one engine [s]."""
 
 

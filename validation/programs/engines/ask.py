@@ -11,7 +11,7 @@ from types import ModuleType
 from typing import Any
 
 from validation.programs.engines.phenomena import PHENOMENA, Phenomenon
-from validation.programs.engines.scenes import NotMeaningful, simulated
+from validation.programs.engines.scenes import TIME_STEP, NotMeaningful, simulated
 
 
 def value(engine: ModuleType, setting: dict[str, Any], phenomenon: Phenomenon) -> float:
@@ -22,7 +22,8 @@ def value(engine: ModuleType, setting: dict[str, Any], phenomenon: Phenomenon) -
     ValueError
         If a state is no number.
     """
-    motions = [simulated(scene, engine.Engine(scene, setting)) for scene in phenomenon.scenes]
+    h = setting.get("h", TIME_STEP)
+    motions = [simulated(scene, engine.Engine(scene, setting), h) for scene in phenomenon.scenes]
     return phenomenon.measure(motions)
 
 
@@ -47,7 +48,8 @@ def main() -> int:
     except ImportError as error:
         print(json.dumps({"missing": str(error)}), file=out)
         return 2
-    print(json.dumps({"name": engine.NAME}), file=out, flush=True)
+    head = {"name": engine.NAME, "not_default": engine.NOT_DEFAULT}
+    print(json.dumps(head), file=out, flush=True)
     for setting, values in engine.SETTINGS.items():
         for name, phenomenon in PHENOMENA.items():
             answer = cell(engine, values, phenomenon)

@@ -11,18 +11,40 @@ from validation.programs.engines.scenes import TIME_STEP, Body, Scene
 
 NAME = f"bullet (pybullet {version('pybullet')})"
 NO_TORSION = ""
+TO_THE_END = {"solverResidualThreshold": 0.0}
 SETTINGS: dict[str, dict[str, Any]] = {
-    "friction cone, 50 iterations": {"enableConeFriction": 1, "numSolverIterations": 50},
-    "friction pyramid, 50 iterations": {"enableConeFriction": 0, "numSolverIterations": 50},
-    "friction cone, 500 iterations": {"enableConeFriction": 1, "numSolverIterations": 500},
-}
+    "friction cone, 50 iterations, to the end": {
+        "enableConeFriction": 1, "numSolverIterations": 50, **TO_THE_END,
+    },
+    "friction pyramid, 50 iterations, to the end": {
+        "enableConeFriction": 0, "numSolverIterations": 50, **TO_THE_END,
+    },
+    "friction cone, 500 iterations, to the end": {
+        "enableConeFriction": 1, "numSolverIterations": 500, **TO_THE_END,
+    },
+    "friction cone, 50 iterations or fewer (default)": {
+        "enableConeFriction": 1, "numSolverIterations": 50,
+    },
+    "friction cone, 500 iterations or fewer": {
+        "enableConeFriction": 1, "numSolverIterations": 500,
+    },
+}  # fmt: skip
+NOT_DEFAULT = (
+    "To the end: solverResidualThreshold = 0. By default it is 1e-7, and iterations end where the "
+    "squared residual is below it. In all settings: no damping (linearDamping, angularDamping, "
+    "jointDamping), restitutionVelocityThreshold = 0, deterministicOverlappingPairs = 1, and a "
+    "joint's motor is off."
+)
 COMMON = {
     "fixedTimeStep": TIME_STEP,
     "numSubSteps": 0,
-    "solverResidualThreshold": 0.0,
     "deterministicOverlappingPairs": 1,
     "enableSAT": 0,  # GJK and EPA
     "restitutionVelocityThreshold": 0.0,
+}
+JOINTS = {
+    "rail_x": (pybullet.JOINT_PRISMATIC, [1, 0, 0]),
+    "hinge_z": (pybullet.JOINT_REVOLUTE, [0, 0, 1]),
 }
 KINDS = {"sphere": pybullet.GEOM_SPHERE, "box": pybullet.GEOM_BOX}
 
@@ -51,15 +73,15 @@ class Engine:
             halfExtents=[np.resize(shape.size, 3) / 2 for shape in body.shapes],
             collisionFramePositions=[shape.xyz for shape in body.shapes],
         )
-        if body.joint == "rail_x":
+        if body.joint in JOINTS:
+            kind, axis = JOINTS[body.joint]
             origin, straight = [0, 0, 0], [0, 0, 0, 1]
             number = self.bullet.createMultiBody(
                 0, basePosition=body.xyz, linkMasses=[body.mass],
                 linkCollisionShapeIndices=[solid], linkVisualShapeIndices=[-1],
                 linkPositions=[origin], linkOrientations=[straight],
                 linkInertialFramePositions=[origin], linkInertialFrameOrientations=[straight],
-                linkParentIndices=[0], linkJointTypes=[pybullet.JOINT_PRISMATIC],
-                linkJointAxis=[[1, 0, 0]],
+                linkParentIndices=[0], linkJointTypes=[kind], linkJointAxis=[axis],
             )  # fmt: skip
             link = 0
             motor = pybullet.VELOCITY_CONTROL

@@ -16,10 +16,14 @@ SETTINGS: dict[str, dict[str, Any]] = {
     "ODE's detector": {"detector": "OdeCollisionDetector"},
     "DART's detector": {"detector": "DARTCollisionDetector"},
 }
+NOT_DEFAULT = (
+    "The floor is a box of 10 by 10 by 1 m, since not every detector knows a plane; bodies are not "
+    "deactivated. The solver of the LCP is DART's default."
+)
 
 
 class Engine:
-    """A scene in a DART world. The floor is a large box: not every detector knows a plane."""
+    """A scene in a DART world."""
 
     def __init__(self, scene: Scene, setting: dict[str, Any]) -> None:
         self.world = dartpy.simulation.World()
@@ -44,6 +48,7 @@ class Engine:
             "free": skeleton.createFreeJointAndBodyNodePair,
             "fixed": skeleton.createWeldJointAndBodyNodePair,
             "rail_x": skeleton.createPrismaticJointAndBodyNodePair,
+            "hinge_z": skeleton.createRevoluteJointAndBodyNodePair,
         }[body.joint]()
         place = dartpy.math.Isometry3()
         place.set_translation(body.xyz)
@@ -53,6 +58,8 @@ class Engine:
             joint.setTransformFromParentBodyNode(place)
         if body.joint == "rail_x":
             joint.setAxis([1.0, 0.0, 0.0])
+        elif body.joint == "hinge_z":
+            joint.setAxis([0.0, 0.0, 1.0])
         node.setInertia(dartpy.dynamics.Inertia(body.mass, np.zeros(3), np.diag(body.inertia)))
         for shape in body.shapes:
             kind = (

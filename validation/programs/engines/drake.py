@@ -13,6 +13,10 @@ NO_TORSION = "Drake's point contact has no torsional friction"
 SETTINGS: dict[str, dict[str, Any]] = {
     name: {"discrete_contact_approximation": name} for name in ("sap", "similar", "lagged", "tamsi")
 }
+NOT_DEFAULT = (
+    'contact_model = "point", for the default "hydroelastic_with_fallback". stiction_tolerance has '
+    "its default, 1e-4 m/s, as have penetration_allowance and the relaxation time."
+)
 IDENTITY = pydrake.RigidTransform()
 
 
@@ -62,10 +66,11 @@ class Engine:
             self.plant.WeldFrames(world, link.body_frame(), place)
         else:
             rail = self.plant.AddFrame(pydrake.FixedOffsetFrame(f"{body.name} rail", world, place))
-            frame = link.body_frame()
-            self.plant.AddJoint(
-                pydrake.PrismaticJoint(body.name, rail, frame, [1, 0, 0], damping=0)
-            )
+            kind, axis = {
+                "rail_x": (pydrake.PrismaticJoint, [1, 0, 0]),
+                "hinge_z": (pydrake.RevoluteJoint, [0, 0, 1]),
+            }[body.joint]
+            self.plant.AddJoint(kind(body.name, rail, link.body_frame(), axis, damping=0))
         return link
 
     def step(self, wrenches: dict[str, np.ndarray]) -> None:

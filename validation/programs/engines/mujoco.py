@@ -17,11 +17,17 @@ SETTINGS: dict[str, dict[str, Any]] = {
     "elliptic, impratio 100": {"cone": "elliptic", "impratio": 100},
     "elliptic, noslip": {"cone": "elliptic", **NOSLIP},
 }
+NOT_DEFAULT = (
+    "condim = 4, multiccd. Noslip: noslip_iterations = 100, noslip_tolerance = 0. solref and "
+    "solimp have their defaults (0.02 1 and 0.9 0.95 0.001): the time constant of contacts is "
+    "20 ms."
+)
 COMMON = {"timestep": TIME_STEP, "integrator": "Euler", "solver": "Newton", "iterations": 100}
 JOINTS = {
     "free": "<freejoint/>",
     "fixed": "",
     "rail_x": '<joint type="slide" axis="1 0 0" damping="0"/>',
+    "hinge_z": '<joint type="hinge" axis="0 0 1" damping="0"/>',
 }
 
 mujoco.set_mju_user_warning(lambda _: None)  # else MuJoCo writes a file MUJOCO_LOG.TXT

@@ -13,6 +13,7 @@ from validation.programs.engines.scenes import (
     Motion,
     Scene,
     Shape,
+    Turning,
     times,
 )
 
@@ -113,6 +114,27 @@ def held(offset: float, grip: float, finger: Shape) -> Scene:
     return Scene(bodies, 0.6, 0.005, times(START, START + 10.0, 0.1), loads, 0.0, floor=False)
 
 
+TABLE = Body(
+    "table", "hinge_z", 1200.0, (101.0, 101.0, 200.0), (0.0, 0.0, -0.05),
+    (Shape("box", (1.0, 1.0, 0.1)),),
+)  # fmt: skip
+"""So heavy that the sled hardly slows it. Bullet takes the inertia of a link from its shape."""
+RADIUS = 0.2
+"""Of the sled's way on the table [m]."""
+RATE = 1.0
+"""Of the table, once it turns evenly [rad/s]."""
+
+
+def on_turntable() -> Scene:
+    """The sled on a table that turns evenly from START on."""
+    turning = Turning(TABLE, RATE, START)
+    sled = replace(SLED, xyz=(RADIUS, 0.0, SLED.xyz[2]))
+    return Scene(
+        (sled, TABLE), MU_V, MU_OMEGA, times(START, START + 2.0, 0.1), turning.loads,
+        floor=False, turning=turning,
+    )  # fmt: skip
+
+
 DROP = replace(BALL, xyz=(0.0, 0.0, 0.051))
 """The ball, one millimetre above the floor."""
 OFFSET = 0.03
@@ -170,6 +192,13 @@ def rise(motions: list[Motion]) -> float:
     return float(max(0.0, motion.places[:, 2].max() - SLED.xyz[2]) / (speed * TIME_STEP))
 
 
+def outwards(motions: list[Motion]) -> float:
+    """Speed away from the axis in the second half, over the centripetal acceleration [ms]."""
+    (motion,) = motions
+    radii = np.linalg.norm(motion.places[:, :2], axis=1)
+    return float(1e3 * np.log(radii[-1] / radii[motion.middle]) / (motion.seconds * RATE**2))
+
+
 def uneven(motions: list[Motion]) -> float:
     """Largest difference of a corner's force to that of equal springs, over the weight [%]."""
     (motion,) = motions
@@ -212,6 +241,13 @@ PHENOMENA = {
         "rises while it slides", "of the slip of a step", (on_slope(1.0),), rise, 0.0,
         "Zero: a sliding body stays on the floor. The slope's tangent is 1.", 0.01,
         "A relaxation of Coulomb's law that couples slip and gap has mu_v = 0.5.",
+    ),
+    "carried_on_a_turntable": Phenomenon(
+        "carried on a turntable, walks outwards", "ms times the centripetal acceleration",
+        (on_turntable(),), outwards, 0.0,
+        "Zero: the table turns evenly at 1 rad/s, and of mu_v g = 4.9 m/s^2 the sled, 0.2 m from "
+        "the axis, needs 0.2 m/s^2.", 0.005,
+        "A micrometre a second; rounding leaves less, even in float32.",
     ),
     "sticks_in_torsion": Phenomenon(
         "sticks in torsion", "rad/s", (twisted(0.99),), spin, 0.0,

@@ -22,7 +22,13 @@ NO_TORSION = ""
 SETTINGS: dict[str, dict[str, Any]] = {
     "pyramid": {"cone": "pyramid", "certify": "off"},
     "ellipsoid": {"cone": "ellipsoid", "certify": "off"},
+    "pyramid, steps of 0.1 s": {"cone": "pyramid", "certify": "off", "h": 0.1},
 }
+NOT_DEFAULT = (
+    "Answers are not certified (certify); a table is turned by a spring of 1e6 N m/rad (K_q)."
+)
+STIFF = 1e6
+"""Spring that turns a table [N m/rad]."""
 CORNERS = 4
 """Contacts of a pair of faces."""
 
@@ -31,10 +37,15 @@ def urdf(body: Body) -> tuple[str, dict[str, Any]]:
     """URDF of a body, and how it is placed."""
     if body.joint == "free":
         return body_text(body.mass, body.inertia), {"xyz": body.xyz}
-    kind = {"fixed": "fixed", "rail_x": "prismatic"}[body.joint]
+    kind, axis = {
+        "fixed": ("fixed", "1 0 0"),
+        "rail_x": ("prismatic", "1 0 0"),
+        "hinge_z": ("revolute", "0 0 1"),
+    }[body.joint]
     links = link_text("base", 1.0, (1, 1, 1)), link_text("body", body.mass, body.inertia)
-    text = robot_text(*links, joint_text("joint", kind, "base", "body"))
-    return text, {"base": "fixed", "xyz": body.xyz}
+    text = robot_text(*links, joint_text("joint", kind, "base", "body", axis))
+    actuated = ["joint"] if body.joint == "hinge_z" else []
+    return text, {"base": "fixed", "xyz": body.xyz, "actuated": actuated}
 
 
 def solid(shape: Shape) -> Any:
@@ -61,7 +72,10 @@ class Engine:
             for b in first
         ]
         gravity = (0.0, 0.0, -scene.gravity)
-        self.simulator = Simulator(self.system, pairs, h=TIME_STEP, gravity=gravity, **setting)
+        numbers = {"h": TIME_STEP, "gravity": gravity, "K_q": STIFF, **setting}
+        self.simulator = Simulator(self.system, pairs, **numbers)
+        self.turning = scene.turning
+        self.steps = 0
         self.q = self.system.q_start
 
     def link(self, name: str) -> str:
@@ -83,7 +97,9 @@ class Engine:
                 load += self.system.load(self.q, name, force, torque)
             elif self.joints[name] == "rail_x":
                 load[self.system.joint(f"{name}/joint").v] += force[0]
-        self.result = self.simulator.step(self.q, np.zeros(0), load)
+        self.steps += 1
+        angles = [self.turning.angle(self.steps * self.simulator.h)] if self.turning else []
+        self.result = self.simulator.step(self.q, np.array(angles), load)
         self.q = self.result.q
 
     def pose(self, name: str) -> list[float]:

@@ -32,10 +32,10 @@ class Shape:
 
 @dataclass(frozen=True)
 class Body:
-    """A body that is free, fixed, or slides without friction along x."""
+    """A body that is free, fixed, slides along x, or turns about z; joints have no friction."""
 
     name: str
-    joint: Literal["free", "fixed", "rail_x"]
+    joint: Literal["free", "fixed", "rail_x", "hinge_z"]
     mass: float
     inertia: tuple[float, float, float]
     xyz: tuple[float, float, float]
@@ -53,8 +53,32 @@ class Load:
 
 
 @dataclass(frozen=True)
+class Turning:
+    """A body that turns about z: evenly faster up to a time [s], then at a rate [rad/s]."""
+
+    body: Body
+    rate: float
+    until: float
+
+    def angle(self, t: float) -> float:
+        """At a time [s]."""
+        spun_up = min(t, self.until)
+        return self.rate * (spun_up**2 / (2 * self.until) + max(0.0, t - self.until))
+
+    @property
+    def loads(self) -> tuple[Load, Load]:
+        """Torques that turn it so, where what it carries is light."""
+        torque = self.body.inertia[2] * self.rate / self.until
+        start = Load(self.body.name, 0.0, torque=(0.0, 0.0, torque))
+        return start, Load(self.body.name, self.until, torque=(0.0, 0.0, -torque))
+
+
+@dataclass(frozen=True)
 class Scene:
-    """Bodies and loads; `times` [s] are those at which poses are read."""
+    """Bodies and loads; `times` [s] are those at which poses are read.
+
+    What turns is driven by loads, or, where bodies have no velocity, to its angles.
+    """
 
     bodies: tuple[Body, ...]
     mu_v: float
@@ -63,6 +87,7 @@ class Scene:
     loads: tuple[Load, ...] = ()
     gravity: float = GRAVITY
     floor: bool = True
+    turning: Turning | None = None
 
     def wrenches(self, t: float) -> dict[str, np.ndarray]:
         """Force and torque on each body in the step that begins at a time, shape (2, 3)."""
@@ -81,7 +106,7 @@ class Engine(Protocol):
     """A scene in an engine, with one of its settings; one file each in this folder."""
 
     def step(self, wrenches: dict[str, np.ndarray]) -> None:
-        """One step of 1 ms under loads."""
+        """One step under loads."""
 
     def pose(self, name: str) -> list[float]:
         """Place of a body and its quaternion: x, y, z, qx, qy, qz, qw."""
@@ -132,28 +157,32 @@ class Motion:
         return self.scene.times[-1] - self.scene.times[self.middle]
 
 
-def simulated(scene: Scene, engine: Engine) -> Motion:
-    """The motion of a scene's first body.
+def simulated(scene: Scene, engine: Engine, h: float = TIME_STEP) -> Motion:
+    """The motion of a scene's first body, in steps of h [s].
 
     Raises
     ------
+    NotMeaningful
+        If poses are read between steps.
     ValueError
         If a state is no number.
     """
-    poses = np.array(list(_poses(scene, engine)))
+    if np.abs(np.array(scene.times) / h - np.round(np.array(scene.times) / h)).max() > 1e-6:
+        raise NotMeaningful(f"poses are read oftener than every {h:g} s")
+    poses = np.array(list(_poses(scene, engine, h)))
     if not np.isfinite(poses).all():
         k = int(np.flatnonzero(~np.isfinite(poses).all(axis=1))[0])
         raise ValueError(f"the state at {scene.times[k]:g} s is no number")
     return Motion(scene, poses[:, :3], _turns(poses[:, 3:]), engine)
 
 
-def _poses(scene: Scene, engine: Engine) -> Iterator[list[float]]:
+def _poses(scene: Scene, engine: Engine, h: float) -> Iterator[list[float]]:
     """Poses of the first body at the scene's times."""
     done = 0
     for instant in scene.times:
-        for k in range(done, round(instant / TIME_STEP)):
-            engine.step(scene.wrenches(k * TIME_STEP))
-        done = round(instant / TIME_STEP)
+        for k in range(done, round(instant / h)):
+            engine.step(scene.wrenches(k * h))
+        done = round(instant / h)
         yield engine.pose(scene.bodies[0].name)
 
 

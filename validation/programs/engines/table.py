@@ -11,7 +11,7 @@ from validation.programs.engines.phenomena import PHENOMENA
 CROSSES = tomllib.loads((Path(__file__).parent / "crosses.toml").read_text("utf-8"))
 """Why cells have a cross: engine and phenomenon -> sentences, each of some settings."""
 NOT_ASKED = {"not_meaningful": "not asked: measured before this question existed"}
-SLIDING = 4
+SLIDING = 5
 """Phenomena of a body that slides, in a table of their own: both can be read on a page."""
 
 
@@ -77,11 +77,14 @@ def page(records: dict[str, dict[str, Any]]) -> str:
         for p in PHENOMENA.values()
     ]  # fmt: skip
     dates = [f"{r['name']}: {r['measured']}." for r in records.values() if "measured" in r]
+    besides = [(r["name"], r["not_default"]) for r in records.values() if "not_default" in r]
     return "\n".join([
         "<!-- Written by python -m validation.make.engines. -->", "",
         *columns(range(SLIDING), head, rows), "",
         *columns(range(SLIDING, len(head)), head, rows), "",
         *(f"{k}. {note}." for k, note in enumerate(notes, 1)), "", *dates, "",
+        "## Settings that rows do not name", "",
+        *markdown_table(("engine", "what its adapter sets"), besides), "",
         "## What is asked", "",
         *markdown_table(("phenomenon", "the answer", "tolerance", "its reason"), asked), "",
         "## Why a cell has a cross", "",
