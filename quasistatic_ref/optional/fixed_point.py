@@ -29,7 +29,7 @@ T = TypeVar("T")
 
 
 class Iterate(NamedTuple, Generic[T]):
-    """One value of the map.
+    """One iterate: a point, and the value of the map there.
 
     Parameters
     ----------

@@ -90,7 +90,7 @@ class NoFixedPoint(StepNotSolved):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CoulombSolution(StepSolution):
-    """What the iteration of ``coulomb_step`` ended at.
+    """The result of the iteration of ``coulomb_step``: its last step, and whether it converged.
 
     It is its last iterate, the exact optimum of the step with phi + s, which is its `step` and that
     of its certificate.

@@ -45,15 +45,15 @@ class MeasuredByCoal(Shape):
 
     @property
     def extent(self) -> float:
-        """The solid's [m]."""
+        """The extent of the solid [m]."""
         return self.solid.extent
 
     def faces(self, points: Array) -> tuple[Array, Array]:
-        """The solid's, of `points`, shape (N, 3) [m]."""
+        """The faces of the solid at `points`, shape (N, 3) [m]."""
         return self.solid.faces(points)
 
     def support_value(self, directions: Array) -> Array:
-        """The solid's along `directions`, shape (N, 3) [-]."""
+        """The reach of the solid along `directions`, shape (N, 3) [-]."""
         return self.solid.support_value(directions)
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:

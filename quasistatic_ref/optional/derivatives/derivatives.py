@@ -270,7 +270,7 @@ def check_derivable(simulator: Simulator) -> None:
 
 
 def _columns(near: Nearby, name: str) -> list[Column]:
-    """The columns of a parameter, each of a change by its size."""
+    """The derivative columns of a parameter, each for a change of the parameter's size."""
     return [column(near, {name: change}) for change in np.diag(near.sizes[name])]
 
 

@@ -27,7 +27,7 @@ radius of gyration, which is how right r is."""
 
 
 class Missing(NamedTuple):
-    """What a body lacks for equilibrium in a step.
+    """The force that a body lacks for equilibrium in a step.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ class Missing(NamedTuple):
 
     @property
     def starts(self) -> str:
-        """How it would start to move."""
+        """How the body would start to move, in words."""
         if self.turning > 1 - COUNTS:
             return f"{self.turns:.2g} rad/s^2"
         return f"{self.slides / EARTH:.2g} g"
@@ -111,7 +111,7 @@ class Body:
         return np.asarray(M_u[np.ix_(self.coordinates - n_a, self.coordinates - n_a)])
 
     def missing(self, r: Array, M: Array) -> Missing:
-        """What is missing, of r along its coordinates [N, N m], with the inertia M, (n, n)."""
+        """The missing force of the body, from residual forces r [N, N m] and inertia M (n, n)."""
         force, torque = r[self.lengths], r[~self.lengths]
         start = np.linalg.solve(M, r)
         slides, turns = start[self.lengths], start[~self.lengths]
@@ -128,7 +128,7 @@ class Body:
         return Missing(amount, force, torque, slides, turns, r, turning)
 
     def named(self, lack: Missing) -> str:
-        """Its name, or those of its joints that lack something."""
+        """The body's name, or names of its joints that lack force."""
         if self.free:
             return self.name
         of = dict(zip(self.coordinates.tolist(), lack.r.tolist(), strict=True))
@@ -148,7 +148,7 @@ class Body:
 
 
 def bodies(start: Start) -> Iterator[Body]:
-    """What un-actuated coordinates move together, in a scene."""
+    """The groups of un-actuated coordinates of a scene that move together."""
     system = start.system
     n_a = system.n_a
     coordinates = system.coordinates[n_a:]

@@ -65,7 +65,7 @@ class Start:
 
     @cached_property
     def kinematics(self) -> Kinematics:
-        """Where the links are."""
+        """Poses and Jacobians of the links at the start."""
         return self.system.kinematics(self.q_start)
 
     @cached_property
@@ -78,7 +78,7 @@ class Start:
 
     @cached_property
     def contacts_at_start(self) -> Contacts:
-        """The contacts where `points` are."""
+        """The contacts at the start, with their Jacobians."""
         assert self.points is not None
         return self.simulator.geometry.contacts(self.points, self.kinematics)
 
@@ -89,7 +89,7 @@ class Start:
 
     @cached_property
     def extension(self) -> Extension | None:
-        """What is added to the step at the start, if anything is."""
+        """The extension of the step at the start, or None."""
         extension = self.simulator.extension
         return None if extension is None else extension(self.q_start)
 
@@ -184,7 +184,7 @@ class Start:
 
     @cached_property
     def pairs_of(self) -> dict[str, list[tuple[ContactPair, slice]]]:
-        """The pairs of each body, and where their contacts are among all."""
+        """The pairs of each body, with the slices of their contacts."""
         of_bodies: dict[str, list[tuple[ContactPair, slice]]] = {}
         for pair, at in slices(self.pairs):
             for name in self.bodies(pair):
@@ -208,7 +208,7 @@ class Start:
 
     @property
     def sides(self) -> list[PlacedShape]:
-        """What touches: both shapes of each pair."""
+        """Both shapes of each pair."""
         return [side for pair in self.pairs for side in (pair.alpha, pair.beta)]
 
     @property
@@ -218,7 +218,7 @@ class Start:
 
 
 def slices(pairs: Iterable[ContactPair]) -> Iterator[tuple[ContactPair, slice]]:
-    """Each pair, and where its contacts are among all."""
+    """Each pair with the slice of its contacts."""
     end = 0
     for pair in pairs:
         start = end

@@ -110,7 +110,7 @@ class Enclosure:
 
 @dataclass(frozen=True, eq=False)
 class Checked:
-    """A pair that was checked in balls.
+    """A primal and dual answer that was proved in balls to lie inside of all cones.
 
     Parameters
     ----------
@@ -172,7 +172,7 @@ def _at_apex(step: StepData, form: ExactForm, lam: Array) -> Enclosure | None:
 def _enclosed(
     step: StepData, frame: ScaledBlocks, pair: Pair, states: list[int]
 ) -> Enclosure | None:
-    """What a guess proves; None if that is too little."""
+    """The optimum that a guess proves, with its error bound; None if the bound is too large."""
     form = frame.form
     checked_guess = checked(frame, pair)
     if checked_guess is None:
@@ -223,7 +223,7 @@ def point(pair: Checked) -> list[fmpq]:
 
 
 def guesses(frame: ScaledBlocks, start: Start | None) -> Iterator[Guess]:
-    """Guesses: Newton's first, which round to the same bits from any `start`."""
+    """Candidate answers to be checked: those of Newton's method from `start` come first."""
     if start is not None:
         yield from _by_newton(frame.problem, frame.start(*start))
     pair = interior_point(frame.problem, GAP)
@@ -233,7 +233,7 @@ def guesses(frame: ScaledBlocks, start: Start | None) -> Iterator[Guess]:
 
 
 def _by_newton(problem: Blocks, pair: Pair) -> Iterator[Guess]:
-    """Yield what Newton's method makes of a pair, as long as its states change."""
+    """Yield the results of Newton's method from a pair, as long as contact states change."""
     before = None
     for _ in range(ROUNDS):
         states = contact_states(problem, pair)

@@ -40,7 +40,7 @@ WIDE: Final = arb(2) ** -180
 def compliant_forces(
     step: StepData, compliance: float, near: tuple[Array, Array]
 ) -> tuple[Array, Array]:
-    """The contact forces of a step in the ellipsoid, and where it ends.
+    """Contact forces of a step in the ellipsoid, and its displacement, with compliance.
 
     Parameters
     ----------

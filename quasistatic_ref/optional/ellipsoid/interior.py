@@ -65,11 +65,11 @@ class Blocks:
 
     @property
     def give(self) -> list[arb]:
-        """The c of each block."""
+        """The compliance c of each block."""
         return [self.C[rows[0], rows[0]] for rows in self.rows]
 
     def slacks(self, x: arb_mat, y: arb_mat) -> arb_mat:
-        """The s, shape (m, 1), of which y makes some give way."""
+        """The slacks s, shape (m, 1), at x, with the compliance that y causes."""
         return (self.A * x - self.b + self.C * y).mid()
 
     def split(self, v: arb_mat) -> list[Vector]:

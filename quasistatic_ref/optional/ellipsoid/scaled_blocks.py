@@ -50,7 +50,7 @@ class ScaledBlocks:
     size: arb
 
     def in_form(self, pair: Pair) -> Pair:
-        """The x and y of a pair of the form, whose multipliers are `mu` times y."""
+        """A pair of the scaled program as x and y of the exact form."""
         x = [self.size * r * v for r, v in zip(self.root, pair.x.entries(), strict=True)]
         y = [self.size / ell * v for ell, v in zip(self.length, pair.y.entries(), strict=True)]
         return Pair(column(x), column(y))

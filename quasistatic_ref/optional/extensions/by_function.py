@@ -55,7 +55,7 @@ class FunctionSolver(BackendSolver):
         return type(self), (self.template, self.wanted)
 
     def option_sets(self, accuracy: float) -> list[tuple[float, Options]]:
-        """The accuracy of the call [-], without options."""
+        """The accuracy of the call [-], with no options."""
         return [(accuracy, {})]
 
     def write(self, scaled: ScaledStep) -> Mask:
@@ -64,7 +64,7 @@ class FunctionSolver(BackendSolver):
         return scaled.out_of_reach
 
     def reply(self, options: Options, scaled: ScaledStep) -> Reply:
-        """What the function returns."""
+        """The reply of the user's function to the program as it is written."""
         H, g, A, b = self.form
         with apart():
             returned = self.function(H.copy(), -g, -A, -b)
@@ -97,7 +97,7 @@ def reply_of(returned: object, n: int, m: int) -> Reply:
 
 
 def real_numbers(values: object) -> Array:
-    """What a function has returned as float64, or no numbers of shape (0, 0), if it is no such.
+    """A function's result as float64 numbers; an array of shape (0, 0) if it is not numeric.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def real_numbers(values: object) -> Array:
 
 @contextmanager
 def apart() -> Iterator[None]:
-    """Around code of others: what it prints goes to standard error, and it ends no process.
+    """A context for a user's code: its prints go to standard error; it cannot end the process.
 
     It runs in the caller's context.
 

@@ -116,6 +116,6 @@ def _outside(s: Array) -> Array:
 
 
 def _outside_dual(z: Array) -> Array:
-    """The same of its dual, {(u, v, w) : (u - v, -u, w) in the cone}."""
+    """How far z is outside of the dual cone {(u, v, w) : (u - v, -u, w) in the cone}."""
     u, v, w = z
     return _outside(np.array([u - v, -u, w]))

@@ -23,7 +23,7 @@ from quasistatic_ref.step.data import StepData
 
 
 def posed(step: StepData, extension: Extension) -> tuple[StepData, bool]:
-    """A step with what of an extension is data, and whether that is all of it."""
+    """A step with the extension's rows and cost as data, and whether nothing is left out."""
     step = with_numbers(step, extension)
     if extension.terms is none:
         return step, not extension.without_stiffness

@@ -152,4 +152,4 @@ class OfBodies(Protocol):
         """The extension at q, shape (n_q,)."""
 
     def beside(self, users: ExtensionOfQ | None) -> ExtensionOfQ:
-        """The same together with an extension of a user's own."""
+        """The extension of the tables, joined with an extension of the user's own."""

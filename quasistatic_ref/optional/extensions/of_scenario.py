@@ -42,7 +42,7 @@ class OfScenario(Plain):
 
     @property
     def fields(self) -> tuple[str, ...]:
-        """What it is made of: fields of the tables of bodies, and ``extension``."""
+        """The sources of the extension: fields of tables of bodies, and ``extension``."""
         parts = {
             "joint_friction": len(self.rises.coordinates),
             "support": len(self.rises.contacts),
@@ -52,7 +52,7 @@ class OfScenario(Plain):
         return tuple(name for name, part in parts.items() if part)
 
     def beside(self, users: ExtensionOfQ | None) -> "OfScenario":
-        """The same together with an extension of a user's own."""
+        """The extension of the tables, joined with an extension of the user's own."""
         return replace(self, users=users)
 
     def __call__(self, q: Array) -> Extension:

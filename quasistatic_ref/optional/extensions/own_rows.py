@@ -20,7 +20,7 @@ def with_numbers(step: StepData, extension: Extension) -> StepData:
 
 
 def joined(first: Extra, second: Extra) -> Extra:
-    """The rows of the one, then those of the other, and the sum of their costs."""
+    """Two sets of own rows and costs as one: rows one after the other, costs added."""
     if first.empty:
         return second
     names = first.names + second.names

@@ -60,7 +60,7 @@ def with_rises(step: StepData, rises: Rises) -> StepData:
 
 
 def _wider(array: Array, p: int) -> Array:
-    """The same with p columns of zeros more."""
+    """An array with p further columns of zeros."""
     return np.concatenate([array, np.zeros((*array.shape[:-1], p))], axis=-1)
 
 

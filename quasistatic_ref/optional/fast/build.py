@@ -25,14 +25,14 @@ FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", *UNREAD, "-shared", "-fPIC")
 
 
 def digest() -> str:
-    """What follows from all that the library is made of; it carries this."""
+    """A hash of the library's sources and compiler flags."""
     files = sorted(SOURCE.glob("*.[ch]"))
     text = b"\0".join(part for file in files for part in (file.name.encode(), file.read_bytes()))
     return hashlib.sha256(text + repr(FLAGS).encode()).hexdigest()[:32]
 
 
 def problem() -> str | None:
-    """Make the library; why that failed, in words, or None."""
+    """Compile the library; return why this failed, in words, or None."""
     try:
         compiler = shlex.split(os.environ.get("CC", "")) or [
             path for path in [shutil.which("cc")] if path
@@ -59,7 +59,7 @@ def problem() -> str | None:
 
 
 def build() -> Path:
-    """Make the library, or the file that says why there is none; which of both."""
+    """Compile the library, or write why this failed; return the path of the file."""
     for file in (LIBRARY, PROBLEM):
         file.unlink(missing_ok=True)
     why = problem()

@@ -33,7 +33,7 @@ def solid_size(pair: ContactPair) -> Array | None:
 
 
 def cloud(pair: ContactPair, size: Array, poses: Poses, written: ClosestPoints) -> Structure:
-    """``Cloud`` of fast.h.
+    """The structure ``Cloud`` of fast.h for a pair with a cloud.
 
     Parameters
     ----------

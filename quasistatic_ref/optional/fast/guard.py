@@ -19,7 +19,7 @@ from quasistatic_ref.step.units import Units
 
 
 class SomeColumns(ColumnMap):
-    """Those columns of a map that are of some coordinates.
+    """A column map restricted to some coordinates.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class SomeColumns(ColumnMap):
 
 
 class Plainly:
-    """The data of a step, from which the plain path forms its groups one by one.
+    """Forms the groups of a step one by one with the functions of the plain path.
 
     Parameters
     ----------

@@ -73,7 +73,7 @@ class Masses:
 
     @cached_property
     def M_u(self) -> Array:
-        """Shape (n_u, n_u) [kg, kg m, kg m^2]."""
+        """The un-actuated block of the mass matrix, shape (n_u, n_u) [kg, kg m, kg m^2]."""
         return whole(self.blocks)
 
     @cached_property
@@ -90,7 +90,7 @@ class Masses:
 
     @cached_property
     def entries(self) -> tuple[Indices, Indices]:
-        """Where K_q and M_u are not zero in H, (k,) each."""
+        """Rows and columns, (k,) each, of the entries of H where K_q or M_u is nonzero."""
         first = len(self.K_q)
         *block, i, j = np.nonzero(self.blocks)
         if block:
@@ -121,7 +121,7 @@ class JoinedStep(Late, StepData):
 
     @cached_property
     def M_u(self) -> Array:
-        """Shape (n_u, n_u) [kg, kg m, kg m^2]."""
+        """The un-actuated block of the mass matrix, shape (n_u, n_u) [kg, kg m, kg m^2]."""
         return self.of_masses.M_u
 
     @cached_property
@@ -140,7 +140,7 @@ class JoinedStep(Late, StepData):
 
 
 def spread(rows: Array, column: Indices, n: int) -> Array:
-    """Rows in all of n columns, shape (..., n).
+    """Rows of a few columns spread over n columns, zero elsewhere, shape (..., n).
 
     Parameters
     ----------

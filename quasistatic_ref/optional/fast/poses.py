@@ -55,7 +55,7 @@ class Poses:
         self._kinematics: Kinematics | None = None
 
     def move(self, q: Array) -> None:
-        """Have the poses of a configuration, shape (n_q,), written, if they are not."""
+        """Write the poses of a configuration (n_q,), unless they are already written."""
         at = q.tobytes()
         if at == self._at:
             return
@@ -67,11 +67,11 @@ class Poses:
         self._at = at
 
     def kinematics(self) -> Kinematics:
-        """That of the configuration whose poses are written."""
+        """The kinematics of the configuration whose poses are written."""
         if self._kinematics is None:
             self._kinematics = Kinematics(*self._workspace.poses(), self._column_map)
         return self._kinematics
 
     def weigh(self, gravity: tuple[float, ...]) -> None:
-        """Have gravity [m/s^2] at that configuration written."""
+        """Compute the force of gravity [m/s^2] at the configuration whose poses are written."""
         self._workspace.gravity_torque(self._q_parts, gravity)

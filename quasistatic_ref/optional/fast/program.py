@@ -80,12 +80,12 @@ class Program:
             A[:] = natural.A[np.ix_(group.rows, group.coordinates)]
 
     def blocks(self, H: Array) -> list[Array]:
-        """The block of each group of an H, shape (n_v, n_v), in natural units [-]."""
+        """The blocks of H (n_v, n_v), one for each group, in natural units [-]."""
         every = [group.coordinates for group in self.groups]
         return [np.ascontiguousarray(H[np.ix_(i, i)]) for i in every]
 
     def joined(self, replies: Sequence[Reply]) -> Reply:
-        """The reply to all of it from those to its groups: solved if all of them are."""
+        """The reply to the whole program from the replies to its groups: solved if all are."""
         if len(replies) == 1:
             return replies[0]
         x = np.zeros(len(self.coordinates))
@@ -122,7 +122,7 @@ class Workspace:
             self._set_up(H)
 
     def _set_up(self, H: Array) -> None:
-        """A workspace that has solved nothing yet."""
+        """Prepare a new workspace for the matrix H."""
         self._H = H
         self._model: Any = daqp.Model()
         self._model.settings = self._options
@@ -160,7 +160,7 @@ class Workspace:
 
 
 class Workspaces:
-    """Those of all groups of a program.
+    """The DAQP workspaces of all groups of a program.
 
     Parameters
     ----------
@@ -232,7 +232,7 @@ class NaturalProgram:
         )  # fmt: skip
 
     def take(self, masses: Masses) -> None:
-        """Take the H of the steps that are written from here on."""
+        """Set the matrix H of the steps that are written from now on."""
         if masses is self._masses:
             return
         groups = self.program.groups

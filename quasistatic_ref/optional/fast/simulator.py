@@ -160,12 +160,12 @@ class FastSimulator(Simulator):
 
     @property
     def extension(self) -> Callable[[Array], Extension] | None:
-        """That of the simulator: a function of q, shape (n_q,), or None."""
+        """The extension of the simulator: a function of q (n_q,), or None."""
         return self.simulator.extension
 
     @extension.setter
     def extension(self, extension: Callable[[Array], Extension] | None) -> None:
-        """Have the simulator take another."""
+        """Replace the extension of the simulator."""
         self.simulator.extension = extension
 
     @property
@@ -196,7 +196,7 @@ class FastSimulator(Simulator):
             return self.simulator.step(q, q_bar_a, force)
 
     def _step(self, q: ArrayLike, q_bar_a: ArrayLike, force: ArrayLike | None) -> StepResult | None:
-        """The step; None if it is the first, and not that of the plain path."""
+        """The step; None if it is a first step whose data differ from the plain path's."""
         times: dict[str, float] = {}
         lap = stopwatch(times)
         change = self._sums.actuated_difference(q, q_bar_a)  # which checks both
@@ -291,7 +291,7 @@ class FastSimulator(Simulator):
             return self.otherwise_solved(step, failure)
 
     def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
-        """Those of the simulator."""
+        """The closest points, as the simulator finds them."""
         return self.simulator.closest_points(kinematics)
 
     def step_data(
@@ -301,7 +301,7 @@ class FastSimulator(Simulator):
         force: ArrayLike | None,
         points: ClosestPoints,
     ) -> StepData:
-        """Those of the simulator."""
+        """The problem of one step, as the simulator forms it."""
         return self.simulator.step_data(q, q_bar_a, force, points)
 
     def fitting_solver(self, step: StepData) -> Solver:

@@ -41,7 +41,7 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
 
 
 class FormedStep(ScaledStep):
-    """A step whose units and program are written already.
+    """A step whose natural units and program are already computed.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class FormedStep(ScaledStep):
         self.program = program
 
     def check_range(self) -> None:
-        """As of a step whose natural form is formed here."""
+        """Refuse a step that natural units take out of the range of float64: StepDataError."""
         if not all(map(all_finite, (self.program.f, self.program.A, self.program.b))):
             raise out_of_range()
 
@@ -82,7 +82,7 @@ class FormedStep(ScaledStep):
 
     @cached_property
     def groups(self) -> list[tuple[Group, StepData]]:
-        """Its groups, each as a step in SI units."""
+        """The groups of the step, each as a step of its own in SI units."""
         return [(group, step) for _, _, group, step in self._finer]
 
     @cached_property

@@ -38,7 +38,7 @@ FLAT: Final = 0.1
 
 
 class Pieces(NamedTuple):
-    """Where the gradient is one linear function.
+    """The faces of all contacts, on which the gradient is one linear function.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def guessed_faces(step: StepData, compliance: float, wrench: Array) -> list[Rows
 
 
 class _Energy:
-    """What the step with compliance minimises, as a function of delta_q."""
+    """The energy that the step with compliance minimises, as a function of delta_q."""
 
     def __init__(self, step: StepData, compliance: float) -> None:
         contacts = step.contacts
@@ -91,7 +91,7 @@ class _Energy:
         self.k = step.h / compliance
 
     def least(self, wrench: Array) -> Pieces:
-        """Those at the minimum.
+        """The faces of all contacts at the minimum.
 
         Parameters
         ----------
@@ -141,7 +141,7 @@ class _Energy:
         return self.H @ x - self.g - self.k * push
 
     def zero(self, at: Pieces) -> Array:
-        """Where that is zero, shape (n_v,)."""
+        """The delta_q (n_v,) at which the linear gradient of the given pieces is zero."""
         origin = np.zeros(self.step.n_v)
         B = self.B.reshape(self.gap.size, len(origin))
         s = (self.onto(at) @ self.B).reshape(B.shape)
@@ -151,13 +151,13 @@ class _Energy:
         return np.asarray(x)
 
     def pieces_at(self, x: Array, near: Pieces) -> Pieces:
-        """Those at x; where rounding decides, those that are `near`."""
+        """The pieces at x; where rounding decides, the pieces `near`."""
         extra = self.step.extra
         pressing = tuple((extra.A @ x < extra.b).tolist())
         return self.pieces(self.B @ x + self.gap, near)._replace(pressing=pressing)
 
     def pieces(self, z: Array, near: Pieces) -> Pieces:
-        """Those of some lengths of the contacts, shape (n_c, 4)."""
+        """The pieces of given lengths of the contacts, shape (n_c, 4)."""
         faces = []
         for z_j, count, rows in zip(z, self.step.counts.tolist(), near.faces, strict=True):
             conditions = _floats(self.step.cone, count, rows)[:-4] @ z_j

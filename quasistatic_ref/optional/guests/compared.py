@@ -23,7 +23,7 @@ WINDOW = 0.1
 
 @dataclass(frozen=True)
 class Bearing:
-    """What a contact bears, and how it moves.
+    """The force of a contact, and the motion of its surfaces.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class Bearing:
 
 @dataclass(frozen=True)
 class Contact:
-    """A contact in both.
+    """A contact of a state, in MuJoCo and in the exact answer.
 
     Parameters
     ----------
@@ -175,7 +175,7 @@ class Mover(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class MujocoAnswer:
-    """What MuJoCo says of a state.
+    """MuJoCo's forces and motions in a state.
 
     Parameters
     ----------
@@ -206,7 +206,7 @@ class MujocoAnswer:
 
 @dataclass(frozen=True, eq=False)
 class Compared:
-    """A state in both.
+    """A MuJoCo state compared with the exact answer.
 
     Parameters
     ----------
@@ -314,7 +314,7 @@ class Compared:
         return Motion(float(np.linalg.norm(v)), float(np.linalg.norm(omega)), float(v @ down))
 
     def _bearing(self, contact: StateContact, wrench: Array, v: Array) -> Bearing:
-        """What a contact bears and how fast it moves.
+        """The force of a contact and its slip and spin rates, as one :class:`Bearing`.
 
         Parameters
         ----------

@@ -109,7 +109,7 @@ def kind_of(state: MujocoState, field: str, i: int) -> str:
 
 
 def check(state: MujocoState) -> None:
-    """Refuse what no step can say.
+    """Refuse elements of a state that no step can represent: ModelError.
 
     Raises
     ------

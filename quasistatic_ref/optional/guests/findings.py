@@ -49,7 +49,7 @@ def findings(
     tolerance: float,
     model: MjModel,
 ) -> Iterator[Named]:
-    """All findings.
+    """All findings of a second opinion.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ class _Meeting(NamedTuple):
 
     @property
     def depth(self) -> float:
-        """[m]."""
+        """The depth of the two bodies in each other [m]."""
         return max(c.depth for c in self.contacts)
 
     @property
@@ -100,7 +100,7 @@ class _Meeting(NamedTuple):
 
     @property
     def exact(self) -> float:
-        """The exact one [N]."""
+        """The exact normal force [N]."""
         return sum(c.exact.normal for c in self.contacts if c.exact)
 
 
@@ -151,7 +151,7 @@ def not_unique(contacts: Sequence[Contact], bodies: Sequence[Body], weight: floa
 def _motion(
     body: Body, touching: Sequence[Contact], tolerance: float, model: MjModel
 ) -> Iterator[Named]:
-    """What contacts let a body do."""
+    """Findings on a body that slides, turns or creeps on its contacts."""
     moved = [c for c in touching if c.exact and _motion_of(c.exact, body) > tolerance]
     slides = [c for c in moved if c.exact and c.exact.slip > tolerance]
     yielding = {c.pair for c in touching if _creep(c, body) > tolerance}

@@ -227,7 +227,7 @@ def moved(state: MujocoState, J: Array, T: Array) -> Array:
 
 
 class Natural(NamedTuple):
-    """What natural units of rows are made of.
+    """Natural units of rows, from a state and a basis of its coordinates.
 
     Parameters
     ----------

@@ -122,7 +122,7 @@ class Opinion(Plain):
 
     @property
     def record(self) -> dict[str, Any]:
-        """All of it as plain data, of the schema that ``quasistatic-ref schema opinion`` prints."""
+        """The opinion as plain data, as ``quasistatic-ref schema opinion`` describes it."""
         findings = [finding_table(finding) for finding in self.findings]
         head = {"format": FORMAT, "version": VERSION, "engine": ENGINE}
         return {**head, **asdict(self), "findings": findings}

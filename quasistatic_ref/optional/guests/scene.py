@@ -236,7 +236,7 @@ def _scenario_of(
 
 
 def words(scene: MujocoScenario) -> str:
-    """What may touch, within which gap, and how much is left out, and notes, in lines."""
+    """Lines that say what may touch, within which gap, and what the scene leaves out."""
     places = scene.drive.system.places
     notes = "".join(f"{note}\n" for note in scene.drive.system.notes)
     left_out = len(scene.drive.system.ignored)

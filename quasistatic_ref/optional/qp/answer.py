@@ -110,7 +110,7 @@ class ExactQP(Plain, Shown):
         )
 
     def _digits(self, errors: Iterable[arb_mat]) -> float:
-        """Of the part of an error in each block."""
+        """Correct digits from the errors of each block."""
         with working_precision(PRECISION):
             pairs = zip(self.problem.blocks, errors, strict=True)
             off = sum((_square(e, block.form.H * e) for block, e in pairs), arb(0))
@@ -135,7 +135,7 @@ class ExactQP(Plain, Shown):
         return _saved(path, values.pop("problem"), {"status": "optimal"} | values)
 
     def verdict(self) -> Verdict:
-        """Whether all of it is so, checked without a solver: what ``qr.verify`` asks."""
+        """Whether all numbers of the answer are proved, checked without a solver."""
         return _optimum_verdict(self)
 
 
@@ -193,7 +193,7 @@ class QPInfeasible(QuasistaticError):
         return _saved(path, self.problem, {"status": "infeasible", "farkas": self.exact})
 
     def verdict(self) -> Verdict:
-        """Whether it proves that there is no solution: what ``qr.verify`` asks."""
+        """Whether the proof that there is no solution holds, checked without a solver."""
         reason = _farkas_refutation(self.problem, self.exact)
         return Verdict(not reason, reason)
 

@@ -25,10 +25,10 @@ if TYPE_CHECKING:
 
 
 class Sparse(Protocol):
-    """A sparse array of SciPy's, or one like it."""
+    """An array with `toarray`, such as a sparse array of SciPy."""
 
     def toarray(self) -> NDArray[np.float64]:
-        """All of its entries, of the same shape."""
+        """The array with all of its entries, of the same shape."""
 
 
 class HasAnswer(Protocol):
@@ -36,7 +36,7 @@ class HasAnswer(Protocol):
 
     @property
     def x(self) -> ArrayLike | None:
-        """Where it is."""
+        """The x at which the answer is."""
 
 
 Matrix: TypeAlias = "ArrayLike | Sparse | None"

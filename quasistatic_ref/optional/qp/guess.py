@@ -59,7 +59,7 @@ class Scaled:
         return [i + first for i in bear]
 
     def near(self, x: Array) -> list[int]:
-        """Those that an x alone shows, with the multipliers that would hold it there."""
+        """The inequalities that x alone shows to bear, with least-squares multipliers."""
         slack = self.a @ x - self.b
         held = np.flatnonzero(slack <= NEAR * (1 + np.abs(self.b)))
         lam = np.zeros(len(self.b))
@@ -140,7 +140,7 @@ def _asked(scaled: Scaled) -> list[int]:
 
 
 def _given(program: QuadraticProgram, initvals: Any) -> tuple[Array, Array | None]:
-    """A given x, and a multiplier of each row where they are given, too."""
+    """The user's initial x, and initial multipliers of each row if they are given."""
     x = getattr(initvals, "x", initvals)
     x = checked_numbers([] if x is None else x, "initvals", InputError).reshape(-1)
     n = len(program.q)

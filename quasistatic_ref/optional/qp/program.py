@@ -58,7 +58,7 @@ class QuadraticProgram(Plain, Shown):
 
     @cached_property
     def rows(self) -> Rows:
-        """Its rows, equations first."""
+        """The rows of the program, equations first."""
         k, e, n = len(self.h), len(self.b), len(self.q)
         eye = np.eye(n)
         fixed = self.lb == self.ub
@@ -96,7 +96,7 @@ class QuadraticProgram(Plain, Shown):
 
     @cached_property
     def blocks(self) -> list[Block]:
-        """Its parts that nothing couples, in exact numbers; InputError as of `blocks_of`."""
+        """The uncoupled blocks of the program, in exact numbers; InputError as of `blocks_of`."""
         return blocks_of(self)
 
 

@@ -12,7 +12,7 @@ LARGEST_UNPACKED: Final = 64 * 2**20
 
 @contextmanager
 def malformed(kind: str) -> Iterator[None]:
-    """Around what reads a file of a kind by a library.
+    """A context that turns a library's error while reading a file into a ModelError.
 
     Raises
     ------

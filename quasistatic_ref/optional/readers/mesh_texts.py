@@ -240,7 +240,7 @@ def _ply(content: bytes) -> Mesh:
 
 
 class _PlyBody:
-    """What follows the header of a PLY, element after element.
+    """The body of a PLY file, read element by element.
 
     Parameters
     ----------
@@ -259,7 +259,7 @@ class _PlyBody:
 
     @property
     def left(self) -> bytes:
-        """What nothing has read, without spaces."""
+        """The unread rest of the body, without spaces."""
         return self._body[self._at :].strip()
 
     def _taken(self, kind: np.dtype[Any], count: int, what: str) -> NDArray[Any]:

@@ -47,7 +47,7 @@ LOOKS = (
 
 
 class _Part(NamedTuple):
-    """Something that a file places.
+    """A part of a file: its own size, its triangles, and the parts that it contains.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ class _Part(NamedTuple):
 
 
 class _Stated(NamedTuple):
-    """A file as trimesh is given it.
+    """A checked file in the form in which trimesh reads it.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ def _gltf(path: Path, content: bytes) -> _Stated:
 
 
 def _glb(content: bytes) -> tuple[bytes, bytes]:
-    """Its JSON, and its binary chunk."""
+    """The JSON and the binary chunk of a GLB file."""
     version, length = np.frombuffer(content[4:GLB].ljust(8, b"\0"), "<u4").tolist()
     check_equal("version", version, 2)
     check_equal("bytes", len(content), length)
@@ -208,7 +208,7 @@ def _check_gltf_sizes(
 
 
 def _primitive(primitive: Mapping[str, Any], accessors: Sequence[Any]) -> tuple[int, int]:
-    """How many vertices and triangles it has."""
+    """Numbers of vertices and triangles of a primitive."""
     positions = accessors[primitive["attributes"]["POSITION"]]
     indices = accessors[primitive["indices"]] if "indices" in primitive else positions
     mode = primitive.get("mode", 4)

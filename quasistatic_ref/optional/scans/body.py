@@ -63,7 +63,7 @@ class ScannedBody(Plain):
 
     @property
     def urdf(self) -> str:
-        """Its URDF: one link, without a shape."""
+        """The body's URDF: one link without a shape."""
         x, y, z = self.centre.tolist()
         (xx, xy, xz), (_, yy, yz), (*_, zz) = self.inertia.tolist()
         return (
@@ -75,7 +75,7 @@ class ScannedBody(Plain):
 
     @property
     def height(self) -> float:
-        """Of the scan's origin where its lowest point is on a floor at z = 0 [m]."""
+        """Height of the scan's origin when its lowest point is on a floor at z = 0 [m]."""
         return -float(self.points[:, 2].min())
 
     def scenario(self) -> str:
@@ -225,7 +225,7 @@ def _surface_and_solid(
 
 
 def _of_mesh(vertices: Array, triangles: Indices, notes: list[str]) -> tuple[Array, Solid]:
-    """The same of a closed mesh: its corners, and points that are uniform over its area."""
+    """Points of a closed mesh, its corners and uniform ones, and the solid that it encloses."""
     mesh = closed_mesh(vertices, triangles, notes)
     notes.append(f"a closed mesh of {len(triangles)} triangles")
     points, _ = trimesh.sample.sample_surface(mesh, ON_MESH, seed=0)
