@@ -41,7 +41,7 @@ MAY_BE_NULL = {
 
 @dataclass(frozen=True, eq=False)
 class SolutionFile:
-    """What a solution file claims about a step; :meth:`verdict` proves or refutes it.
+    """What a solution file claims about a step; ``verdict`` proves or refutes it.
 
     Parameters
     ----------

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 PRINTED = 4
 """Lines of a kind that are printed."""
 
+UNITS = {"m": "m", "mm": "mm", "s": "s", "deg": "deg", "rad": "rad", "N": "N", "Nm": "N m"}
+"""Units at the end of a word, as they are printed."""
+
 Numbers = Mapping[str, Mapping[str, Mapping[str, float]]]
 """By kind, name and word [any unit]."""
 
@@ -83,11 +86,19 @@ def numbers_of(trajectory: Trajectory, settings: Settings) -> Numbers:
     }
 
 
+def in_words(word: str, value: float) -> str:
+    """A number with its name and unit: ``largest spring 2.462 N`` for ``largest_spring_N``."""
+    name, _, unit = word.rpartition("_")
+    if unit not in UNITS:
+        return f"{word.replace('_', ' ')} {value:.4g}"
+    return f"{name.replace('_', ' ')} {value:.4g} {UNITS[unit]}"
+
+
 def lines(numbers: Numbers) -> Iterator[str]:
     """A few numbers of each kind as text, a line a name, the others being counted."""
     for kind, names in numbers.items():
         for name, each in list(names.items())[:PRINTED]:
-            yield f"{name}: {', '.join(f'{word} {value:.4g}' for word, value in each.items())}"
+            yield f"{name}: {', '.join(in_words(word, value) for word, value in each.items())}"
         if len(names) > PRINTED:
             yield f"{len(names) - PRINTED} more {kind}: see --json"
 

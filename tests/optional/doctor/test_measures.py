@@ -9,7 +9,7 @@ from quasistatic_ref import (
     load_trajectory,
     relative_turn,
 )
-from quasistatic_ref.optional.doctor.telling import by_name, numbers_of
+from quasistatic_ref.optional.doctor.telling import by_name, in_words, numbers_of
 from tests.closeness import assert_relative
 from tests.optional.doctor.words import block, driven, free, scene, slides
 
@@ -68,7 +68,7 @@ def test_the_turn_in_a_hand_is_that_of_the_two_links():
 def test_run_prints_the_numbers(tmp_path, cli):
     printed = cli("run", "block_push", "--fast", "--set", "steps=60", "--out", tmp_path).out
     x = load_trajectory(tmp_path / "block_push.npz")["q"][:, 1]  # of the block, which does not turn
-    assert f"ends_from_start_m {x[-1] - x[0]:.4g}" in printed
+    assert f"ends from start {x[-1] - x[0]:.4g} m" in printed
 
 
 def test_a_shape_that_is_not_of_a_pair_is_answered_by_the_pairs(made):
@@ -93,3 +93,15 @@ def test_a_body_that_turns_on_has_turned_by_more_than_half_a_turn():
     made = scene(box, {"floor": ("floor", "box", 0.5, 4)}, 10, gravity=[0, 0, 0])
     numbers = numbers_of(made.run(progress=False), made)["bodies"]["box"]
     assert numbers["largest_rotation_deg"] == pytest.approx(400)
+
+
+@pytest.mark.parametrize(
+    ("word", "printed"),
+    [
+        ("largest_spring_Nm", "largest spring 2.462 N m"),
+        ("share_of_way_left", "share of way left 2.462"),
+        ("largest_turn_in_left_m_deg", "largest turn in left m 2.462 deg"),
+    ],
+)
+def test_a_number_is_printed_with_its_unit_behind_it(word, printed):
+    assert in_words(word, 2.462) == printed
