@@ -36,6 +36,7 @@ extensions = [
     "sphinx.ext.mathjax",
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
+    "sphinx_copybutton",
     "sphinx_gallery.gen_gallery",
     "sphinxcontrib.bibtex",
     "sphinx-mathjax-offline",  # MathJax 3, copied into _static
@@ -58,6 +59,11 @@ html_theme_options = {"navigation_with_keys": True}
 myst_enable_extensions = ["attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 myst_links_external_new_tab = False
+
+# -- Listings ------------------------------------------------------------------------------------
+# A copy has the lines behind prompts, without the prompts, and not what was printed.
+copybutton_prompt_text = r">>> |\.\.\. |\$ "
+copybutton_prompt_is_regexp = True
 
 # -- Equations -----------------------------------------------------------------------------------
 # The labels eq-1 .. eq-13 stand in one page and in order, so that Sphinx's own numbers (1) .. (13)
@@ -94,6 +100,7 @@ sphinx_gallery_conf = {
     "examples_dirs": "gallery",
     "gallery_dirs": "scripts",  # written at each build
     "filename_pattern": r"\.py$",
+    "within_subsection_order": "docs.gallery_order.OrderOfReadme",
     "download_all_examples": False,
     "show_memory": False,
     "write_computation_times": False,  # its page loads scripts from elsewhere
@@ -150,6 +157,7 @@ def setup(app):
     app.extensions["sphinx-mathjax-offline"].parallel_read_safe = True
     app.connect("source-read", _expanded)
     app.connect("doctree-read", _plain_listings)
+    app.connect("doctree-read", _thumbnails_named)
     app.connect("autodoc-process-docstring", _kept, priority=400)  # napoleon's is 500
     app.connect("autodoc-process-docstring", _mended, priority=600)
     app.connect("missing-reference", _public)
@@ -194,6 +202,15 @@ def _plain_listings(app, doctree):
     for listing in doctree.findall(nodes.literal_block):
         text = CITED_NAME.sub(r"\1", CITED_EQUATION.sub(r"(\1)", listing.astext()))
         listing.rawsource, listing.children = text, [nodes.Text(text)]
+
+
+def _thumbnails_named(app, doctree):
+    """A thumbnail of the gallery's index says for those who do not see it what it leads to."""
+    if app.env.docname != "scripts/index":
+        return
+    for image in doctree.findall(nodes.image):
+        name = re.sub(r"^sphx_glr_(\w+)_thumb$", r"\1", Path(image["uri"]).stem)
+        image["alt"] = f"figure of the script: {name.replace('_', ' ')}"
 
 
 _navigations = {}

@@ -42,11 +42,14 @@ BEYOND = """
 }
 """
 """JavaScript: what reaches out of the window and stands in no box that scrolls."""
-CUT = """
-() => [...document.querySelectorAll('article pre')]
-  .filter(e => e.scrollWidth > e.clientWidth + 2).map(e => e.textContent.trim().slice(0, 60))
+LISTINGS = """
+() => [...document.querySelectorAll('article pre')].filter(e => {
+  if (e.closest('.highlight-sh, .highlight-console')) return e.scrollWidth > e.clientWidth + 2;
+  const style = getComputedStyle(e);
+  return style.whiteSpace !== 'pre' || !['auto', 'scroll'].includes(style.overflowX);
+}).map(e => e.textContent.trim().slice(0, 60))
 """
-"""JavaScript: code that is wider than its box."""
+"""JavaScript: lines of a shell that are wider than their box, and other listings that wrap."""
 RAW = """
 () => {
   const text = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
@@ -104,8 +107,8 @@ def layout_faults(page: Page, site: Path) -> Iterator[str]:
             for element in page.evaluate(BEYOND):
                 yield f"{path.relative_to(site)} at {width} px: {element}"
         if LISTING not in path.parts:
-            for code in page.evaluate(CUT):
-                yield f"{path.relative_to(site)}: wider than its box: {code}"
+            for code in page.evaluate(LISTINGS):
+                yield f"{path.relative_to(site)}: cut off or wrapped: {code}"
 
 
 def open_viewers(page: Page) -> None:
