@@ -87,7 +87,15 @@ def numbers_of(trajectory: Trajectory, settings: Settings) -> Numbers:
 
 
 def in_words(word: str, value: float) -> str:
-    """A number with its name and unit: ``largest spring 2.462 N`` for ``largest_spring_N``."""
+    """A number with its name and unit: ``largest spring 2.462 N`` for ``largest_spring_N``.
+
+    Parameters
+    ----------
+    word : str
+        Its name in records, which ends in its unit.
+    value : float
+        In that unit [any].
+    """
     name, _, unit = word.rpartition("_")
     if unit not in UNITS:
         return f"{word.replace('_', ' ')} {value:.4g}"
