@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from quasistatic_ref.optional.doctor.chosen import Chosen
 from quasistatic_ref.optional.doctor.compared import compared
-from quasistatic_ref.optional.doctor.stopped import missing
+from quasistatic_ref.optional.doctor.stopped import SAME, missing
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 
 if TYPE_CHECKING:
@@ -43,14 +43,16 @@ class Asked:
                 most = self.lacks.get(body)
                 if lack is None:
                     unknown.add(body)
-                elif most is None or lack.amount > most[1].amount:
+                elif most is None or lack.amount > (1 + SAME) * most[1].amount:
                     self.lacks[body] = k, lack
         self.unknown = {body.name for body in unknown - self.lacks.keys()}
         if has_corners(run.simulator.cone):
-            for body, (k, _) in self.lacks.items():
-                there = missing(run, k, [body], ELLIPSOID)
-                if body not in there or there[body] is not None:
-                    self.round[body] = there.get(body)
+            for step in sorted({k for k, _ in self.lacks.values()}):
+                bodies = [body for body, (k, _) in self.lacks.items() if k == step]
+                there = missing(run, step, bodies, ELLIPSOID)
+                for body in bodies:
+                    if body not in there or there[body] is not None:
+                        self.round[body] = there.get(body)
         changes = [change for k in chosen.compared for change in compared(run, k)]
         self.change = max(changes, key=lambda change: change.rank, default=None)
 

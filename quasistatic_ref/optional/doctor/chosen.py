@@ -70,11 +70,12 @@ class Chosen:
         layer = self._adds[:, of].max(axis=1, initial=0.0) / load
         layer = np.where(layer > RISES, layer, 0.0)
         slip = quotient(body.mass * self._slips[:, of].max(axis=1, initial=0.0), run.h**2 * load)
+        slip = np.where((drag > 0) & (slip > LITTLE), slip, 0.0)
         asks[body] = np.asarray((drag > 0) | (layer > 0))
         near = [run.touches[:, run.pair_of == i].any(axis=1) for i in np.unique(run.pair_of[of])]
         _, of_set = np.unique([*near, run.targets_move], axis=1, return_inverse=True)
         sets = [drag * (of_set.ravel() == i) for i in range(of_set.max() + 1)]
-        return [*sets, slip * (drag > 0), layer]
+        return [*sets, slip, layer]
 
     def _of_pair(self, i: int) -> list[Array]:
         """Scores of each step in which a pair stays and targets move, (steps,) each.

@@ -8,6 +8,7 @@ from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor.bodies import COUNTS
 from quasistatic_ref.optional.doctor.compared import SLIP, SPIN, TORQUE
 from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.stopped import SAME
 from quasistatic_ref.optional.doctor.telling import amount, table_of
 from quasistatic_ref.optional.doctor.unsupported import alone, falls
 from quasistatic_ref.simulate.finding import Finding
@@ -67,7 +68,7 @@ def corners(run: Run) -> Iterator[Finding]:
         if there is None:
             continue
         off = float(np.linalg.norm(lack.r - there.r))
-        if off > max(most, COUNTS * float(np.linalg.norm(lack.r))):
+        if off > max((1 + SAME) * most, COUNTS * float(np.linalg.norm(lack.r))):
             most = off
             cause = f"{body.name} lacks {lack} in the {here}, and in the ellipsoid {there}, "
             cause += f"in another direction or by another amount (step {k})"
