@@ -49,7 +49,7 @@ FEW = 16
 CUTS = 20
 """Rounds of tangents to a round cone, at most."""
 ROUND = 1e-8
-"""Part of the longest slip that tangents may leave [-]."""
+"""Part of the longest motion of a contact that tangents may leave of its slip [-]."""
 
 
 class Rung(NamedTuple):
@@ -97,6 +97,7 @@ class Slow:
         self.level = np.zeros_like(sizes)
         self._J_n, *J_t = frame_jacobian(contacts, contacts.J)
         self._slips = contacts.mu[:, :, None] * np.stack(J_t, axis=1)
+        self._reach = np.abs(self._slips)
         self._solver: Solver | None = None
         of, axis = np.nonzero(contacts.mu > 0)
         self._axes = 2 * len(of)
@@ -111,21 +112,22 @@ class Slow:
         contacts = self.step.contacts
         raised = contacts.with_fields(phi=read_only(contacts.phi + s))
         step = self.step.with_fields(h=T, contacts=raised)
-        units = ScaledStep(step).units
+        scaled = ScaledStep(step)
         if not self.polyhedral:
-            return self._round(step, units)
-        delta_q, lam = self._floats(step, units)
+            return self._round(step, scaled.units)
+        delta_q, lam = self._floats(scaled)
         of_contacts = lam[: step.offsets[-1]]
         return delta_q, contact_wrenches(step.contacts, of_contacts, T, step.cone)
 
-    def _floats(self, step: StepData, units: Units) -> tuple[Array, Array]:
+    def _floats(self, scaled: ScaledStep) -> tuple[Array, Array]:
         """delta_q, (n_v,), and lam, (m,), of a step in some units, by a backend's word alone."""
+        step = scaled.step
         if self._solver is None or not self._solver.fits(step):
             self._solver = solver_for(step, fast=is_there("fast"))
-        reply = self._solver.answer(ScaledStep(step, units), ACCURACY)
+        reply = self._solver.answer(scaled, ACCURACY)
         if not reply.solved:
             raise StepNotSolved(self._solver.name, reply.status, step, reply.accuracy)
-        return in_si(*reply.answer, units)
+        return in_si(*reply.answer, scaled.units)
 
     def _round(self, step: StepData, units: Units) -> tuple[Array, Array]:
         """The optimum in the ellipsoid, whose rows are tangents where contacts slip.
@@ -144,7 +146,7 @@ class Slow:
                 b=np.concatenate([extra.b, -contacts.phi[at]]),
             )
             cut = step.with_fields(cone="frictionless", extra=tangents)
-            delta_q, lam = self._floats(cut, units)
+            delta_q, lam = self._floats(ScaledStep(cut, units))
             slip = self._slips @ delta_q
             norm = np.linalg.norm(slip, axis=1)
             beyond = norm - (contacts.phi + self._J_n @ delta_q)
@@ -153,7 +155,7 @@ class Slow:
             forces[:, 2] = lam[: contacts.n_c] / step.h
             np.add.at(forces, at, pushes[:, None] * np.insert(-u, 2, 1.0, axis=1))
             forces[:, [0, 1, 3]] *= contacts.mu
-            new = np.flatnonzero((norm > 0) & (beyond > ROUND * norm.max(initial=0.0)))
+            new = np.flatnonzero((norm > 0) & (beyond > ROUND * self._longest(delta_q)))
             kept = (pushes > 0) | (np.arange(len(at)) < self._axes)
             at = np.concatenate([at[kept], new])
             u = np.vstack([u[kept], slip[new] / norm[new, None]])
@@ -162,17 +164,19 @@ class Slow:
         self._tangents = at, u
         return delta_q, forces
 
+    def _longest(self, delta_q: Array) -> float:
+        """The longest motion of a contact if no two parts of it cancel [m]."""
+        return float((self._reach @ np.abs(delta_q)).sum(axis=1).max(initial=0.0))
+
     def rung(self, T: float, start: Array, most: int = MOST) -> Rung | None:
         """The step by Coulomb's law at T [s], from s = start, (n_c,) [m]; None if none is found."""
         of_way, least = OWN[self.polyhedral]
-        reach = np.abs(self._slips)
 
         def at(s: Array) -> Iterate[tuple[Array, Array]]:
             delta_q, forces = self.convex(T, s)
             slip = slip_norm(self._slips @ delta_q, self.step.cone)
-            longest = (reach @ np.abs(delta_q)).sum(axis=1).max(initial=0.0)
             residual = float(np.abs(slip - s).max(initial=0.0))
-            own = residual <= max(of_way * longest, least)
+            own = residual <= max(of_way * self._longest(delta_q), least)
             return Iterate(s, slip, residual, bool(own), (delta_q, forces))
 
         try:
