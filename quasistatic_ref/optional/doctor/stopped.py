@@ -23,7 +23,6 @@ from quasistatic_ref.certify.groups import Group, group_step, groups
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor.slow import SLOWLY, STRAIGHT, Rung, Slow
 from quasistatic_ref.parts import posed
-from quasistatic_ref.step.friction import frame_jacobian
 
 if TYPE_CHECKING:
     from quasistatic_ref.contact.distance import ClosestPoints
@@ -87,8 +86,10 @@ class Scene:
     ----------
     step : StepData
         Of the near contacts and stops.
-    phi, J_n : ndarray, shapes (n_c,) and (n_c, n_v)
-        Of all contacts.
+    phi : ndarray, shape (n_c,)
+        Of all contacts [m].
+    every : Contacts
+        All of them.
     """
 
     def __init__(
@@ -109,7 +110,7 @@ class Scene:
         if simulator.extension is not None:
             step = posed(step, simulator.extension(q))[0]
         self.phi = every.phi
-        self.J_n = frame_jacobian(step.contacts, step.contacts.J)[0]
+        self.every = step.contacts
         highest = np.zeros(len(run.pairs))
         np.maximum.at(highest, run.pair_of, np.where(run.touches[k], 1.01 * gap, 0.0))
         reach = np.maximum(STRAIGHT * run.sizes, highest[run.pair_of])
@@ -119,7 +120,7 @@ class Scene:
         slides = (step.extra.A[:, lengths] != 0).any(axis=1)
         stops = np.where(slides, STRAIGHT * run.sizes.min(initial=1.0), STRAIGHT)
         coordinates = np.arange(step.n_v)
-        self.step = step.replace(
+        self.step = step.with_fields(
             contacts=step.contacts.some(near, coordinates),
             extra=step.extra.of(np.flatnonzero(-step.extra.b <= stops), coordinates),
             cone=cone or step.cone,
@@ -253,7 +254,8 @@ def missing(
         left &= goes_on
         if not left:
             return lacks
-        foreseen = scene.phi + scene.J_n @ way
+        motion = scene.every.motion(way)[:, :3]
+        foreseen = scene.phi + np.vecdot(scene.every.n, motion)
         q = run.system.integrate(q, way[: run.system.n_v])
     return lacks | {body: first[body] for body in left}  # it goes on and on
 
