@@ -170,7 +170,9 @@ def failed_run(failure: RunFailed, path: Path) -> int:
 
     trajectory: Trajectory = failure.trajectory
     file = path.with_name(f"{path.stem}_failed.npz") if path.exists() else path
-    kept = f"the first {trajectory.steps} steps are in {save_trajectory(file, trajectory)}"
+    steps = trajectory.steps
+    first = "the first step is" if steps == 1 else f"the first {steps} steps are"
+    kept = f"{first} in {save_trajectory(file, trajectory)}"
     if failure.step is not None:
         step = save_step(path.with_name(f"{path.stem}_failed_step.json"), failure.step)
         kept += f", the failing step in {step}"

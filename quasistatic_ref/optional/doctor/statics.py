@@ -45,7 +45,7 @@ def out_of_balance(run: Run) -> Iterator[Finding]:
                 "starts_rad_s2": lack.turns,
                 "step": k,
             },
-            body.name,
+            body.named(lack),
         )
 
 
