@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.formats.option_change import OptionChange
 from quasistatic_ref.formats.quoting import aligned
-from quasistatic_ref.scenario.overrides import OptionChange
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData

@@ -18,12 +18,13 @@ from quasistatic_ref.formats.files import (
     text_written,
     writable_folder,
 )
+from quasistatic_ref.formats.option_change import OptionChange
 from quasistatic_ref.formats.quoting import no_formula
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.parallel import workers as workers_here
 from quasistatic_ref.optional.doctor.telling import by_name, numbers_of
-from quasistatic_ref.scenario.overrides import OptionChange, parsed
+from quasistatic_ref.scenario.overrides import parsed
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar

@@ -9,6 +9,7 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError, ScenarioError
 from quasistatic_ref.formats.files import LONG_KEY, MOST_PARTS, plain
+from quasistatic_ref.formats.option_change import OptionChange
 from quasistatic_ref.scenario.paths import OwnWord
 
 Changes = Sequence[str] | Mapping[str, Any]
@@ -16,26 +17,6 @@ Changes = Sequence[str] | Mapping[str, Any]
 SET = "--set"
 ESSENTIAL = {"bodies": "urdf", "contacts": "alpha"}
 """Tables of tables, and a field without which none of theirs can be."""
-
-
-class OptionChange(str):
-    """A change that an option of a command makes: ``solver.backend="osqp"`` for ``--backend osqp``.
-
-    Parameters
-    ----------
-    text : str
-        The change, as ``--set`` has it.
-    option : str
-        What the user wrote.
-    """
-
-    option: str
-
-    def __new__(cls, text: str, option: str = "") -> "OptionChange":
-        """The text; a copy of a pickle is given its option afterwards."""
-        change = super().__new__(cls, text)
-        change.option = option
-        return change
 
 
 @contextmanager

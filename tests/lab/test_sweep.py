@@ -85,9 +85,14 @@ def test_workers_end_with_the_process_of_the_sweep_also_when_it_is_killed(tmp_pa
 
 
 def test_ctrl_c_ends_a_sweep_and_its_workers_without_a_traceback(tmp_path):
-    command = "-m quasistatic_ref run block_incline --sweep steps=1,100000 --jobs 2 --out map"
+    command = "run block_incline --sweep steps=1,100000 --jobs 2 --out map"
+    code = (
+        "import runpy, signal\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # ignored in the background
+        "runpy.run_module('quasistatic_ref', run_name='__main__')\n"
+    )
     process = subprocess.Popen(
-        [sys.executable, *command.split()], cwd=tmp_path, stderr=subprocess.PIPE,
+        [sys.executable, "-c", code, *command.split()], cwd=tmp_path, stderr=subprocess.PIPE,
         env=os.environ | {"PYTHONPATH": str(ROOT)}, start_new_session=True,
     )  # fmt: skip
     waited_for(lambda: any((tmp_path / "map").glob("runs/*.npz")))

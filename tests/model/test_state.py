@@ -8,7 +8,11 @@ from quasistatic_ref.formats.plain import bits
 from tests.closeness import assert_same
 
 GRAVITY = (0.0, 0.0, -9.81)
-NAMES = ("bunny_grasp", "allegro_turn", "door")  # mimics, a ball, a tree with bodies
+NAMES = (  # mimics, a ball, a tree with bodies
+    "bunny_grasp",
+    pytest.param("allegro_turn", marks=pytest.mark.extra("robots")),
+    "door",
+)
 
 
 def facts(state):

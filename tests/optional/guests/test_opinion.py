@@ -161,12 +161,12 @@ def test_the_command_prints_json_of_the_schema_and_ends_with_1(tmp_path, cli):
 
 REFUSED = {
     "joint[x].springyield": "",
-    "keyframe": "--keyframe gripp",
+    "--keyframe gripp": "--keyframe gripp",
     "actuator": "--control left=1",
     "--control": "--control left",
     "--control v": "--control v=nan",
-    "tolerance": "--tolerance 0",
-    "settle": "--settle -1",
+    "--tolerance 0": "--tolerance 0",
+    "--settle -1": "--settle -1",
 }
 
 

@@ -95,7 +95,8 @@ def test_what_nothing_may_touch_is_told_in_words_of_mjcf():
 def test_other_findings_name_the_pair_and_no_table_of_a_scenario():
     made = scene(ON_FLOOR.replace('name="floor"', 'name="floor" friction="30"'), steps=2)
     (finding,) = made.run().findings
-    assert "check mu_v of contact[world-box(floor, geom1)]" in finding.remedy
+    geoms = "the geoms of contact[world-box(floor, geom1)]"
+    assert f"check the first number of friction of {geoms}" in finding.remedy
 
 
 def test_a_high_body_falls_without_a_distance_that_is_none():
