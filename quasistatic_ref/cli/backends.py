@@ -1,6 +1,7 @@
 """``backends``: the solvers that can be chosen here."""
 
 import argparse
+from importlib.util import find_spec
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.parts import is_there
@@ -38,8 +39,8 @@ def run(options: argparse.Namespace) -> int:
 
 
 def fast_default() -> str | None:
-    """The backend of `fast` where none is named; None if that folder is not there."""
-    if not is_there("fast"):
+    """The backend of `fast` where none is named; None if its folder or its packages are missing."""
+    if not is_there("fast") or not all(map(find_spec, ("daqp", "cffi"))):
         return None
     from quasistatic_ref.optional.fast.solver import DAQP
 

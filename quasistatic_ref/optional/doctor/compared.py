@@ -112,7 +112,8 @@ def _changes(run: Run, k: int, part: Part) -> Iterator[Change]:
         arm = pair.mu_omega * force if pair.rows == 6 else 0.0
         known = (_sizes(resultants(axes, inner[of])) <= INNER).all(axis=1)
         ways = run.ways(i) > SLID * np.array([least(pair), 1.0])
-        sticks = slowly[SLIP:] < COUNTS * here[SLIP:]
+        slips = here[SLIP:] > NULL
+        sticks = slips & (slowly[SLIP:] < COUNTS * here[SLIP:])
         rubs = [pair.mu_v > 0, arm > 0]
         stays = slowly[0] > COUNTS * here[0]
         counts = np.concatenate([known, ways & sticks & rubs & stays])

@@ -283,6 +283,10 @@ def test_a_committed_case_finds_it_and_passes_without_it(layer, field, program):
     assert not wrong_field(layer, found, answer(layer, found.input), digits)
 
 
+EARLIER = {("step", "g"): "H"}
+"""The field that stands before it: where a case has both wrong, a challenge names that one."""
+
+
 def one_for_each_field():
     """Those that a challenge asks; of a field of a layer the first one is not long."""
     seen = set()
@@ -296,4 +300,5 @@ def one_for_each_field():
 @pytest.mark.parametrize(("layer", "field", "program"), list(one_for_each_field()))
 def test_a_challenge_finds_it(layer, field, program):
     found = challenge(lambda _, case: program(case), layers=[layer], cases=500)
-    assert field in {finding.field for finding in found.findings}
+    named = {finding.field for finding in found.findings}
+    assert named & {field, EARLIER.get((layer, field))}
