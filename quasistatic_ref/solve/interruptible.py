@@ -12,7 +12,7 @@ from cvxpy.reductions.solvers.qp_solvers.osqp_qpif import OSQP
 from quasistatic_ref.solve.reply import check_not_interrupted
 
 
-class InterruptibleOsqp(OSQP):  # type: ignore[misc]
+class InterruptibleOsqp(OSQP):  # type: ignore[misc]  # CVXPY has no types
     """CVXPY's interface to OSQP under another name, which CVXPY asks of a custom solver."""
 
     def name(self) -> str:
@@ -26,7 +26,7 @@ class InterruptibleOsqp(OSQP):  # type: ignore[misc]
         return answer
 
 
-class InterruptibleScs(SCS):  # type: ignore[misc]
+class InterruptibleScs(SCS):  # type: ignore[misc]  # CVXPY has no types
     """CVXPY's interface to SCS under another name, which CVXPY asks of a custom solver."""
 
     def name(self) -> str:

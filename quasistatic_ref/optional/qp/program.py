@@ -135,7 +135,7 @@ def program_of(P: Any, *arrays: Any) -> QuadraticProgram:
     if all(hasattr(P, name) for name in FIELDS):
         if any(array is not None for array in arrays):
             raise InputError("P is a whole problem; give no other arrays beside it")
-        P, *arrays = (getattr(P, name) for name in FIELDS)  # type: ignore[assignment]
+        P, *arrays = (getattr(P, name) for name in FIELDS)  # type: ignore[assignment]  # of Any
     given = dict(zip(FIELDS, (P, *arrays), strict=True))
     for name in ("P", "q"):
         if given[name] is None:
