@@ -21,7 +21,7 @@ sys.path.insert(0, str(ROOT))
 import quasistatic_ref  # noqa: E402 the path has to be there first
 from docs.fields_page import arrays_page, reference_page  # noqa: E402 the path has to be there first
 from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
-from quasistatic_ref.scenario.scenario_table import TABLES as SCENARIO  # noqa: E402 the path has to be there first
+from quasistatic_ref.files.scenario.scenario_table import TABLES as SCENARIO  # noqa: E402 the path has to be there first
 
 project = "quasistatic_ref"
 author = "The quasistatic_ref developers"

@@ -1,8 +1,8 @@
 """The fields and arrays of files, as the pages about them list them."""
 
-from quasistatic_ref.formats.declared import Field, Tables
-from quasistatic_ref.formats.files import json_text
-from quasistatic_ref.formats.table_reader import REQUIRED
+from quasistatic_ref.files.declared import Field, Tables
+from quasistatic_ref.files.table_reader import REQUIRED
+from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.simulate.record import ARRAYS
 

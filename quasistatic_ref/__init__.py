@@ -34,17 +34,18 @@ _HOMES = {
     "simulate.recorder": "Recorder",
     "simulate.observer": "Observer",
     "simulate.finding": "Finding",
-    "simulate.trajectory": "Trajectory load_trajectory save_trajectory",
-    "scenario.scenario": "Scenario load_scenario",
+    "simulate.trajectory": "Trajectory",
+    "files.trajectory": "load_trajectory save_trajectory",
+    "files.scenario.scenario": "Scenario load_scenario",
     "optional.scans.body": "scanned_body",
     # One step and its answer.
     "step.data": "StepData Contacts Extra",
-    "step.files": "load_step save_step",
+    "files.step": "load_step save_step",
     "solve.step_problem": "StepProblem",
     "step.standard_form": "standard_form",
     "optional.extensions.extension": "Extension Symbols",
     "certify.solution": "Certificate ContactForces SolverStatistics StepSolution Verdict",
-    "certify.solution_files": "SolutionFile load_solution save_solution",
+    "files.solution": "SolutionFile load_solution save_solution",
     "solve.solve": "solve_step",
     "optional.guests.mujoco": "mujoco_step",
     "optional.guests.mujoco_opinion": "mujoco_opinion",
@@ -90,7 +91,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         SolverStatistics as SolverStatistics,
         StepSolution as StepSolution,
     )
-    from quasistatic_ref.certify.solution_files import (
+    from quasistatic_ref.files.solution import (
         SolutionFile as SolutionFile,
         load_solution as load_solution,
         save_solution as save_solution,
@@ -143,7 +144,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         draw_scenes as draw_scenes,
     )
     from quasistatic_ref.optional.show.figures.viewer import save_view as save_view
-    from quasistatic_ref.scenario.scenario import (
+    from quasistatic_ref.files.scenario.scenario import (
         Scenario as Scenario,
         load_scenario as load_scenario,
     )
@@ -171,15 +172,15 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.simulate.result import StepResult as StepResult
     from quasistatic_ref.simulate.rollout import rollout as rollout
     from quasistatic_ref.simulate.simulator import Simulator as Simulator
-    from quasistatic_ref.simulate.trajectory import (
-        Trajectory as Trajectory,
+    from quasistatic_ref.simulate.trajectory import Trajectory as Trajectory
+    from quasistatic_ref.files.trajectory import (
         load_trajectory as load_trajectory,
         save_trajectory as save_trajectory,
     )
     from quasistatic_ref.solve.solve import solve_step as solve_step
     from quasistatic_ref.solve.step_problem import StepProblem as StepProblem
     from quasistatic_ref.step.data import Contacts as Contacts, Extra as Extra, StepData as StepData
-    from quasistatic_ref.step.files import load_step as load_step, save_step as save_step
+    from quasistatic_ref.files.step import load_step as load_step, save_step as save_step
     from quasistatic_ref.step.standard_form import standard_form as standard_form
 else:
 

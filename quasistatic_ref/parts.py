@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     from quasistatic_ref.certify.curved_cone import CurvedCone
     from quasistatic_ref.certify.solution import ContactForces, StepSolution
     from quasistatic_ref.contact.pairs import ContactPair
-    from quasistatic_ref.model.readers.mesh import Mesh
+    from quasistatic_ref.files.mesh import Mesh
+    from quasistatic_ref.files.scenario.bodies import BodyEntry
+    from quasistatic_ref.files.urdf.file import UrdfFile
     from quasistatic_ref.model.system import System
-    from quasistatic_ref.model.urdf.file import UrdfFile
     from quasistatic_ref.numbers.arrays import Array
     from quasistatic_ref.optional.extensions.extension import Extension, OfBodies
-    from quasistatic_ref.scenario.bodies import BodyEntry
     from quasistatic_ref.simulate.finding import Finding
     from quasistatic_ref.simulate.observer import Observer
     from quasistatic_ref.simulate.simulator import Simulator

@@ -10,7 +10,7 @@ from importlib.metadata import PackageNotFoundError, distribution, requires
 
 import pytest
 
-from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.files.resources import scenario_names
 from quasistatic_ref.parts import is_there
 
 OF_EXTRA = re.compile(r"""([\w.-]+).*\bextra *== *['"]([\w-]+)['"]""")

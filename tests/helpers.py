@@ -7,8 +7,8 @@ import numpy as np
 from quasistatic_ref import InputError, load_step, standard_form
 from quasistatic_ref.certify.curved_cone import judge_of
 from quasistatic_ref.certify.residuals import optimality_residuals
-from quasistatic_ref.certify.solution_files import load_solution
 from quasistatic_ref.certify.verification import verify
+from quasistatic_ref.files.solution import load_solution
 from quasistatic_ref.lab.scenes import at_random
 from quasistatic_ref.lab.scenes.at_random import random_contacts
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about

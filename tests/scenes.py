@@ -1,7 +1,7 @@
 """Scenes that several tests share: bodies that move in every way, and small scenario files."""
 
 from quasistatic_ref import Body, System
-from tests.model.urdf.urdf_texts import (
+from tests.files.urdf.urdf_texts import (
     BOX,
     CHAIN,
     collision,

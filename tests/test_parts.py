@@ -16,12 +16,12 @@ import pytest
 
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.files.scenario.scenario import load_scenario
+from quasistatic_ref.files.trajectory import load_trajectory
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.parts import file_mesh, is_there, needing
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Cylinder
-from quasistatic_ref.simulate.trajectory import load_trajectory
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 from tests.closeness import assert_relative
@@ -113,7 +113,7 @@ OF_CORE_AND_PARTS = {
     "errors/test_python_mistakes",
     "errors/test_spoilt_files",
     "model/joints/test_ball",
-    "model/readers/test_mesh_files",
+    "files/test_mesh_files",
     "model/test_named",
     "properties/test_forgeries",
     "shapes/test_a_shape_added",

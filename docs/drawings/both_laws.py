@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from docs.drawings.which_cone_is_real import measurements
+from quasistatic_ref.files.scenario.scenario import load_scenario
 from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.grasp import CLOSED
 from quasistatic_ref.lab.reality.measurements import Pair
@@ -23,7 +24,6 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.coulomb.fixed_point import coulomb_step
 from quasistatic_ref.optional.doctor.motions import link_motion
 from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, LAWS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData

@@ -13,6 +13,7 @@ import pinocchio as pin
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.files.scenario.scenario import load_scenario
 from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of
@@ -20,7 +21,6 @@ from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Sphere
 from quasistatic_ref.step.data import Contacts
 

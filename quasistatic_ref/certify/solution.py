@@ -16,8 +16,8 @@ from quasistatic_ref.formats.shown import HasPage, Shown
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
 from quasistatic_ref.parts import contact_forces
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.friction import contact_wrenches
+from quasistatic_ref.step.text import step_sha256
 
 UNKNOWN = "are not known: a step holds no costs or nonlinear constraints"
 

@@ -7,10 +7,11 @@ from pathlib import Path
 from quasistatic_ref.certify.groups import group_step, groups
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.files import LARGEST_TEXT
+from quasistatic_ref.files.content import LARGEST_TEXT
+from quasistatic_ref.files.step import save_step
+from quasistatic_ref.files.trajectory import load_trajectory
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.simulate.trajectory import load_trajectory
-from quasistatic_ref.step.files import save_step, step_text
+from quasistatic_ref.step.text import step_text
 
 OF_ENTRY = 5
 """Bytes of an entry that is zero, as nearly all are in a large step."""

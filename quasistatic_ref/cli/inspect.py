@@ -16,10 +16,11 @@ from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.separations import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.files.finding import finding_table
+from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.parts import is_there, needing
-from quasistatic_ref.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.finding import finding_table, severity
+from quasistatic_ref.simulate.finding import severity
 from quasistatic_ref.step.cones import cone
 
 READ_AS = "a fixed base, all joints actuated"

@@ -74,7 +74,7 @@ class Parser(argparse.ArgumentParser):
 
 def _is_field(name: str) -> bool:
     """Whether a name is a top-level field of scenarios, such as ``steps``."""
-    tables = import_module("quasistatic_ref.scenario.scenario_table")
+    tables = import_module("quasistatic_ref.files.scenario.scenario_table")
     return name in tables.TABLES[tables.TOP]
 
 

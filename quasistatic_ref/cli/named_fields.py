@@ -5,7 +5,8 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Final
 
-from quasistatic_ref.formats.files import json_text, toml_read
+from quasistatic_ref.files.content import toml_read
+from quasistatic_ref.formats.json_text import json_text
 
 BARE: Final = re.compile(r"[A-Za-z0-9_-]+")
 """What TOML takes as a key without quotes."""

@@ -11,13 +11,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import json_text
-from quasistatic_ref.formats.option_change import OptionChange
+from quasistatic_ref.files.option_change import OptionChange
+from quasistatic_ref.files.step import load_step, save_step
+from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.files import load_step, save_step
 
 OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "step": {"type": Path, "help": "a step file (quasistatic-ref/step)"},
@@ -166,7 +166,7 @@ def failed_run(failure: RunFailed, path: Path) -> int:
 
     A trajectory that is there stays.
     """
-    from quasistatic_ref.simulate.trajectory import save_trajectory  # which needs pinocchio
+    from quasistatic_ref.files.trajectory import save_trajectory  # which needs pinocchio
 
     trajectory: Trajectory = failure.trajectory
     file = path.with_name(f"{path.stem}_failed.npz") if path.exists() else path

@@ -12,16 +12,17 @@ import numpy as np
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.ignored import unknown_elements
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.files import writable_folder
-from quasistatic_ref.formats.npz import header_of, npz_arrays
-from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.files.content import writable_folder
+from quasistatic_ref.files.finding import finding_table
+from quasistatic_ref.files.npz import header_of, npz_arrays
+from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
+from quasistatic_ref.files.table_reader import TableReader
+from quasistatic_ref.files.trajectory import FORMAT, VERSION, WHAT, save_trajectory
 from quasistatic_ref.parts import check_there, is_there, needing
-from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
-from quasistatic_ref.simulate.finding import finding_table
-from quasistatic_ref.simulate.header import FORMAT, VERSION, Header
+from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.law import COULOMB
-from quasistatic_ref.simulate.trajectory import WHAT, Trajectory, certified, save_trajectory
+from quasistatic_ref.simulate.trajectory import Trajectory, certified
 from quasistatic_ref.step.cones import cone
 
 

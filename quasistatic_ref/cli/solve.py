@@ -9,13 +9,13 @@ from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.groups import flat_rows
 from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.certify.solution_files import infeasible_text, solution_text
 from quasistatic_ref.certify.working_set import fraction_point
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.files.content import text_written
+from quasistatic_ref.files.solution import infeasible_text, solution_text
 from quasistatic_ref.solve.backends import CERTIFY
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step

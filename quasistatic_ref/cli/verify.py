@@ -6,10 +6,10 @@
 import argparse
 from pathlib import Path
 
-from quasistatic_ref.certify.solution_files import load_solution
 from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words
+from quasistatic_ref.files.solution import load_solution
 from quasistatic_ref.parts import needing
 
 

@@ -1,1 +1,1 @@
-"""Reading and writing: files, fields, tables of fields, NPZ, schemas, quoting."""
+"""What every room uses of texts: plain data, quoting, JSON, objects that show themselves."""

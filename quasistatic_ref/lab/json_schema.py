@@ -7,8 +7,8 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from quasistatic_ref.formats.declared import Field, Tables
-from quasistatic_ref.formats.table_reader import REQUIRED
+from quasistatic_ref.files.declared import Field, Tables
+from quasistatic_ref.files.table_reader import REQUIRED
 from quasistatic_ref.tolerances import LARGE
 
 DRAFT = "http://json-schema.org/draft-04/schema#"

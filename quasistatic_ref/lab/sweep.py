@@ -13,22 +13,20 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import (
-    json_text,
-    text_written,
-    writable_folder,
-)
-from quasistatic_ref.formats.option_change import OptionChange
+from quasistatic_ref.files.content import text_written, writable_folder
+from quasistatic_ref.files.option_change import OptionChange
+from quasistatic_ref.files.resources import scenario_path
+from quasistatic_ref.files.scenario.overrides import parsed
+from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
+from quasistatic_ref.files.trajectory import save_trajectory
+from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.formats.quoting import no_formula
-from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.parallel import workers as workers_here
 from quasistatic_ref.optional.doctor.telling import by_name, numbers_of
-from quasistatic_ref.scenario.overrides import parsed
-from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar
-from quasistatic_ref.simulate.trajectory import Trajectory, save_trajectory
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.tolerances import LARGE
 
 TABLE = "runs.csv"

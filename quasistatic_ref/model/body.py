@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, about_field
+from quasistatic_ref.files.urdf.file import UrdfFile
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import BASES
-from quasistatic_ref.model.urdf.file import UrdfFile
 from quasistatic_ref.model.urdf.solid import Homogeneous, solid_urdf
 from quasistatic_ref.parts import described_model
 from quasistatic_ref.shapes.frozen import finite_number, freeze_array

@@ -8,6 +8,7 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.files.urdf.file import UrdfFile
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.together import together
@@ -18,7 +19,6 @@ from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import QUATERNION, Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.model.urdf.file import UrdfFile
 from quasistatic_ref.model.urdf.urdf import BASE, Urdf, loaded_urdf, urdf_model
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import PlacedShape

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import MISSING, dataclass, fields
-from typing import Any, Literal, get_args
+from dataclasses import dataclass
+from typing import Literal, get_args
 
-from quasistatic_ref.errors import about_field
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.simulate.distances import CLOSED, DISTANCES
-from quasistatic_ref.simulate.finding import Finding, finding_read, finding_table
-from quasistatic_ref.simulate.law import CONVEX, LAWS
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.simulate.distances import CLOSED
+from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.law import CONVEX
 
-FORMAT = "quasistatic-ref/trajectory"
-VERSION = 1
 Record = Literal["full", "light", "forces"]
 RECORDS: tuple[Record, ...] = get_args(Record)
 
@@ -86,75 +80,3 @@ class Header(Plain):
     unanswered: tuple[int, ...] = ()
     not_looked_at: str = ""
     ignore: tuple[str, ...] = ()
-
-
-def header_table(header: Header) -> dict[str, Any]:
-    """A header as the table that files hold; fields with default values are left out."""
-    table: dict[str, Any] = {"format": FORMAT, "version": VERSION}
-    for field in fields(Header):
-        value = getattr(header, field.name)
-        if field.default is MISSING or value != field.default:
-            table[field.name] = list(value) if isinstance(value, tuple) else value
-    table["contacts"] = [list(names) for names in header.contacts]
-    table["findings"] = [finding_table(finding) for finding in header.findings]
-    return table
-
-
-def header_read(top: TableReader, n_q: int, n_c: int) -> Header:
-    """The header of a file, whose arrays have so many positions and contacts.
-
-    What files have from before there were names of it is numbered.
-
-    Raises
-    ------
-    InputError
-        If a field is missing, unknown or of another type.
-    """
-    with about_field("cone"):
-        friction = cone(top.text("cone")).name
-    coordinates = tuple(top.words("coordinates"))
-    contacts = top.sequence("contacts")
-    if not all(isinstance(names, list) for names in contacts):
-        raise top.error_about("contacts", "must be lists of names", contacts)
-    top.words("warnings", [])  # of files from before there were findings
-    listed = enumerate(top.sequence("findings", []))
-    header = Header(
-        h=top.number("h", above=0.0),
-        backend=top.text("backend"),
-        cone=friction,
-        record=top.text("record", choices=RECORDS),
-        n_a=top.integer("n_a", least=0),
-        n_u=top.integer("n_u", least=0),
-        coordinates=coordinates,
-        units=tuple(top.words("units", ["m, rad"] * len(coordinates))),
-        positions=tuple(top.words("positions", [f"q.{i} [m, rad]" for i in range(n_q)])),
-        slots=tuple(top.words("slots", [f"contact/{i}/0" for i in range(n_c)])),
-        steps=top.integer("steps", least=0),
-        extra=tuple(top.words("extra")),
-        failed=_unless_null(top, "failed", top.text),
-        quasi_dynamic_number=_unless_null(top, "quasi_dynamic_number", top.number),
-        largest_boundary_layer=_unless_null(top, "largest_boundary_layer", top.number),
-        contacts=tuple(map(tuple, contacts)),
-        findings=tuple(finding_read(one, f"findings[{i}]") for i, one in listed),
-        law=top.text("law", CONVEX, LAWS),
-        distances=top.text("distances", CLOSED, DISTANCES),
-        alone=top.boolean("alone", True),
-        unanswered=_steps(top, "unanswered"),
-        not_looked_at=top.text("not_looked_at", ""),
-        ignore=tuple(top.words("ignore", [])),
-    )
-    top.take("scene", None)  # of files from when accounts of runs were made of them
-    top.close()
-    return header
-
-
-def _steps(top: TableReader, name: str) -> tuple[int, ...]:
-    """Numbers of steps that ran, ascending."""
-    numbers = top.sequence(name, [])
-    if not all(type(k) is int and k >= 0 for k in numbers) or numbers != sorted(set(numbers)):
-        raise top.error_about(name, "must be numbers of steps, in increasing order", numbers)
-    return tuple(numbers)
-
-
-def _unless_null(top: TableReader, name: str, read: Callable[[str], Any]) -> Any:
-    return top.take(name) if top.is_null(name) else read(name)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, KeysView, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,26 +12,20 @@ from numpy.typing import NDArray
 
 from quasistatic_ref import parts
 from quasistatic_ref.certify.solution import UNKNOWN, ContactForces
-from quasistatic_ref.errors import InputError, MissingKey, about_file, check_kind
-from quasistatic_ref.formats.files import written_whole
-from quasistatic_ref.formats.npz import json_array, npz_record
+from quasistatic_ref.errors import InputError, MissingKey
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import HasPage
-from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.header import FORMAT, VERSION, Header, header_read, header_table
-from quasistatic_ref.simulate.record import check_arrays, check_needed, without_steps
+from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.step.data import Contacts, Extra, StepData, no_rows
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
     from quasistatic_ref.simulate.scene import Scene
-
-WHAT = "a trajectory written by this program"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -343,55 +336,6 @@ class Trajectory(Plain, HasPage):
             As for :meth:`to_pandas`.
         """
         return parts.contact_table(self)
-
-
-def load_trajectory(path: str | Path) -> Trajectory:
-    """Read a trajectory file.
-
-    Raises
-    ------
-    InputError
-        If it is not one, is of another version, its header and arrays do not fit together, a field
-        is unknown or missing, or a number is not finite that has to be.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from pathlib import Path
-    >>> run = qr.load_scenario("sphere_spin", steps=3).run(progress=False)
-    >>> path = qr.save_trajectory(Path(tempfile.mkdtemp()) / "spin.npz", run)
-    >>> qr.load_trajectory(path).phi.shape
-    (3, 1)
-    """
-    table, arrays = npz_record(path, WHAT)
-    with about_file(path):
-        top = TableReader(table)
-        top.check_format(FORMAT, VERSION)
-        check_needed(arrays)
-        header = header_read(top, arrays["q"].shape[-1], arrays["rows"].size)
-        if not header.steps:  # older files leave out what has no entries
-            arrays = without_steps(header, arrays)
-        check_arrays(header, arrays)
-    return Trajectory(header, arrays)
-
-
-def save_trajectory(path: str | Path, trajectory: Trajectory) -> Path:
-    """Write a trajectory file, whole or not at all.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from pathlib import Path
-    >>> run = qr.load_scenario("sphere_spin", steps=3).run(progress=False)
-    >>> qr.save_trajectory(Path(tempfile.mkdtemp()) / "spin.npz", run).name
-    'spin.npz'
-    """
-    check_kind(trajectory, Trajectory, "trajectory", "a Trajectory: save_trajectory(path, run)")
-    arrays: dict[str, Any] = {
-        "header": json_array(header_table(trajectory.header)),
-        **trajectory.arrays,
-    }
-    return written_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
 
 def certified(trajectory: Trajectory) -> str:

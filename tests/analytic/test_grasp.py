@@ -11,7 +11,7 @@ import pytest
 
 from quasistatic_ref import load_scenario, load_trajectory
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.formats.resources import models_folder
+from quasistatic_ref.files.resources import models_folder
 from quasistatic_ref.lab.grasp import grasp_report
 from quasistatic_ref.optional.doctor.motions import rotation_angle
 from tests.closeness import assert_relative, assert_same

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, QuasistaticError, StepInfeasible, solve_step
-from quasistatic_ref.certify.solution_files import infeasible_text, solution_text
-from quasistatic_ref.step.files import step_sha256, step_text
+from quasistatic_ref.files.solution import infeasible_text, solution_text
+from quasistatic_ref.step.text import step_sha256, step_text
 from tests.cases import cases
 from tests.helpers import verify_refusal
 from tests.oracles.attacked_steps import steps

@@ -10,7 +10,7 @@ import pytest
 from quasistatic_ref import Extra, StepDataError, solve_step, verify, verify_answer
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.groups import contact_rows, flat_rows
-from quasistatic_ref.certify.solution_files import solution_text
+from quasistatic_ref.files.solution import solution_text
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.solve.proved import exact_certificate
 from quasistatic_ref.solve.units import ScaledStep

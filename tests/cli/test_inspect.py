@@ -8,7 +8,7 @@ import pytest
 from quasistatic_ref.cli.options import WIDTH
 from tests.closeness import assert_within
 from tests.extras import SCENARIOS
-from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, urdf_of_text
+from tests.files.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, urdf_of_text
 from tests.pages import flat
 from tests.scenes import RAIL
 

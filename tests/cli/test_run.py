@@ -10,7 +10,7 @@ from quasistatic_ref import load_step, load_trajectory, solve_step
 from quasistatic_ref.cli import extract
 from quasistatic_ref.simulate import simulator
 from tests.closeness import assert_same
-from tests.model.urdf.urdf_texts import joint, urdf_of_text
+from tests.files.urdf.urdf_texts import joint, urdf_of_text
 from tests.scenes import RAIL, SWING, written_scenario
 from tests.tolerances import MULTIPLIERS
 

@@ -2,7 +2,7 @@
 
 import tomllib
 
-from tests.model.urdf.urdf_texts import urdf_of_text
+from tests.files.urdf.urdf_texts import urdf_of_text
 from tests.oracles.records import toml_text, with_value
 from tests.scenes import BALL, RAIL
 

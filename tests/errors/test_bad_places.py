@@ -9,8 +9,8 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.quoting import clipped
 from tests.cases import cases
 from tests.errors.scene import SCENE, changed, scene_written
+from tests.files.urdf.urdf_texts import urdf_of_text
 from tests.helpers import planted_step
-from tests.model.urdf.urdf_texts import urdf_of_text
 from tests.scenes import BALL
 
 LEAVES = "is outside the scenario's folder; move the file there, or give the path on the command"
@@ -169,7 +169,7 @@ FOLDERS = {
 def test_a_folder_that_cannot_be_written_to_is_known_before_the_run(
     tmp_path, refused, monkeypatch, folder, words, command
 ):
-    from quasistatic_ref.scenario.scenario import Scenario
+    from quasistatic_ref.files.scenario.scenario import Scenario
 
     def run(scenario, progress=True):
         raise AssertionError("work was done before the folder was looked at")

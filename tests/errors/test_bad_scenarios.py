@@ -6,8 +6,8 @@ from datetime import date
 import pytest
 
 from quasistatic_ref import InputError, QuasistaticError, load_scenario
-from quasistatic_ref.model.readers.clouds import point_cloud
-from quasistatic_ref.scenario import contacts
+from quasistatic_ref.files.clouds import point_cloud
+from quasistatic_ref.files.scenario import contacts
 from quasistatic_ref.simulate.trajectory import certified
 from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written
 

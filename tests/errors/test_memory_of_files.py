@@ -7,9 +7,9 @@ from contextlib import suppress
 import pytest
 
 from quasistatic_ref import Body, InputError, System, load_step
-from quasistatic_ref.model.readers import xml_text
-from quasistatic_ref.model.readers.clouds import point_cloud
-from quasistatic_ref.model.readers.mesh_files import loaded_mesh
+from quasistatic_ref.files import xml_text
+from quasistatic_ref.files.clouds import point_cloud
+from quasistatic_ref.files.mesh_files import loaded_mesh
 from tests.cases import cases
 from tests.oracles.shape_files import COLLADA, plain_gltf
 

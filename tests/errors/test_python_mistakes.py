@@ -10,7 +10,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError, QuasistaticError
 from quasistatic_ref.simulate.limits import Limits
 from tests.closeness import assert_same
-from tests.model.urdf.urdf_texts import collision, inertial, link, robot, urdf_of_text
+from tests.files.urdf.urdf_texts import collision, inertial, link, robot, urdf_of_text
 from tests.scenes import PUSH, written_scenario
 
 BLOCK = qr.Body.of_shape("block", qr.Box((0.05, 0.05, 0.02)), mass=0.5, xyz=(0, 0, 0.02))

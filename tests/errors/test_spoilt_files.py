@@ -21,16 +21,16 @@ from quasistatic_ref import (
     save_step,
     solve_step,
 )
-from quasistatic_ref.certify.solution_files import load_solution, solution_text
 from quasistatic_ref.certify.verification import verify
-from quasistatic_ref.formats.resources import models_folder
+from quasistatic_ref.files.clouds import point_cloud
+from quasistatic_ref.files.mesh_files import loaded_mesh
+from quasistatic_ref.files.resources import models_folder
+from quasistatic_ref.files.solution import load_solution, solution_text
+from quasistatic_ref.files.trajectory import save_trajectory
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.files import answers_written
-from quasistatic_ref.model.readers.clouds import point_cloud
-from quasistatic_ref.model.readers.mesh_files import loaded_mesh
-from quasistatic_ref.simulate.trajectory import save_trajectory
 from tests.errors.scene import scene_written
-from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
+from tests.files.urdf.urdf_texts import collision, link, robot, urdf_of_text
 from tests.oracles.shape_files import (
     COLLADA,
     PCD_BODY,

@@ -9,10 +9,10 @@ from jsonschema import Draft4Validator
 
 from docs.fields_page import reference_page
 from quasistatic_ref import InputError, load_scenario
-from quasistatic_ref.formats.resources import scenario_path
+from quasistatic_ref.files.resources import scenario_path
+from quasistatic_ref.files.scenario.scenario_table import TABLES
+from quasistatic_ref.files.scenario.world_solids import SOLIDS
 from quasistatic_ref.lab.commands.schema import scenario_schema
-from quasistatic_ref.scenario.scenario_table import TABLES
-from quasistatic_ref.scenario.world_solids import SOLIDS
 from tests.errors.scene import SCENE, changed, scene_written
 from tests.extras import SCENARIOS
 from tests.oracles.records import toml_text

@@ -6,7 +6,7 @@ from inspect import CO_GENERATOR
 
 import pytest
 
-from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.files.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from tests.pages import PACKAGE
 

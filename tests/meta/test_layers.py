@@ -18,7 +18,7 @@ OF_CONES = ("step/cones.py", "certify/curved_cone.py", "optional/ellipsoid/cone.
 OF_JOINTS = {FIXED, *BASES, *JOINTS}
 READERS = (
     *("model/joints/", "model/body.py", "model/urdf/", "optional/models/"),
-    *("scenario/", "cli/", "lab/"),
+    *("files/", "cli/", "lab/"),
 )
 
 

@@ -8,20 +8,19 @@ import inspect
 from operator import attrgetter
 
 import quasistatic_ref as qr
-from quasistatic_ref.certify import solution_files
 from quasistatic_ref.cli import main
 from quasistatic_ref.cli.main import _actions as leaves
 from quasistatic_ref.cli.main import command_parser
+from quasistatic_ref.files import solution, trajectory
+from quasistatic_ref.files.scenario import scenario_table
 from quasistatic_ref.lab.vectors import versions
-from quasistatic_ref.scenario import scenario_table
-from quasistatic_ref.simulate import trajectory
-from quasistatic_ref.step import files
+from quasistatic_ref.step import text as step
 from tests.meta.remedies import assert_alike
 from tests.pages import ROOT
 
 FORMATS = {
-    files.STEP_FORMAT: files.VERSION,
-    solution_files.SOLUTION_FORMAT: solution_files.VERSION,
+    step.STEP_FORMAT: step.VERSION,
+    solution.SOLUTION_FORMAT: solution.VERSION,
     scenario_table.FORMAT: scenario_table.VERSION,
     trajectory.FORMAT: trajectory.VERSION,
     versions.FORMAT: versions.FORMAT_VERSION,

@@ -4,11 +4,11 @@ import re
 import sys
 from collections import defaultdict
 
-from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.files.scenario.scenario import load_scenario
 from tests.pages import PACKAGE, ROOT
 
 PAGE = ROOT / "docs" / "contributing.md"
-BRANCH = re.compile(r"^( *)(\w+(?:\.\w+)?) +(\w+/\w+\.py)", re.MULTILINE)
+BRANCH = re.compile(r"^( *)(\w+(?:\.\w+)?) +([\w/]+\.py)", re.MULTILINE)
 SECTION = PAGE.read_text().partition("## Read the code")[2].partition("\n## ")[0]
 
 

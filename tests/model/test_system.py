@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref import Body, System
-from tests.model.urdf.urdf_texts import inertial, joint, link, robot
+from tests.files.urdf.urdf_texts import inertial, joint, link, robot
 
 
 def test_coordinates_are_actuated_first_then_in_order_of_the_bodies(scene):

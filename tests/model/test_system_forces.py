@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref import Body, System
 from tests.closeness import assert_within
-from tests.model.urdf.urdf_texts import BOX, inertial, joint, link, robot
+from tests.files.urdf.urdf_texts import BOX, inertial, joint, link, robot
 from tests.tolerances import ROUNDING
 
 CART = robot(

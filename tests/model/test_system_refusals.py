@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref import Body, ModelError, System
 from tests.cases import cases
-from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot
+from tests.files.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot
 
 
 def test_a_configuration_of_another_length_is_refused(scene):

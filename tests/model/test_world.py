@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref import Body, Sphere, System
 from tests.cases import cases
 from tests.closeness import assert_within
-from tests.model.urdf.urdf_texts import joint, link, robot
+from tests.files.urdf.urdf_texts import joint, link, robot
 from tests.tolerances import ROUNDING
 
 GRAVITY = np.array([1.0, -2.0, -9.81])

@@ -9,8 +9,8 @@ import pytest
 
 from quasistatic_ref import Certificate, solve_step
 from quasistatic_ref.certify.solution import CLAIMS
-from quasistatic_ref.certify.solution_files import load_solution, solution_text
 from quasistatic_ref.certify.verification import verify
+from quasistatic_ref.files.solution import load_solution, solution_text
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from tests.oracles.forged_scenes import between_walls, scenes

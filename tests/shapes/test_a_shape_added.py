@@ -15,12 +15,12 @@ from quasistatic_ref.contact import crossings as crossings_of
 from quasistatic_ref.contact.solids import solid_pair as solid_pair_of
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.formats.declared import Field
+from quasistatic_ref.files.declared import Field
+from quasistatic_ref.files.scenario.world_solids import SOLIDS, Kind
 from quasistatic_ref.optional.curved.faces import kinks
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.draw import draw_scene
 from quasistatic_ref.optional.show.figures.moments import moment
-from quasistatic_ref.scenario.world_solids import SOLIDS, Kind
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import dimensions
 from tests.closeness import assert_relative, assert_within

@@ -23,9 +23,9 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.certify import solution
 from quasistatic_ref.cli.run import worst_residual
+from quasistatic_ref.files.finding import finding_table
+from quasistatic_ref.files.trajectory import header_table
 from quasistatic_ref.simulate import recorder
-from quasistatic_ref.simulate.finding import finding_table
-from quasistatic_ref.simulate.header import header_table
 from tests.closeness import assert_same
 from tests.scenes import written_scenario
 

@@ -28,9 +28,9 @@ from tqdm import tqdm
 
 from quasistatic_ref import ModelError, RunFailed, System
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.files.clouds import seen_points
+from quasistatic_ref.files.mesh_files import loaded_mesh, mesh_hull
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.readers.clouds import seen_points
-from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_hull
 from quasistatic_ref.optional.guests.compiler import compiled_model
 from quasistatic_ref.optional.guests.scene import mujoco_scenario
 from validation.tools.scripts import RESULTS, script_options

@@ -8,7 +8,8 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.formats.files import plain, text_written
+from quasistatic_ref.files.content import text_written
+from quasistatic_ref.formats.json_text import plain
 
 ROOT = Path(__file__).parents[2]
 """Of the checkout."""

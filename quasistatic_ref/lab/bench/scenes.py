@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.files.scenario.scenario import load_scenario
 from quasistatic_ref.lab.scenes.systems import on_link
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.fast.simulator import FastSimulator
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PlacedShape
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import Certify

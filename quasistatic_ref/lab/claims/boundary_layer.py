@@ -4,10 +4,10 @@ from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.files.scenario.scenario import load_scenario
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.scenes.spun_sphere import LIMIT, RADIUS, layer_at_rate, layer_at_torque
 from quasistatic_ref.lab.thresholds import slope
-from quasistatic_ref.scenario.scenario import load_scenario
 
 FITTED: Final = 0.02
 """Largest difference of a fitted exponent from the exponent of the law it is to show."""

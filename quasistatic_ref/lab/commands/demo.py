@@ -5,7 +5,9 @@ import argparse
 import numpy as np
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.formats.files import writable_folder
+from quasistatic_ref.files.content import writable_folder
+from quasistatic_ref.files.scenario.scenario import Scenario
+from quasistatic_ref.files.trajectory import save_trajectory
 from quasistatic_ref.lab.figures.clouds import rotations_by_case
 from quasistatic_ref.lab.grasp import (
     CLOSED,
@@ -14,9 +16,8 @@ from quasistatic_ref.lab.grasp import (
     grasp_report,
     grasp_scenarios,
 )
-from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.failures import RunFailed
-from quasistatic_ref.simulate.trajectory import Trajectory, save_trajectory
+from quasistatic_ref.simulate.trajectory import Trajectory
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

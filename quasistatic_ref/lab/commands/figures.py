@@ -27,7 +27,7 @@ def run(options: argparse.Namespace) -> int:
     InputError
         If a name is unknown.
     """
-    from quasistatic_ref.formats.files import writable_folder
+    from quasistatic_ref.files.content import writable_folder
     from quasistatic_ref.lab.figures.gallery import gallery_figure, gallery_scripts
     from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 

@@ -5,7 +5,8 @@ from functools import partial
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import json_text, text_written, writable_folder
+from quasistatic_ref.files.content import text_written, writable_folder
+from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.step.cones import ELLIPSOID, cone

@@ -5,9 +5,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from quasistatic_ref.lab.json_schema import json_schema
-from quasistatic_ref.parts import needing
-from quasistatic_ref.scenario.scenario_table import (
+from quasistatic_ref.files.scenario.scenario_table import (
     CONTACT,
     SHAPE,
     TABLES,
@@ -16,7 +14,9 @@ from quasistatic_ref.scenario.scenario_table import (
     WAYPOINT,
     WRENCH,
 )
-from quasistatic_ref.scenario.world_solids import SOLIDS
+from quasistatic_ref.files.scenario.world_solids import SOLIDS
+from quasistatic_ref.lab.json_schema import json_schema
+from quasistatic_ref.parts import needing
 
 RULES: dict[str, Mapping[str, Any]] = {
     CONTACT: {

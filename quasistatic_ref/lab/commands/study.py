@@ -7,7 +7,7 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
-from quasistatic_ref.formats.files import writable_folder
+from quasistatic_ref.files.content import writable_folder
 from quasistatic_ref.lab.commands import study_problems
 from quasistatic_ref.lab.study.row import Row
 from quasistatic_ref.lab.study.saying import SAYINGS

@@ -5,7 +5,7 @@ import sys
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import text_written, writable_folder
+from quasistatic_ref.files.content import text_written, writable_folder
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, NOT_RUN, ClaimResult, claim_result
 from quasistatic_ref.lab.claims.registry import BY_NAME, CLAIMS

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from matplotlib import pyplot as plt
 
-from quasistatic_ref.formats.resources import data_folder
+from quasistatic_ref.files.resources import data_folder
 from quasistatic_ref.optional.show.figures import Figure
 
 

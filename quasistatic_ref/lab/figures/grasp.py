@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from quasistatic_ref.files.scenario.scenario import Scenario
 from quasistatic_ref.lab.figures.labels import caption, note_below
 from quasistatic_ref.lab.grasp import CLOSED, lift_motion
 from quasistatic_ref.numbers.arrays import Array
@@ -13,7 +14,6 @@ from quasistatic_ref.optional.show.figures.draw import draw_scene, force_scale
 from quasistatic_ref.optional.show.figures.looks import CAMERA, FORCE
 from quasistatic_ref.optional.show.figures.moments import Moment, moment
 from quasistatic_ref.optional.show.figures.style import panels, scaled
-from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 LEAST = 0.03

@@ -8,7 +8,7 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.files.content import written_whole
 from quasistatic_ref.lab.figures.line_styles import pens
 from quasistatic_ref.optional.show.figures.style import PAGE
 

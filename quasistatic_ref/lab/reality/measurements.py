@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import json_read
+from quasistatic_ref.files.content import json_read
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.outline import Outline

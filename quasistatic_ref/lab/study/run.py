@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import json_read, json_text, text_written
+from quasistatic_ref.files.content import json_read, text_written
+from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.lab.fingerprint import fingerprint
 from quasistatic_ref.lab.folders import CONTACT_QP
 from quasistatic_ref.lab.lock import locked

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.files.content import written_whole
 from quasistatic_ref.lab.study.row import Row, key_of
 from quasistatic_ref.parts import needed_package
 

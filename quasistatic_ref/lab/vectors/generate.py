@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from quasistatic_ref.errors import InputError, QuasistaticError
-from quasistatic_ref.formats.files import bytes_read, bytes_written, text_written, writable_folder
+from quasistatic_ref.files.content import bytes_read, bytes_written, text_written, writable_folder
 from quasistatic_ref.lab.vectors.agreed import PROGRAM, agreed_record
 from quasistatic_ref.lab.vectors.files import (
     Case,

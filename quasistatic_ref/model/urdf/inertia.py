@@ -14,13 +14,7 @@ from collections.abc import Collection, Mapping, Sequence
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.urdf.file import (
-    NO_INERTIA,
-    Defect,
-    FileLink,
-    UrdfFile,
-    inertia_defect,
-)
+from quasistatic_ref.files.urdf.file import NO_INERTIA, Defect, FileLink, UrdfFile, inertia_defect
 
 
 def link_inertia(link: FileLink) -> pin.Inertia:

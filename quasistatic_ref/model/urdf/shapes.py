@@ -7,13 +7,9 @@ from pathlib import Path
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_field
+from quasistatic_ref.files.mesh_files import hull_note, hull_of_loaded, loaded_mesh
+from quasistatic_ref.files.urdf.file import FileMesh, UrdfFile
 from quasistatic_ref.formats.together import once
-from quasistatic_ref.model.readers.mesh_files import (
-    hull_note,
-    hull_of_loaded,
-    loaded_mesh,
-)
-from quasistatic_ref.model.urdf.file import FileMesh, UrdfFile
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 

@@ -12,8 +12,8 @@ from pathlib import Path
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_file
+from quasistatic_ref.files.urdf.file import FileLink, UrdfFile, urdf_file
 from quasistatic_ref.model.joints import BASES, JOINTS
-from quasistatic_ref.model.urdf.file import FileLink, UrdfFile, urdf_file
 from quasistatic_ref.model.urdf.inertia import checked_inertias, link_inertia
 from quasistatic_ref.model.urdf.shapes import placed_shapes
 from quasistatic_ref.shapes.placed_shape import PlacedShape

@@ -6,8 +6,11 @@ from dataclasses import dataclass, replace
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.files.scenario.bodies import BodyEntry
+from quasistatic_ref.files.scenario.checks import checked_fields
+from quasistatic_ref.files.scenario.scenario_table import SUPPORT, URDF
+from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.model.system import System
@@ -15,9 +18,6 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.extensions.extension import Extension, ExtensionOfQ, Rises
 from quasistatic_ref.optional.extensions.rises import private_rises, urdf_friction
 from quasistatic_ref.optional.extensions.stops import JointLimits, stops_of, urdf_limits
-from quasistatic_ref.scenario.bodies import BodyEntry
-from quasistatic_ref.scenario.checks import checked_fields
-from quasistatic_ref.scenario.scenario_table import SUPPORT, URDF
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,10 +4,10 @@ from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.model.readers.xml_text import xml_root
+from quasistatic_ref.files.urdf.file import UrdfFile
+from quasistatic_ref.files.urdf.xml import Tag
+from quasistatic_ref.files.xml_text import xml_root
 from quasistatic_ref.model.system import System
-from quasistatic_ref.model.urdf.file import UrdfFile
-from quasistatic_ref.model.urdf.xml import Tag
 
 
 class UrdfJoint(NamedTuple):

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.model.urdf.file import MOST_LINKS
+from quasistatic_ref.files.urdf.file import MOST_LINKS
 from quasistatic_ref.optional.guests.fence import Fence
 from quasistatic_ref.parts import needed_package
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.files import text_read
+from quasistatic_ref.files.content import text_read
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.settled import numbered

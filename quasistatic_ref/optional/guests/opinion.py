@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.formats.declared import Field, Tables
+from quasistatic_ref.files.declared import Field, Tables
+from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.optional.guests.compared import Body, Contact
-from quasistatic_ref.simulate.finding import Finding, finding_table
+from quasistatic_ref.simulate.finding import Finding
 
 FORMAT = "quasistatic-ref/opinion"
 VERSION = 3

@@ -11,8 +11,12 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import InputError, ModelError, ScenarioError
+from quasistatic_ref.files.scenario.checks import ignored_findings
+from quasistatic_ref.files.scenario.overrides import Changes, about_changes, apply_settings
+from quasistatic_ref.files.scenario.scenario import Scenario
+from quasistatic_ref.files.scenario.scenario_table import LIMITS, SOLVER, TOP, fields_of
+from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.drive import Drive, Driven, drive_of
@@ -21,10 +25,6 @@ from quasistatic_ref.optional.guests.places import overlapped_children
 from quasistatic_ref.optional.guests.settled import settled
 from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
 from quasistatic_ref.parts import fast_backend, fast_simulator
-from quasistatic_ref.scenario.checks import ignored_findings
-from quasistatic_ref.scenario.overrides import Changes, about_changes, apply_settings
-from quasistatic_ref.scenario.scenario import Scenario
-from quasistatic_ref.scenario.scenario_table import LIMITS, SOLVER, TOP, fields_of
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.limits import Limits

@@ -19,10 +19,8 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_field, check_kind
-from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.model.body import FIXED
-from quasistatic_ref.model.readers.mesh_files import hull_words
-from quasistatic_ref.model.urdf.file import (
+from quasistatic_ref.files.mesh_files import hull_words
+from quasistatic_ref.files.urdf.file import (
     MOST_COORDINATES,
     Defect,
     FileCollision,
@@ -30,6 +28,8 @@ from quasistatic_ref.model.urdf.file import (
     UrdfFile,
     inertia_defect,
 )
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.model.body import FIXED
 from quasistatic_ref.model.urdf.tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.convex_mesh import convex_hull, hull_of_mesh

@@ -20,7 +20,8 @@ from quasistatic_ref.certify.solution import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.certify.verification import unique_and_smooth, wrong_sign
 from quasistatic_ref.certify.working_set import Point, fraction_point
 from quasistatic_ref.errors import InputError, QuasistaticError
-from quasistatic_ref.formats.files import json_text, text_written
+from quasistatic_ref.files.content import text_written
+from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.formats.plain import Plain, field_values
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.formats.shown import Shown

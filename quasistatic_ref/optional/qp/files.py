@@ -14,9 +14,9 @@ import numpy as np
 
 from quasistatic_ref.certify.farkas import fractions_read
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.files import json_read
-from quasistatic_ref.formats.npz import npz_arrays
-from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.files.content import json_read
+from quasistatic_ref.files.npz import npz_arrays
+from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.optional.qp.answer import QP_FORMAT, VERSION, ExactQP, QPInfeasible
 from quasistatic_ref.optional.qp.program import FIELDS, QuadraticProgram, program_of
 

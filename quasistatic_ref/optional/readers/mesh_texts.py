@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.model.readers.mesh import Mesh
-from quasistatic_ref.model.readers.text import check_equal, check_lines, number_or_nan
+from quasistatic_ref.files.mesh import Mesh
+from quasistatic_ref.files.text import check_equal, check_lines, number_or_nan
 from quasistatic_ref.numbers.arrays import Array, Indices
 
 LARGEST_HEADER = 2**20

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.formats.files import bytes_read
-from quasistatic_ref.model.readers.mesh import Mesh
+from quasistatic_ref.files.content import bytes_read
+from quasistatic_ref.files.mesh import Mesh
 from quasistatic_ref.optional.readers.files import malformed
 from quasistatic_ref.optional.readers.mesh_texts import TEXTS
 from quasistatic_ref.optional.readers.placed_meshes import placed_mesh

@@ -17,10 +17,10 @@ from xml.etree.ElementTree import Element, tostring
 import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.formats.files import bytes_read, text_of
-from quasistatic_ref.model.readers.mesh import Mesh
-from quasistatic_ref.model.readers.text import check_equal, decimal
-from quasistatic_ref.model.readers.xml_text import DEEPEST, MOST_ELEMENTS, xml_root
+from quasistatic_ref.files.content import bytes_read, text_of
+from quasistatic_ref.files.mesh import Mesh
+from quasistatic_ref.files.text import check_equal, decimal
+from quasistatic_ref.files.xml_text import DEEPEST, MOST_ELEMENTS, xml_root
 from quasistatic_ref.optional.readers.files import LARGEST_UNPACKED, check_unpacked
 from quasistatic_ref.optional.readers.mesh_texts import text_of_mesh
 from quasistatic_ref.parts import needed_package

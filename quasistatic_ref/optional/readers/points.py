@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, about_file
-from quasistatic_ref.formats.files import bytes_read
-from quasistatic_ref.formats.npz import array_of, npz_arrays, readable
-from quasistatic_ref.model.readers.mesh_files import loaded_mesh
-from quasistatic_ref.model.readers.text import check_equal, check_points
+from quasistatic_ref.files.content import bytes_read
+from quasistatic_ref.files.mesh_files import loaded_mesh
+from quasistatic_ref.files.npz import array_of, npz_arrays, readable
+from quasistatic_ref.files.text import check_equal, check_points
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.readers.files import check_unpacked, malformed
 from quasistatic_ref.parts import needed_package

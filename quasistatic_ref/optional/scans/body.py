@@ -7,12 +7,12 @@ import numpy as np
 import trimesh
 
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.files.clouds import seen_points
+from quasistatic_ref.files.content import text_written
+from quasistatic_ref.files.mesh_files import MESHES, loaded_mesh
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.readers.clouds import seen_points
-from quasistatic_ref.model.readers.mesh_files import MESHES, loaded_mesh
 from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.optional.scans.closed import closed_mesh
 from quasistatic_ref.optional.scans.cloud import spacing, stray, thinned
@@ -152,7 +152,7 @@ def scanned_body(
 
     Examples
     --------
-    >>> from quasistatic_ref.scenario.scenario import scenario_path
+    >>> from quasistatic_ref.files.scenario.scenario import scenario_path
     >>> bunny = qr.scanned_body(scenario_path("bunny_grasp").with_name("bunny_992.csv"), mass=0.2)
     >>> bunny.points.shape
     (992, 3)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.files.content import written_whole
 from quasistatic_ref.formats.quoting import no_formula
 from quasistatic_ref.numbers.arrays import Mask
 from quasistatic_ref.optional.show.loads import shown_forces

@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 
-from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.files.content import text_written
 from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.files.content import text_written
 from tests.lab.vectors.committed_cases import few_written
 
 

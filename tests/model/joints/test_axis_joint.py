@@ -9,7 +9,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.model.joints import JOINTS, AxisJoint, Revolute
 from quasistatic_ref.numbers.angles import cos_sin
-from tests.model.urdf.urdf_texts import joint, link, mimic, robot
+from tests.files.urdf.urdf_texts import joint, link, mimic, robot
 
 ARM = robot(link("base"), link("arm"), joint("turn", "base", "arm"))
 

@@ -16,7 +16,7 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.optional.doctor.measures import measures
 from tests.closeness import assert_within
-from tests.model.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
+from tests.files.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
 from tests.tolerances import ROUNDING
 
 CENTRE = np.array([0.0, 0.05, -0.3])

@@ -7,7 +7,7 @@ import pytest
 from quasistatic_ref import Body, System
 from quasistatic_ref.model.joints import BASES, JOINTS
 from tests.closeness import assert_within
-from tests.model.urdf.urdf_texts import joint, link, robot
+from tests.files.urdf.urdf_texts import joint, link, robot
 
 AXIS = np.array([0.6, 0.0, 0.8])
 ROUNDING_OF_PINOCCHIO = 1e-12

@@ -22,8 +22,8 @@ from quasistatic_ref import (
     rollout,
     verify_answer,
 )
+from quasistatic_ref.files.trajectory import save_trajectory
 from quasistatic_ref.optional.doctor.checks import scene_findings
-from quasistatic_ref.simulate.trajectory import save_trajectory
 from tests.closeness import assert_relative, assert_same
 from tests.scenes import written_scenario
 

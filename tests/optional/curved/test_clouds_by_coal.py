@@ -25,10 +25,9 @@ from quasistatic_ref import (
     load_scenario,
     load_trajectory,
 )
+from quasistatic_ref.files.trajectory import header_table, save_trajectory
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.curved.clouds_by_coal import MeasuredByCoal
-from quasistatic_ref.simulate.header import header_table
-from quasistatic_ref.simulate.trajectory import save_trajectory
 from tests.closeness import assert_same, assert_within
 from tests.contact.still import pair, placed_shape, standing_links
 from tests.tolerances import CLOSED_FORM

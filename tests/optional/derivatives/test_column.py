@@ -16,7 +16,7 @@ from quasistatic_ref import (
     derivatives,
 )
 from tests.closeness import assert_within
-from tests.model.urdf.urdf_texts import joint, link, robot
+from tests.files.urdf.urdf_texts import joint, link, robot
 from tests.optional.derivatives.free_bodies import BOX, FLOOR, NONE, POINT, H, after, free
 
 DOWN = np.array([0, 0, -1.0, 0, 0, 0])

@@ -8,7 +8,7 @@ closed form. All of them are derived here from the laws of statics, not from wha
 import numpy as np
 
 from quasistatic_ref import Sphere
-from tests.model.urdf.urdf_texts import collision, inertial
+from tests.files.urdf.urdf_texts import collision, inertial
 from tests.optional.doctor.words import (
     TIP,
     block,

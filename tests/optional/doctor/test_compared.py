@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Sphere
-from tests.model.urdf.urdf_texts import link, robot
+from tests.files.urdf.urdf_texts import link, robot
 from tests.optional.doctor.words import (
     block,
     driven,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.optional.doctor.start import least_mean
-from tests.model.urdf.urdf_texts import link, robot
+from tests.files.urdf.urdf_texts import link, robot
 from tests.optional.doctor.words import block, driven, fingers, free, scene
 from tests.tolerances import CLOSED_FORM
 

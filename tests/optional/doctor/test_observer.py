@@ -9,10 +9,10 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref import RunFailed, load_scenario, load_trajectory
-from quasistatic_ref.formats.npz import json_array
+from quasistatic_ref.files.finding import finding_read, finding_table
+from quasistatic_ref.files.npz import json_array
+from quasistatic_ref.files.trajectory import header_table
 from quasistatic_ref.optional.doctor import checks, observer, start, stopped
-from quasistatic_ref.simulate.finding import finding_read, finding_table
-from quasistatic_ref.simulate.header import header_table
 from tests.extras import SCENARIOS_TO_RUN
 from tests.optional.doctor.mistake_scenes import scenes_written
 

@@ -9,7 +9,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
-from tests.model.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
+from tests.files.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
 
 STEPS = 8
 SCENE = ["block_push", "--set", f"steps={STEPS}", "--set", "solver.backend=osqp"]

@@ -6,7 +6,7 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.simulate.target import JointTrack, Targets
-from tests.model.urdf.urdf_texts import collision, link, robot
+from tests.files.urdf.urdf_texts import collision, link, robot
 from tests.optional.doctor.words import TIP, block, driven, fingers, free, joint, scene, slides
 
 

@@ -1,8 +1,8 @@
 """Words that scenes are built with: bodies as tables of a scenario, and the scenario."""
 
 from quasistatic_ref import Body, Box, load_scenario
-from tests.model.urdf import urdf_texts
-from tests.model.urdf.urdf_texts import collision, link, robot
+from tests.files.urdf import urdf_texts
+from tests.files.urdf.urdf_texts import collision, link, robot
 
 AXES = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1", "s": "1 0 0"}
 FLOOR = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}

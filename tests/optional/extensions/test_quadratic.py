@@ -18,14 +18,15 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.certify.groups import groups
-from quasistatic_ref.certify.solution_files import solution_text
+from quasistatic_ref.files.solution import solution_text
+from quasistatic_ref.files.step import step_from_record
+from quasistatic_ref.files.trajectory import load_trajectory, save_trajectory
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.extensions.extended import posed
 from quasistatic_ref.simulate.rollout import rollout
-from quasistatic_ref.simulate.trajectory import load_trajectory, save_trajectory
 from quasistatic_ref.solve.backends import REQUIRED
-from quasistatic_ref.step.files import step_from_record, step_text
+from quasistatic_ref.step.text import step_text
 from tests.closeness import assert_relative, assert_same
 from tests.helpers import pinch, point_on_floor, random_step, verify_refusal
 from tests.oracles.rational_kkt import exact

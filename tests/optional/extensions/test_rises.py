@@ -17,23 +17,16 @@ from quasistatic_ref import (
     load_trajectory,
     solve_step,
 )
+from quasistatic_ref.files.trajectory import save_trajectory
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step, free_step
 from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.optional.extensions.extension import Rises
 from quasistatic_ref.optional.extensions.rises import with_rises
-from quasistatic_ref.simulate.trajectory import save_trajectory
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.closeness import assert_relative, assert_within
+from tests.files.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
 from tests.helpers import random_step
-from tests.model.urdf.urdf_texts import (
-    collision,
-    inertial,
-    joint,
-    link,
-    mimic,
-    robot,
-)
 from tests.tolerances import ROUNDING
 
 H = 0.01

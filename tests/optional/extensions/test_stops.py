@@ -8,7 +8,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.optional.extensions.stops import stops_of, urdf_limits
 from tests.closeness import assert_relative, assert_within
-from tests.model.urdf.urdf_texts import joint, link, mimic, robot
+from tests.files.urdf.urdf_texts import joint, link, mimic, robot
 from tests.tolerances import ROUNDING
 
 H = 0.01

@@ -30,8 +30,8 @@ from quasistatic_ref.optional.fast.joined import spread
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.contact.solids_of_tests import SHAPES as SOLIDS
 from tests.contact.still import placed_shape
+from tests.files.urdf.urdf_texts import inertial, joint, link, mimic, robot
 from tests.helpers import error, first_step, residuals_of
-from tests.model.urdf.urdf_texts import inertial, joint, link, mimic, robot
 from tests.tolerances import ACTIVE_SET
 
 BOX = SOLIDS["box"]

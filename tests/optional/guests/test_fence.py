@@ -9,7 +9,7 @@ import pytest
 from quasistatic_ref import ModelError
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.optional.guests import compiler
-from tests.model.urdf.urdf_texts import urdf_of_text
+from tests.files.urdf.urdf_texts import urdf_of_text
 
 BODY = '<mujoco><worldbody><body name="b"><joint/><geom size="0.1"/></body></worldbody></mujoco>'
 

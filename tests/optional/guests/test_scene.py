@@ -8,11 +8,11 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError, ModelError, QuasistaticError
+from quasistatic_ref.files.trajectory import load_trajectory
 from quasistatic_ref.model.mechanism import StepSystem
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.optional.guests.scene import mujoco_scenario
-from quasistatic_ref.simulate.trajectory import load_trajectory
 from tests.closeness import assert_close
 from tests.optional.guests.models import model_of, posed
 

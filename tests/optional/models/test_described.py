@@ -12,9 +12,9 @@ import pinocchio as pin
 import pytest
 
 from quasistatic_ref import Body, InputError, ModelError, System, load_scenario
-from quasistatic_ref.formats.resources import models_folder
+from quasistatic_ref.files.resources import models_folder
 from tests.closeness import assert_close, assert_within
-from tests.model.urdf.urdf_texts import CHAIN, collision, inertial, joint, link, robot
+from tests.files.urdf.urdf_texts import CHAIN, collision, inertial, joint, link, robot
 from tests.tolerances import COAL, ROUNDING
 
 SINGLE = 1e-7

@@ -10,8 +10,8 @@ from scipy.spatial import cKDTree
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.files.scenario.scenario import scenario_path
 from quasistatic_ref.optional.scans.cloud import thinned
-from quasistatic_ref.scenario.scenario import scenario_path
 from tests.closeness import assert_relative, assert_within
 from tests.oracles.scanned import SCANS, SOLIDS, on_surface
 

@@ -9,9 +9,9 @@ import pandas
 import pytest
 
 from quasistatic_ref import InputError, Trajectory, load_scenario, load_trajectory
-from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.files.table_reader import TableReader
+from quasistatic_ref.files.trajectory import FORMAT, VERSION, header_read, header_table
 from quasistatic_ref.optional.show.table import table_written
-from quasistatic_ref.simulate.header import FORMAT, VERSION, header_read, header_table
 from tests.closeness import assert_same
 from tests.scenes import BALL, written_scenario
 

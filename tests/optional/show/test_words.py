@@ -14,6 +14,7 @@ from quasistatic_ref import (
     load_trajectory,
     solve_step,
 )
+from quasistatic_ref.files.trajectory import save_trajectory
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.optional.show.show import (
     MOST,
@@ -22,7 +23,6 @@ from quasistatic_ref.optional.show.show import (
     html_page,
     text_page,
 )
-from quasistatic_ref.simulate.trajectory import save_trajectory
 from tests.helpers import (
     changed,
     first_step,

@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import bytes_written, text_written, written_whole
+from quasistatic_ref.files.content import bytes_written, text_written, written_whole
 from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.problems.problem import QP, Problem
 from quasistatic_ref.parts import needed_package

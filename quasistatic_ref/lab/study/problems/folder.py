@@ -16,13 +16,9 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import (
-    LARGEST_TEXT,
-    bytes_read,
-    json_read,
-)
-from quasistatic_ref.formats.npz import npz_arrays
-from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.files.content import LARGEST_TEXT, bytes_read, json_read
+from quasistatic_ref.files.npz import npz_arrays
+from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.lab.study.problems.problem import ENCLOSED, EXACT, Answer, Problem
 from quasistatic_ref.step.units import Units
 

@@ -8,10 +8,10 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from quasistatic_ref.certify.norm import error_length, single_loads
+from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.lab.study.problems.answers import exact_answer
 from quasistatic_ref.lab.study.problems.problem import QP, Problem
 from quasistatic_ref.lab.study.problems.selection import evenly
-from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory

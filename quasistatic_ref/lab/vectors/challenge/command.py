@@ -5,7 +5,7 @@ import sys
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import json_read
+from quasistatic_ref.files.content import json_read
 from quasistatic_ref.lab.vectors.challenge.finding import FORMAT
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.run import Outcome, asked_again, challenge

@@ -11,8 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import plain
-from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.files.table_reader import TableReader
+from quasistatic_ref.formats.json_text import plain
 from quasistatic_ref.lab.vectors.check.answers import QUATERNIONS, TANGENTS, Answers
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import Json

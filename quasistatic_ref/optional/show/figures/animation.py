@@ -11,13 +11,13 @@ from matplotlib import pyplot as plt
 from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, PillowWriter
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import bytes_written
+from quasistatic_ref.files.content import bytes_written
+from quasistatic_ref.files.scenario.scenario import Scenario
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.draw import draw_scene, force_scale
 from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.moments import box_of, extent, frames, middle
 from quasistatic_ref.optional.show.figures.style import figure_style, sized
-from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory
 

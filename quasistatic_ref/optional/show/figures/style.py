@@ -17,7 +17,7 @@ from matplotlib.legend import Legend
 from matplotlib.transforms import Bbox
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.files.content import written_whole
 from quasistatic_ref.formats.quoting import suggestion
 
 PAGE: Final = 6.3

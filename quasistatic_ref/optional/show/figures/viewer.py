@@ -17,7 +17,8 @@ import numpy as np
 
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.files.content import text_written
+from quasistatic_ref.files.scenario.scenario import Scenario
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.draw import force_scale
 from quasistatic_ref.optional.show.figures.looks import (
@@ -32,7 +33,6 @@ from quasistatic_ref.optional.show.figures.moments import Moment, focus, frames,
 from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points, triangles
 from quasistatic_ref.optional.show.figures.visuals import AROUND, UP, Visual, visuals
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.trajectory import Trajectory

@@ -9,17 +9,12 @@ import numpy as np
 from matplotlib.colors import to_hex
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.files.mesh_files import loaded_mesh
+from quasistatic_ref.files.urdf.file import FileMesh, UrdfFile, urdf_file, written_shape
+from quasistatic_ref.files.urdf.xml import Tag
+from quasistatic_ref.files.xml_text import xml_root
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.readers.mesh_files import loaded_mesh
-from quasistatic_ref.model.readers.xml_text import xml_root
 from quasistatic_ref.model.system import System
-from quasistatic_ref.model.urdf.file import (
-    FileMesh,
-    UrdfFile,
-    urdf_file,
-    written_shape,
-)
-from quasistatic_ref.model.urdf.xml import Tag
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.looks import body_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points, triangles

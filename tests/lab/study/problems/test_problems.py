@@ -1,6 +1,6 @@
 """Problems made of the steps of scenarios, with answers that are proved."""
 
-from quasistatic_ref.formats.resources import scenario_path
+from quasistatic_ref.files.resources import scenario_path
 from quasistatic_ref.lab.study.problems.making import problems_of_runs
 from tests.oracles.rational_kkt import refutation
 

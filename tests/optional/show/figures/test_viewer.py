@@ -21,7 +21,7 @@ from quasistatic_ref.optional.show.figures.viewer import (
 from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.simulate.scene import Scene
 from tests.closeness import assert_close, assert_relative, assert_same, assert_within
-from tests.model.urdf.urdf_texts import collision, joint, link, robot
+from tests.files.urdf.urdf_texts import collision, joint, link, robot
 from tests.tolerances import ROUNDING
 
 CENTRE = np.array([0.1, 0.2, 0.3])

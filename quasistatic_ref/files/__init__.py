@@ -1,0 +1,1 @@
+"""Reading and writing: scenarios, URDF, meshes, clouds, tables, solutions and trajectories."""

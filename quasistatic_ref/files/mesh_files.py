@@ -1,0 +1,182 @@
+"""Mesh files: which file a URI means, what it holds, and the convex hull of that."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from quasistatic_ref.errors import ModelError, about_file
+from quasistatic_ref.files.mesh import Mesh
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.parts import file_mesh
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull, hull_of_mesh
+
+MESHES = (".stl", ".obj", ".off", ".ply", ".gltf", ".glb", ".dae")
+"""Extensions of files that ``optional/readers`` reads."""
+PACKAGE = "package://"
+FILE = "file://"
+LARGEST_MESH = 16 * 2**20
+"""Largest mesh [bytes]."""
+
+
+MOST_ABOVE = 8
+"""Folders above a file in which its package is looked for, where no repository bounds them."""
+
+
+def mesh_path(
+    uri: str, folder: Path, package_dirs: Sequence[str | Path] = (), *, is_of_file: bool = True
+) -> Path:
+    """The file that a mesh's URI means.
+
+    Parameters
+    ----------
+    uri : str
+        ``package://NAME/PATH``, looked for as NAME/PATH in each of the package folders and in the
+        folders above `folder`, up to that of its repository, then as PATH in those that are called
+        NAME, then as PATH in each; or a path relative to `folder`, with ``file://`` before it or
+        without, which may lead into a folder
+        beside it, and anywhere in the package (``package.xml``) or the repository that it lies in.
+    folder : Path
+        Of the file that the URI stands in.
+    package_dirs : sequence of str or Path
+    is_of_file : bool
+        False of a text, which has no folder of its own.
+
+    Raises
+    ------
+    ModelError
+        If there is no such file, its kind is unknown, or it lies neither in `folder` nor in
+        a folder that it was looked for in after symbolic links are resolved: what is loaded is
+        never a surprise. Or if it is too large.
+    """
+    if Path(uri).suffix.lower() not in MESHES:
+        hint = suggestion(Path(uri).suffix.lower(), MESHES)
+        raise ModelError(f"is not a known kind of mesh{hint}", value=uri)
+    packages = [Path(folder_name) for folder_name in package_dirs]
+    if uri.startswith(PACKAGE):
+        inside = uri.removeprefix(PACKAGE).lstrip("/")
+        name, _, below = inside.partition("/")
+        above = _repository(folder.resolve())
+        places = [package / inside for package in [*packages, *above]]
+        places += [parent / below for parent in above if parent.name == name]
+        places += [parent / below for parent in above]
+        packages += above
+    elif "://" in uri.removeprefix(FILE):
+        raise ModelError("must be package://NAME/PATH or a relative path", value=uri)
+    else:
+        relative = uri.removeprefix(FILE)
+        places = [folder / relative]
+        packages += _package(relative, folder.resolve()) if is_of_file else []
+    try:
+        path = next((place.resolve() for place in places if place.is_file()), None)
+    except (OSError, ValueError, RuntimeError):  # a NUL, a name too long, a ring of links
+        path = None
+    if path is None:
+        where = ", ".join(str(package) for package in packages) or str(folder.resolve())
+        hint = "; --root FOLDER names another" if uri.startswith(PACKAGE) else ""
+        raise ModelError(f"no such file (looked for in {where}{hint})", value=uri)
+    if not any(path.is_relative_to(allowed.resolve()) for allowed in [folder, *packages]):
+        problem = (
+            f"leads to {path}, outside the folder of this file and of package_dirs; "
+            "move the mesh, or name its folder: --root FOLDER, or package_dirs of the body"
+        )
+        raise ModelError(problem, value=uri)
+    size = path.stat().st_size
+    if size > LARGEST_MESH:
+        problem = f"is larger than {LARGEST_MESH / 2**20:g} MiB; take a simpler mesh"
+        raise ModelError(problem, value=uri)
+    return path
+
+
+def _package(uri: str, folder: Path) -> list[Path]:
+    """Where a relative URI may lead besides `folder`: the package of that, and ../NAME/."""
+    above = _repository(folder)
+    marks = ("package.xml", ".git")
+    packages = [each for each in above if any((each / mark).exists() for mark in marks)]
+    match Path(uri).parts:
+        case ("..", name, *_, _) if name != "..":
+            packages.append(folder.parent / name)
+    return packages
+
+
+def _repository(folder: Path) -> list[Path]:
+    """A folder and those above it, up to that of its repository, but for the root of all."""
+    above = [folder, *folder.parents][:MOST_ABOVE]
+    above = [each for each in above if each != each.parent]
+    top = [i for i, each in enumerate(above) if (each / ".git").exists()]
+    return above[: top[0] + 1] if top else above
+
+
+def loaded_mesh(path: Path, *, finite: bool = True) -> Mesh:
+    """What a mesh file holds.
+
+    Every object stands where the nodes of the file place it, in metres. A COLLADA file's ``Y_UP``
+    is not applied, as pinocchio, MuJoCo and Drake do not apply it to a link's mesh, nor that of
+    glTF. Without `finite`, vertices may be NaN or infinite.
+
+    Raises
+    ------
+    ModelError
+        If the file cannot be read, a count in it is not that of what it holds, or a coordinate is
+        not finite.
+    """
+    with about_file(path):
+        mesh = file_mesh(path, path.suffix.lower())
+        if finite and not np.isfinite(mesh.vertices).all():
+            raise ModelError("must be finite numbers", field="vertices")
+        return mesh
+
+
+def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
+    """Convex hull of a mesh file, each coordinate multiplied by its scale, shape (3,) [-].
+
+    Raises
+    ------
+    ModelError
+        If the file cannot be read, or its vertices have no volume.
+    """
+    with about_file(path):
+        return hull_of_loaded(loaded_mesh(path), scale)
+
+
+def hull_of_loaded(mesh: Mesh, scale: Array) -> ConvexMesh:
+    """Convex hull of the corners of all triangles, times `scale`, (3,) [-], or of points alone.
+
+    Raises
+    ------
+    ModelError
+        If there are fewer than four, or they have no volume.
+    """
+    corners = mesh.corners
+    if not len(corners):
+        raise ModelError("is empty: the mesh has no vertices", field="vertices")
+    if len(corners) < 4:
+        raise ModelError("must be at least four", field="vertices", value=len(corners))
+    if not len(mesh.triangles):
+        return convex_hull(np.unique(corners * scale, axis=0))
+    numbers = np.unique(mesh.triangles, return_inverse=True)[1].reshape(-1, 3)
+    return hull_of_mesh(corners * scale, numbers)
+
+
+def hull_note(name: str, hull: ConvexMesh, mesh: Mesh) -> str:
+    """What became of a mesh, as one line."""
+    unused = len(mesh.vertices) - len(mesh.corners)
+    more = f"; vertices that no triangle uses are left out: {unused}" if unused else ""
+    more += f"; {mesh.note}" if mesh.note else ""
+    if not len(mesh.triangles):
+        corners = f"{len(hull.vertices)} corners"
+        return f"{name}: a mesh of points alone, whose convex hull is taken, {corners}{more}"
+    return hull_words(name, hull) + more
+
+
+def hull_words(name: str, hull: ConvexMesh) -> str:
+    """What became of a mesh with triangles, as one line."""
+    corners = f"{len(hull.vertices)} corners"
+    if hull.is_convex:
+        return f"{name}: convex mesh, {corners}"
+    percent = 100 * hull.excess
+    return (
+        f"{name}: mesh replaced by its convex hull, {corners}; it is not convex "
+        f"(by {percent:.2g} %), so a contact with it must say hull = true"
+    )

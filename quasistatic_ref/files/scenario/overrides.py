@@ -1,0 +1,184 @@
+"""Overrides of a scenario's tables before they are read: ``--set`` of a command, or from Python."""
+
+import itertools
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import PurePath
+from typing import Any
+
+from quasistatic_ref.errors import InputError, ScenarioError
+from quasistatic_ref.files.content import LONG_KEY, MOST_PARTS
+from quasistatic_ref.files.option_change import OptionChange
+from quasistatic_ref.files.scenario.paths import OwnWord
+from quasistatic_ref.formats.json_text import plain
+
+Changes = Sequence[str] | Mapping[str, Any]
+
+SET = "--set"
+ESSENTIAL = {"bodies": "urdf", "contacts": "alpha"}
+"""Tables of tables, and a field without which none of theirs can be."""
+
+
+@contextmanager
+def about_changes(settings: Changes, named: Mapping[str, Any]) -> Iterator[None]:
+    """Make an InputError of this block name the change that wrote the value, if one did.
+
+    Parameters
+    ----------
+    settings, named
+        The changes, as of :func:`apply_settings`.
+    """
+    try:
+        yield
+    except InputError as error:
+        if error.file is None and error.field == SET:
+            error.change = f"{SET} {error.value}"
+        elif error.file is None and error.field is not None:
+            error.change = _change(error.field, settings, named)
+        raise
+
+
+def _change(field: str, settings: Changes, named: Mapping[str, Any]) -> str | None:
+    """The text of the last change that wrote a field; None if no change did.
+
+    In Python it is the field itself; None where no change wrote it.
+    """
+    written: str | None = None
+    in_order = settings.items() if isinstance(settings, Mapping) else map(_of_text, settings)
+    for key, source in [*in_order, *named.items()]:
+        inner = field.removeprefix(key)
+        if not field.startswith(key) or inner[:1] not in ("", ".", "["):
+            continue
+        if isinstance(settings, Mapping) or key in named:
+            written = field
+        else:
+            written = f"{source}: {inner.lstrip('.')}" if inner else source
+    return written
+
+
+def _of_text(setting: str) -> tuple[str, str]:
+    """The dotted key of a ``key=value`` change, and the text of the change."""
+    written = setting.option if isinstance(setting, OptionChange) else f"{SET} {setting}"
+    return setting.partition("=")[0].strip(), written
+
+
+def apply_settings(
+    tables: dict[str, Any], settings: Changes, named: Mapping[str, Any]
+) -> set[tuple[str, str]]:
+    """Apply the user's changes to a scenario's tables, in place.
+
+    Parameters
+    ----------
+    tables : dict
+    settings : sequence of str, or mapping of str to object
+        ``dotted.key=value``, the value being TOML or else a plain word; or values by dotted key.
+    named : mapping of str to object
+        Values by the names of fields at the top, made last; or by dotted keys.
+
+    Returns
+    -------
+    set of (str, str)
+        ``("contacts", "grp")`` for each table of ``[contacts]`` that a dotted key has made, and so
+        for the other tables at the top.
+
+    Raises
+    ------
+    ScenarioError
+        If a key is none, or leads to no table; or a value is nested without end.
+    """
+    before = _second_level(tables)
+    if isinstance(settings, str):
+        problem = "must be a list of dotted.key=value, or a mapping of dotted keys to values"
+        raise ScenarioError(problem, field="settings", value=settings)
+    if isinstance(settings, Mapping):
+        for key, value in settings.items():
+            _put(tables, str(key), python_value(key, value), "settings", key)
+    else:
+        for setting in settings:
+            key, equals, text = str(setting).partition("=")
+            _put(tables, key if equals else "", parsed(text), SET, setting)
+    for key in filter(_is_dotted, named):
+        _put(tables, key, python_value(key, named[key]), "settings", key)
+    made = _second_level(tables) - before
+    for key in itertools.filterfalse(_is_dotted, named):
+        value = python_value(key, named[key])
+        _check_whole(key, tables.get(key), value)
+        tables[key] = value
+    return made & _second_level(tables)
+
+
+def _is_dotted(key: str) -> bool:
+    return "." in key
+
+
+def _check_whole(kind: str, before: Any, after: Any) -> None:
+    """Refuse a table that would replace one of the file, and is only a part of it."""
+    if kind not in ESSENTIAL or not (isinstance(before, dict) and isinstance(after, dict)):
+        return
+    for name, table in after.items():
+        if name in before and isinstance(table, dict) and table and ESSENTIAL[kind] not in table:
+            problem = (
+                f"would replace the whole table; a single field is the setting "
+                f'"{kind}.{name}.{next(iter(table))}"'
+            )
+            raise ScenarioError(problem, field=f"{kind}.{name}", value=table)
+
+
+def _second_level(tables: Mapping[str, Any]) -> set[tuple[str, str]]:
+    pairs = ((key, inner) for key, inner in tables.items() if isinstance(inner, dict))
+    return {(key, name) for key, inner in pairs for name in inner if isinstance(inner[name], dict)}
+
+
+def _put(tables: dict[str, Any], key: str, value: Any, field: str, source: object) -> None:
+    parts = [part.strip() for part in key.split(".")]
+    if not all(parts):
+        problem = "must be table.field=value, such as contacts.floor.mu_v=0.5"
+        raise ScenarioError(problem, field=field, value=source)
+    if len(parts) > MOST_PARTS:
+        problem = f"is a key of {len(parts)} parts; a scenario has none of more than {MOST_PARTS}"
+        raise ScenarioError(problem, field=field, value=source)
+    table: Any = tables
+    for part in parts[:-1]:
+        table = table.setdefault(part, {}) if isinstance(table, dict) else None
+    if not isinstance(table, dict):
+        raise ScenarioError("is not a table", field=field, value=source)
+    table[parts[-1]] = value
+
+
+def parsed(text: str) -> Any:
+    """The value of a setting that is given as text: TOML, or else a plain word.
+
+    What has a key of more than `MOST_PARTS` parts is a word, too.
+    """
+    try:
+        tables = {} if LONG_KEY.search(text) else tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        tables = {}
+    # Anything but one value, such as a second line, is taken as a word.
+    value = tables["value"] if list(tables) == ["value"] else text.strip()
+    return _as_parsed(value)
+
+
+def python_value(field: object, value: Any, of_others: bool = False) -> Any:
+    """A Python value in the form in which a TOML parser would return it.
+
+    Its paths are the user's own, unless it is of others.
+
+    Raises
+    ------
+    ScenarioError
+        If it holds itself, or is nested too deeply.
+    """
+    try:
+        return plain(value) if of_others else _as_parsed(plain(value))
+    except RecursionError:
+        raise ScenarioError("is nested too deeply, or holds itself", field=str(field)) from None
+
+
+def _as_parsed(value: Any) -> Any:
+    if isinstance(value, str | PurePath):
+        return OwnWord(value)
+    if isinstance(value, Mapping):
+        return {str(key): _as_parsed(inner) for key, inner in value.items()}
+    return [_as_parsed(inner) for inner in value] if isinstance(value, list) else value

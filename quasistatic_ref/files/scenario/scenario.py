@@ -1,0 +1,320 @@
+"""A scenario file (TOML, version 1): bodies, shapes, contacts and targets, ready to simulate."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from quasistatic_ref.errors import (
+    BackendError,
+    InputError,
+    ScenarioError,
+    about_file,
+)
+from quasistatic_ref.files.content import toml_read
+from quasistatic_ref.files.resources import scenario_path
+from quasistatic_ref.files.scenario.bodies import body_entry, joint_tracks, stiffness
+from quasistatic_ref.files.scenario.checks import (
+    check_made,
+    check_motion,
+    check_sizes,
+    checked_fields,
+    ignored_findings,
+)
+from quasistatic_ref.files.scenario.contacts import contact_pairs, placed_shapes
+from quasistatic_ref.files.scenario.overrides import Changes, about_changes, apply_settings
+from quasistatic_ref.files.scenario.paths import OwnWord, folders_in
+from quasistatic_ref.files.scenario.scenario_table import FORMAT, LIMITS, SOLVER, TOP, VERSION
+from quasistatic_ref.files.scenario.scene_words import HERE, scene_tables
+from quasistatic_ref.files.table_reader import TableReader
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.formats.together import together
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import total
+from quasistatic_ref.parts import extended_bodies, fast_backend, fast_simulator
+from quasistatic_ref.simulate.distances import check_closed
+from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.header import Record
+from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.observer import Observer
+from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.settings import Settings
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
+from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.user_functions import Target
+from quasistatic_ref.solve.backends import DEFAULT, is_function
+from quasistatic_ref.step.cones import cone
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.extensions.extension import ExtensionOfQ, OfBodies
+
+MOST_BODIES = 1000
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Scenario(Settings, Plain, Shown):
+    """Everything that a scenario file says, checked and loaded.
+
+    Parameters
+    ----------
+    path : Path
+    steps : int
+    targets : Targets
+        q_bar_a(t).
+    wrenches : tuple of Wrenches
+        External wrenches [N, N m] in the world frame, each at the centre of mass of a root link.
+    record : str
+        What its trajectory holds.
+    fast : bool
+        Whether a :class:`~quasistatic_ref.optional.fast.simulator.FastSimulator` takes its steps.
+    bodies : mapping of str to Body
+        Those of its system, by their names.
+    ignored_findings : tuple of str
+        Names of findings that its runs do not say.
+    of_bodies : callable, optional
+        What tables of bodies add to each step: friction of joints and of supports, joint limits.
+    settings
+        As of :class:`~quasistatic_ref.simulate.settings.Settings`.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin", steps=3)
+    >>> scenario.system.n_v, scenario.h
+    (6, 0.01)
+    """
+
+    path: Path
+    steps: int
+    targets: Targets
+    wrenches: tuple[Wrenches, ...] = ()
+    record: Record = "full"
+    fast: bool = False
+    bodies: Mapping[str, Body] = field(default_factory=dict)
+    ignored_findings: tuple[str, ...] = ()
+    of_bodies: OfBodies | None = None
+
+    def simulator(self, extension: ExtensionOfQ | None = None) -> Simulator:
+        """A new simulator of this scenario, with the user's own constraints and costs, if any."""
+        if self.of_bodies is not None:
+            extension = self.of_bodies.beside(extension)
+        simulator = Simulator(**self.settings(), extension=extension)
+        return fast_simulator(simulator) if self.fast else simulator
+
+    @property
+    def target(self) -> Target:
+        """The targets q_bar_a as a function of time, which ``rollout`` takes."""
+        return self.targets
+
+    @property
+    def force(self) -> Callable[[float, Array], Array] | None:
+        """External generalised force (t, q) -> (n_v,), or None where there is none."""
+        return Loads(self.system, self.wrenches) if self.wrenches else None
+
+    def findings(self) -> tuple[Finding, ...]:
+        """What is wrong with the scene where it starts; a run's findings have these, too.
+
+        Raises
+        ------
+        InputError
+            If there is no ``optional/doctor``.
+        """
+        force = None if self.force is None else self.force(0.0, self.system.q_start)
+        every = self.simulator().findings(force=force)
+        return tuple(one for one in every if one.name not in self.ignored_findings)
+
+    def run(
+        self,
+        progress: bool = True,
+        observers: Sequence[Observer] = (),
+        *,
+        findings: bool = True,
+        notes: bool = False,
+    ) -> Trajectory:
+        """Simulate the whole scenario.
+
+        Parameters
+        ----------
+        progress : bool
+        observers : sequence of Observer
+        findings, notes : bool
+            As :func:`~quasistatic_ref.simulate.rollout.rollout` takes them.
+
+        Raises
+        ------
+        RunFailed
+            If a step fails.
+        InputError
+            If `progress` is no boolean, or as of :func:`~quasistatic_ref.simulate.rollout.rollout`.
+        """
+        if not isinstance(progress, bool):
+            problem = "must be true or false; steps are set when the scenario is loaded"
+            raise InputError(problem, field="progress", value=progress)
+        return rollout(
+            self.simulator(),
+            self.system.q_start,
+            self.target,
+            self.steps,
+            force=self.force,
+            record=self.record,
+            progress=progress,
+            findings=findings,
+            notes=notes,
+            ignore=self.ignored_findings,
+            observers=observers,
+        )
+
+
+def load_scenario(
+    name: str | Path | Mapping[str, Any],
+    settings: Changes = (),
+    *,
+    of_others: bool = False,
+    **fields: Any,
+) -> Scenario:
+    """Load a scenario from a file, by the name of one of the package, or from a mapping.
+
+    Parameters
+    ----------
+    name : str, Path or mapping
+        A file; the name of a scenario that comes with the package; or the tables themselves, as
+        :func:`~quasistatic_ref.files.scenario.scene_words.scene_tables` takes them.
+    settings : sequence of str, or mapping of str to object
+        Changes, made before anything is checked: ``dotted.key=value``, as after the command
+        line's ``--set``; or values by dotted key, ``{"contacts.grip.mu_omega": 0}``.
+    of_others : bool
+        Whether a mapping was written by somebody whom you do not trust.
+        It then may do what a file in the working folder may: its paths stay in that folder, and
+        its backend is no function. A file always is of others; `settings` and `fields` are yours.
+    fields : object
+        The same for fields at the top: ``steps=120``.
+
+    Returns
+    -------
+    Scenario
+
+    Raises
+    ------
+    InputError
+        Naming the file, the field and the value; a ScenarioError or, from a URDF, a ModelError.
+
+    Examples
+    --------
+    >>> qr.load_scenario("bunny_grasp", {"contacts.grip.mu_omega": 0.0}, steps=3).steps
+    3
+    >>> scene = {
+    ...     "h": 0.01,
+    ...     "steps": 5,
+    ...     "bodies": {"ball": qr.Body.of_shape("ball", qr.Sphere(0.05), 0.3, xyz=(0, 0, 0.05))},
+    ...     "shapes": {"floor": qr.HalfSpace((0, 0, 1), 0.0)},
+    ...     "contacts": {"rest": {"alpha": "floor", "beta": "ball", "mu_v": 0.5, "rows": 4}},
+    ... }
+    >>> qr.load_scenario(scene).run(progress=False).steps
+    5
+    """
+    if isinstance(name, Mapping):
+        tables = scene_tables(name, of_others)
+        with about_changes(settings, fields):
+            apply_settings(tables, settings, fields)
+            check_sizes(tables)
+            return _scenario(HERE, TableReader(tables, error=ScenarioError))
+    path = scenario_path(name)
+    with about_file(path), about_changes(settings, fields):
+        tables = toml_read(path, ScenarioError, "a scenario, which is TOML")
+        check_made(apply_settings(tables, settings, fields), tables)
+        check_sizes(tables)
+        return _scenario(path, TableReader(tables, error=ScenarioError))
+
+
+@together()
+def _scenario(path: Path, top: TableReader) -> Scenario:
+    if not {"format", "version"} <= set(top.names_left()):  # another format's names are no mistakes
+        checked_fields(top, TOP)
+    top.check_format(FORMAT, VERSION)
+    read = checked_fields(top, TOP)
+    h = read("h")
+    gravity = read("gravity")
+    fast = read("fast")
+    named = cone(read("cone")).name
+    solver = read("solver")
+    of_solver = checked_fields(solver, SOLVER)
+    certify = of_solver("certify")
+    law = read("law")
+    distances = read("distances")
+    if fast:
+        check_closed(distances)
+    of_limits = checked_fields(read("limits"), LIMITS)
+    limits = Limits(of_limits("penetration"), of_limits("reach"))
+    ignored = ignored_findings(read("findings"))
+
+    tables = read("bodies")
+    if (count := len(tables.names_left())) > MOST_BODIES:
+        raise ScenarioError(f"are more than {MOST_BODIES}", field="bodies", value=count)
+    roots = folders_in(path.parent, top, "roots", read("roots"))
+    entries = {
+        name: body_entry(name, tables.table(name), path.parent, roots)
+        for name in tables.names_left()
+    }
+    tables.close()
+    if not entries:
+        raise ScenarioError("has no bodies; add at least one table [bodies.NAME]", field="bodies")
+    system = System([entry.body for entry in entries.values()])
+    shapes = placed_shapes(system, entries, read("shapes"), path.parent)
+    pairs = contact_pairs(read("contacts"), shapes, system.kinematics(system.q_start))
+    K_q = total(stiffness(system, entry) for entry in entries.values())
+    of_bodies = None
+    if any(entry.extends for entry in entries.values()):
+        pairs, of_bodies = extended_bodies(system, pairs, entries, h, K_q, gravity)
+    of_users = isinstance(solver.peek("backend"), OwnWord)
+    backend = of_solver("backend")
+    if backend is not None and is_function(backend) and not of_users:
+        problem = "would run code, which no file may; give it as --backend FILE.py:NAME"
+        raise solver.error_about("backend", problem, backend)
+    if fast and backend is None:
+        backend = fast_backend(system, pairs, named, law)
+    check_motion(system, pairs)
+    if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
+        raise ScenarioError(f"at the start, {far}", field="bodies")
+
+    gravity_acts = np.zeros(system.n_a, dtype=bool)
+    tracks = []
+    wrenches = []
+    for entry in entries.values():
+        for joint in entry.actuated(system):
+            gravity_acts[joint.v] = not entry.gravity_compensated
+        tracks += joint_tracks(system, entry)
+        if entry.wrenches is not None:
+            wrenches.append(entry.wrenches)
+    try:
+        return Scenario(
+            path=path,
+            h=h,
+            steps=read("steps"),
+            gravity=gravity,
+            system=system,
+            pairs=pairs,
+            K_q=K_q,
+            gravity_acts=gravity_acts,
+            targets=Targets(system.q_start[: system.n_q_a], tracks),
+            wrenches=tuple(wrenches),
+            backend=DEFAULT if backend is None else backend,
+            accuracy=of_solver("accuracy"),
+            certify=certify,
+            record=read("record"),
+            cone=named,
+            limits=limits,
+            bodies={name: entry.body for name, entry in entries.items()},
+            fast=fast,
+            of_bodies=of_bodies,
+            ignored_findings=ignored,
+            law=law,
+            distances=distances,
+        )
+    except BackendError as error:
+        raise solver.error_about(error.field or "backend", error.problem, error.value) from None

@@ -1,0 +1,1 @@
+"""URDF files: read on their own, and refused in one sentence."""

@@ -1,1 +1,0 @@
-"""Files of clouds and meshes, one format a file."""

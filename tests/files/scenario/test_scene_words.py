@@ -1,0 +1,150 @@
+"""Scenes that are written in Python in the words of the files."""
+
+import re
+import tomllib
+
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.files.resources import scenario_path
+from quasistatic_ref.files.scenario.world_solids import SOLIDS, solid_table
+from quasistatic_ref.lab.scenes.systems import RAIL
+
+
+@pytest.mark.parametrize("name", ["bunny_grasp", "door"])
+def test_the_tables_of_a_file_are_the_same_scene(monkeypatch, name):
+    path = scenario_path(name).resolve()
+    monkeypatch.chdir(path.parent)
+    tables = tomllib.loads(path.read_text())
+    runs = [qr.load_scenario(scene, fast=True, steps=1).run() for scene in (tables, path)]
+    assert runs[0] == runs[1]
+
+
+def with_objects():
+    hand = qr.Body("hand", RAIL, actuated=["slide"], xyz=(0, 0, 0.05), positions={"slide": -0.2})
+    return {
+        "h": np.float64(0.02), "steps": 3, "gravity": np.array([0, 0, -9.81]),
+        "bodies": {
+            "hand": {"urdf": hand, "K_q": {"slide": 100.0}, "positions": {"slide": -0.1}},
+            "ball": qr.Body.of_shape("ball", qr.Sphere(0.05), 0.3, xyz=(0, 0, 0.05)),
+        },
+        "shapes": {
+            "floor": qr.HalfSpace((0, 0, 1), 0.0),
+            "wall": {"shape": qr.Box(size=(0.1, 1, 1)), "pose": {"xyz": (0.5, 0, 0)}},
+        },
+        "contacts": {"floor": {"alpha": ("floor", "wall"), "beta": "ball", "mu_v": 0.5, "rows": 4}},
+    }  # fmt: skip
+
+
+def in_tables():
+    ball = with_objects()["bodies"]["ball"].urdf
+    return {
+        "h": 0.02, "steps": 3, "gravity": [0.0, 0.0, -9.81],
+        "bodies": {
+            "hand": {
+                "urdf": RAIL, "actuated": ["slide"], "pose": {"xyz": [0, 0, 0.05]},
+                "K_q": {"slide": 100.0}, "positions": {"slide": -0.1},
+            },
+            "ball": {"urdf": ball, "base": "floating", "pose": {"xyz": [0, 0, 0.05]}},
+        },
+        "shapes": {
+            "floor": {"halfspace": {"normal": [0, 0, 1]}},
+            "wall": {"box": {"size": [0.1, 1, 1]}, "pose": {"xyz": [0.5, 0, 0]}},
+        },
+        "contacts": {"floor": {"alpha": ["floor", "wall"], "beta": "ball", "mu_v": 0.5, "rows": 4}},
+    }  # fmt: skip
+
+
+def test_objects_and_tables_say_the_same():
+    objects, tables = (qr.load_scenario(scene) for scene in (with_objects(), in_tables()))
+    assert objects.run() == tables.run()
+    assert [pair.name for pair in objects.pairs] == [pair.name for pair in tables.pairs]
+    assert objects.system.of(objects.system.q_start, "hand/slide") == -0.1
+
+
+def test_the_scene_that_was_given_stays_as_it_was():
+    scene = with_objects()
+    qr.load_scenario(scene, {"contacts.floor.mu_v": 0.1})
+    assert scene["contacts"]["floor"]["mu_v"] == 0.5
+    assert "format" not in scene
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"shapes": {"floor": qr.PointCloud(np.eye(3))}}, "floor: is a PointCloud that no file"),
+        (
+            {"bodies": {"arm": {"urdf": RAIL, "q": {}}}},
+            "bodies.arm.q: is unknown; did you mean 'pos",
+        ),
+        ({"bodies": {"arm": {"urdf": "<robot"}}}, "not well-formed|malformed"),
+    ],
+)
+def test_mistakes_are_answered_as_in_a_file(change, words):
+    with pytest.raises(InputError, match=words):
+        qr.load_scenario(with_objects() | change)
+
+
+def test_a_body_whose_root_link_has_no_shape_is_answered_with_the_shapes_that_it_has():
+    pad = '<collision><geometry><sphere radius="0.01"/></geometry></collision>'
+    scene = with_objects()
+    scene["bodies"]["hand"] = {
+        "urdf": RAIL.replace('<link name="finger">', f'<link name="finger">{pad}', 1),
+        "actuated": ["slide"], "K_q": {"slide": 100.0},
+    }  # fmt: skip
+    scene["contacts"]["floor"]["beta"] = "hand"
+    with pytest.raises(InputError, match=r"beta: has no collision shape; .*known: hand/\*, hand/"):
+        qr.load_scenario(scene)
+
+
+@pytest.mark.parametrize(
+    "solid",
+    [
+        qr.HalfSpace((0, 0, 2), 0.1),
+        qr.Box((0.05, 0.06, 0.07)),
+        qr.Sphere(0.1),
+        qr.Cylinder(0.02, 0.1),
+        qr.Capsule(0.02, 0.1),
+        qr.Cone(0.02, 0.1),
+        qr.Ellipsoid((0.01, 0.02, 0.03)),
+    ],
+)
+def test_a_solid_is_itself_in_the_words_of_a_table(solid):
+    kind, sizes = solid_table(solid, "solid")
+    fields = {name: np.array(x) if isinstance(x, list) else x for name, x in sizes.items()}
+    assert SOLIDS[kind].made(**fields) == solid
+
+
+FINGER = """<link name="{0}"><inertial><mass value="0.1"/>
+<inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><geometry><box size="0.01 0.02 0.04"/></geometry></collision></link>
+<joint name="{0}_slide" type="prismatic"><parent link="palm"/><child link="{0}"/>
+<origin xyz="{1} 0 0"/><axis xyz="{2} 0 0"/>{3}<limit lower="-1" upper="1" effort="9" velocity="1"/>
+</joint>"""
+LEFT = FINGER.format("left", 0.04, -1, "")
+RIGHT = FINGER.format("right", -0.04, 1, '<mimic joint="left_slide"/>')
+SHARED = "mimics 'left_slide' and has no coordinate of its own: name 'left_slide', whose spring"
+
+
+@pytest.mark.parametrize("wrong", [None, "K_q", "targets[0]"])
+def test_fingers_that_mimic_share_the_force_of_one_spring(wrong):
+    """Its target is 10 mm deep: K_q e = 10 N, of which either finger presses with one half."""
+    names = {"K_q": "left_slide", "targets[0]": "left_slide"} | {wrong: "right_slide"}
+    gripper = {
+        "urdf": f'<robot name="gripper"><link name="palm"/>{LEFT}{RIGHT}</robot>',
+        "actuated": ["left_slide"],
+        "K_q": {names["K_q"]: 1000.0},
+        "targets": [{"t": 0, names["targets[0]"]: 0.01}],
+    }
+    held = qr.Body.of_shape("held", qr.Box((0.035, 0.02, 0.02)), mass=0.2)
+    grip = {"alpha": "gripper/*", "beta": "held", "mu_v": 0.5, "rows": 4, "k": 4}
+    scene = {"h": 0.01, "steps": 1, "gravity": [0, 0, 0], "contacts": {"grip": grip}}
+    scene |= {"bodies": {"gripper": gripper, "held": held}}
+    if wrong is not None:
+        with pytest.raises(InputError, match=rf"bodies.gripper.{re.escape(wrong)}.*: {SHARED}"):
+            qr.load_scenario(scene)
+        return
+    forces = qr.load_scenario(scene).run().pair_forces().values()
+    assert [force[-1, 0] for force in forces] == pytest.approx([-5.0, 5.0])

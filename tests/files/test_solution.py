@@ -1,0 +1,120 @@
+"""Solutions as JSON: the documented fields, bit for bit; what is no solution is refused."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref import Extra, InputError, solve_step, verify
+from quasistatic_ref.files.solution import (
+    infeasible_text,
+    load_solution,
+    rounded_wrenches,
+    solution_text,
+)
+from quasistatic_ref.step.text import step_text
+from tests.cases import cases, refusal
+from tests.closeness import assert_same, assert_within
+from tests.errors.scene import changed
+from tests.helpers import point_on_floor, random_step
+from tests.tolerances import ROUNDING
+
+PLAIN = random_step(11, n_a=2, n_u=3, rows=(6, 4))
+
+
+@pytest.mark.parametrize(
+    ("certify", "kind"), [("full", "exact"), ("residual", "residual"), ("off", "none")]
+)
+def test_a_solution_read_back_is_the_same_bits(tmp_path, certify, kind):
+    step = PLAIN.replace(extra=Extra(("a", "b"), np.eye(2, 5), np.full(2, -1.0)))
+    solution = solve_step(step, certify=certify)
+    path = tmp_path / "solution.json"
+    path.write_text(solution_text(solution))
+    back = load_solution(path, step)
+    assert back.certificate == replace(solution.certificate, residuals={})
+    assert back.certificate.kind == kind
+    assert_same(back.delta_q, solution.delta_q)
+    lam = solution.lam
+    assert_same(back.lam, lam)
+    # Both are the same combination; the file's is rounded once.
+    size = np.abs(solution.wrench).max()
+    assert_within(back.wrench, solution.wrench, ROUNDING * size)
+
+
+SOLUTION_REFUSED = {
+    "a later version": ("version", 3, "version: is not known here; this program reads 2"),
+    "the name of a backend": ("backend", "daqp", "backend: is unknown"),
+    "lam flat": ("lam", [0.0] * 10, "lam: must have one list for each of 2 contacts"),
+    "lam of a wrong contact": ("lam/1", [0.0] * 6, "lam[1]: must be 4 numbers"),
+    "active out of order": (
+        "certificate/active",
+        [[0, 1], [0, 0]],
+        "certificate.active: must be in increasing",
+    ),
+}
+
+
+@cases("path, value, says", SOLUTION_REFUSED)
+def test_a_solution_with_a_wrong_field_is_refused(tmp_path, path, value, says):
+    record = json.loads(solution_text(solve_step(PLAIN)))
+    file = tmp_path / "solution.json"
+    file.write_text(json.dumps(changed(record, (path, value))))
+    with refusal(InputError, f"{file}: {says}"):
+        load_solution(file, PLAIN)
+
+
+WRENCHES = {
+    "a quarter of the least float64": (5e-324, 1.0, [0.0, 0.0, 5e-324, 0.0]),
+    "beyond float64": (1e308, 0.01, [0.0, -np.inf, np.inf, 0.0]),
+}
+"""An impulse along -d2, over a time h: a wrench that is zero has no sign, an infinite one has."""
+
+
+@cases("lam, h, expected", WRENCHES)
+def test_a_wrench_is_rounded_as_any_number(lam, h, expected):
+    contacts = point_on_floor(mu_v=0.25).contacts
+    wrench = rounded_wrenches(contacts, np.array([0.0, 0.0, 0.0, lam]), h)
+    assert_same(wrench, [expected])
+    assert_same(np.signbit(wrench), [np.signbit(expected)])
+
+
+@pytest.mark.parametrize("bound", [1e-9, None])
+def test_a_file_with_a_bound_of_an_older_version_is_read_and_proves_nothing(tmp_path, cli, bound):
+    record = json.loads(solution_text(solve_step(PLAIN, certify="residual")))
+    assert record["certificate"] == {"kind": "residual"}
+    record["certificate"]["error_bound"] = bound
+    step = tmp_path / "step.json"
+    step.write_text(step_text(PLAIN))
+    path = tmp_path / "solution.json"
+    path.write_text(json.dumps(record))
+    assert load_solution(path, PLAIN).certificate.error_bound is None
+    refuted = "refuted: a certificate of kind 'residual' proves nothing; solve with full\n"
+    assert cli("verify", step, path, status=1).out == refuted
+
+
+def test_what_a_file_says_is_verified_as_by_the_command(tmp_path, cli):
+    """An optimum with its wrench, a proof that there is none, a file of another step."""
+    step = tmp_path / "step.json"
+    step.write_text(step_text(PLAIN))
+    path = qr.save_solution(tmp_path / "solution.json", solve_step(PLAIN))
+    assert verify(load_solution(path, PLAIN))
+    record = json.loads(path.read_text())
+    path.write_text(json.dumps(changed(record, ("wrench/0/2", 1e6))))
+    verdict = verify(load_solution(path, PLAIN))
+    assert not verdict
+    assert verdict.reason.startswith("wrench[0][2] is 1000000.0; the exact one rounds to ")
+    assert cli("verify", step, path, status=1).out == f"refuted: {verdict.reason}\n"
+    path.write_text(json.dumps(changed(record, ("step_sha256", "0" * 64))))
+    assert "belongs to another step" in verify(load_solution(path, PLAIN)).reason
+    wall = Extra(("up", "down"), np.array([np.eye(5)[0], -np.eye(5)[0]]), np.array([1.0, 1.0]))
+    never = PLAIN.replace(extra=wall)
+    with pytest.raises(qr.StepInfeasible) as failure:
+        solve_step(never)
+    path.write_text(infeasible_text(never, failure.value.farkas.exact))
+    assert verify(load_solution(path, never))
+    path.write_text(infeasible_text(never, ["1"] * never.m))
+    assert "A'y is not zero" in verify(load_solution(path, never)).reason
+    with pytest.raises(InputError, match="solution: must be what solve_step or load_solution"):
+        verify(PLAIN)

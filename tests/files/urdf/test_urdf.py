@@ -1,0 +1,135 @@
+"""URDF files: what is loaded is what was written, and anything else is refused in words."""
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref import Body, ModelError, System
+from quasistatic_ref.model.urdf.urdf import loaded_urdf
+from tests.closeness import assert_within
+from tests.files.urdf.urdf_texts import (
+    BOX,
+    CHAIN,
+    inertial,
+    joint,
+    link,
+    mimic,
+    robot,
+    urdf_of_text,
+)
+from tests.oracles.coal_solids import coal_solid
+from tests.tolerances import ROUNDING
+
+
+def test_a_path_with_any_letters_is_read(tmp_path):
+    text = BOX.replace('name="r"', 'name="Кубик"').replace("<robot", "\ufeff<robot", 1)
+    assert loaded_urdf(urdf_of_text(tmp_path, text, "ящик €.urdf")).links == ("box",)
+
+
+def test_a_fixed_base_needs_no_mass():
+    text = robot(link("stand", inertial=""))
+    assert loaded_urdf(text).links == ("stand",)
+    with pytest.raises(ModelError, match=r"link\[stand\].inertial: is missing, but the floating"):
+        loaded_urdf(text, base="floating")
+
+
+NO_WEIGHT = (
+    "link[a].inertial.mass: must be greater than 0; accepted, because no un-actuated joint moves "
+    "this link; its actuated joints carry no weight of it, also without gravity compensation"
+)
+
+
+def test_an_inertia_that_moves_nothing_is_noted():
+    text = robot(
+        link("a", inertial=inertial(mass="0")), link("b", inertial=""), joint("j", "a", "b")
+    )
+    notes = loaded_urdf(text, base="floating", actuated="all").notes
+    assert notes == (NO_WEIGHT,)
+    with pytest.raises(ModelError, match=r"link\[b\].inertial: is missing, but joint 'j' moves"):
+        loaded_urdf(text, base="floating", actuated=("base",))
+    with pytest.raises(ModelError, match=r"link\[a\].inertial.mass: must be greater than 0"):
+        loaded_urdf(text, base="floating", actuated=("j",))
+
+
+def test_a_link_that_only_connects_joints_needs_no_mass():
+    """Its joints turn about one axis: where neither is actuated, M_u is singular."""
+    chain = joint("j", "a", "b") + joint("i", "b", "c")
+    text = robot(link("a"), link("b", inertial=""), link("c"), chain)
+    for actuated in (("i", "j"), ("i",), ("j",)):
+        system = System([Body("r", text, base="floating", actuated=actuated)])
+        assert system.masses.tolist() == [0.0, 2.0, 0.0, 2.0]
+    with pytest.raises(ModelError, match="its mass matrix M_u is singular in float64"):
+        System([Body("r", text, base="floating")])
+
+
+def test_a_defect_of_a_part_of_a_body_is_noted():
+    needle = inertial(moments=("0.1", "0.1", "1"))  # 1 > 0.1 + 0.1
+    welded = robot(link("a"), link("b", inertial=needle), joint("j", "a", "b", "fixed"))
+    (note,) = loaded_urdf(welded).notes
+    assert note.startswith("link[b].inertial.inertia: is impossible")
+    assert note.endswith("; accepted, because no un-actuated joint moves this link")
+    massless = robot(
+        link("a"), link("b", inertial=inertial(mass="0")), joint("j", "a", "b", "fixed")
+    )
+    (note,) = loaded_urdf(massless, base="floating").notes
+    whole = "the inertia of all links welded to it is that of a body"
+    assert note == f"link[b].inertial.mass: must be greater than 0; accepted, because {whole}"
+
+
+def test_an_axis_that_is_not_written_is_x():
+    hinge = joint("j", "a", "b").replace('<axis xyz="0 0 1"/>', "")
+    urdf = loaded_urdf(robot(link("a"), link("b"), hinge))
+    assert urdf.file.joints[0].axis.tolist() == [1.0, 0.0, 0.0]
+
+
+def test_a_mimic_may_be_met_before_its_leader():
+    """Among joints of one link, and where both are moved by other joints of that link.
+
+    At z = 0.3 the follower is at 2 (0.3) + 0.1 about the axis z.
+    """
+    follows = mimic("z", 2.0, 0.1)
+    weld = joint("w", "a", "e", "fixed", more=mimic("no joint"))
+    near = robot(*map(link, "abce"), joint("z", "a", "b"), joint("k", "a", "c", more=follows), weld)
+    far = robot(
+        *map(link, "abcde"), joint("y", "a", "b"), joint("z", "b", "c"), joint("i", "a", "d"),
+        joint("k", "d", "e", more=follows),
+    )  # fmt: skip
+    turned = Rotation.from_euler("z", 2 * 0.3 + 0.1).as_matrix()
+    for text in (near, far):
+        body = Body("r", text, base="planar", actuated="all", positions={"z": 0.3})
+        system = System([body, Body("other", text)])
+        assert [m.of for m in system.mimics] == ["r/z", "other/z"]
+        moving = [joint.name for joint in system.joints]
+        assert sorted(moving) == sorted(set(moving))
+        of = system.mimics[0].name.replace("k", "c" if text is near else "e")
+        R = system.kinematics(system.q_start).R[system.links.index(of)]
+        assert np.abs(R - turned).max() < ROUNDING
+
+
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+def test_the_model_is_that_of_another_reader(base):
+    """Pinocchio's own reader makes the same joints, inertias, links and shapes of CHAIN."""
+    ours = loaded_urdf(CHAIN, base=base)
+    root = () if base == "fixed" else (pin.JointModelFreeFlyer(), "base")
+    model = pin.buildModelFromXML(CHAIN, *root, mimic=True)
+    assert [*ours.model.names] == [*model.names]
+    assert [j.shortname() for j in ours.model.joints] == [j.shortname() for j in model.joints]
+    for made, read in zip(ours.model.inertias, model.inertias, strict=True):
+        assert_within(made.matrix(), read.matrix(), 4 * ROUNDING)
+    geometry = pin.buildGeomFromUrdfString(model, CHAIN, pin.GeometryType.COLLISION)
+    q = pin.integrate(model, pin.neutral(model), 0.3 * np.arange(1, model.nv + 1))
+    here, there = ours.model.createData(), model.createData()
+    pin.framesForwardKinematics(ours.model, here, q)
+    pin.framesForwardKinematics(model, there, q)
+    for name in ours.links:
+        made = here.oMf[ours.model.getFrameId(name, pin.FrameType.BODY)].homogeneous
+        read = there.oMf[model.getFrameId(name, pin.FrameType.BODY)].homogeneous
+        assert_within(made, read, 8 * ROUNDING)
+    for shape, read in zip(ours.shapes, geometry.geometryObjects, strict=True):
+        assert coal_solid(shape.shape) == read.geometry
+        frame = model.frames[read.parentFrame]
+        assert ours.links[shape.link] == frame.name
+        placement = frame.placement.actInv(read.placement)
+        assert_within(shape.R, placement.rotation, 4 * ROUNDING)
+        assert_within(shape.t, placement.translation, 4 * ROUNDING)
