@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# jolt-physics 1.1.0 (npm, JoltPhysics): capsules of 2 m between two centres, of radius 0.5 m at one end and 0.4999 to 0.25 m at
+# jolt-physics==1.1.0 (npm, JoltPhysics): capsules of 2 m between two centres, of radius 0.5 m at one end and 0.4999 to 0.25 m at
 # the other, with the density of 1000 kg/m^3 that each shape has.
 # Expected: a mass that is density times volume and goes over into that of the straight capsule, 2094 kg, as the radii become
 # equal, as the inertia does. What comes: 2999 kg and twice the inertia about the axis for 0.4999 m, since a tapered capsule has

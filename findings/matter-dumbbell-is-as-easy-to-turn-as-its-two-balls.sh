@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# matter-js 0.20.0 (npm): a body of two parts, discs of radius 10, at distances of 10 to 500 from their common centre.
+# matter-js==0.20.0 (npm): a body of two parts, discs of radius 10, at distances of 10 to 500 from their common centre.
 # Expected: an inertia that grows with the square of the distance, by Steiner's theorem, in units of what a lone disc gets.
 # What comes: at any distance the sum of the two discs' own; at 500 it is less than a thousandth of what is due.
 set -euo pipefail

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# p2-es 1.2.3 (npm): a disc and a box of 0.1 to 50 kg under a torque of 1 N m for 1 s, without gravity and damping; and the
+# p2-es==1.2.3 (npm): a disc and a box of 0.1 to 50 kg under a torque of 1 N m for 1 s, without gravity and damping; and the
 # force that moves them for comparison.
 # Expected: a rate of t T / I, which falls with the mass, as the speed does. What comes: body.inertia is right, but the rate
 # is that of 1 kg for every mass, as invInertia is not 1 / inertia; so a heavy body is turned too easily by each contact.

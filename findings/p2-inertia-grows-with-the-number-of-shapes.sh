@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# p2-es 1.2.3 (npm): a body of fixed mass made of N equal discs on a circle of 1 m, and an L of three unit squares, which
+# p2-es==1.2.3 (npm): a body of fixed mass made of N equal discs on a circle of 1 m, and an L of three unit squares, which
 # fromPolygon divides into convex parts.
 # Expected: the mass is shared, so the inertia of the discs is m (R^2 + r^2 / 2) for any N, and that of the L of 3 kg 11 / 6.
 # What comes: N times as much, as if each shape had the whole mass; twice as much for the L.

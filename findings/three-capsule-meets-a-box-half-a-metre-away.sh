@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# three 0.187.0 (npm): Capsule.intersectsBox for a cube of 1 m and rods of radius 0.1 m aslant before one of its edges, and
+# three==0.187.0 (npm): Capsule.intersectsBox for a cube of 1 m and rods of radius 0.1 m aslant before one of its edges, and
 # for 20000 capsules at random.
 # Expected: true where the distance of the axis from the cube is at most the radius, as Box3.intersectsSphere tells of balls
 # along the axis. What comes: true for rods as far as half a metre from the edge, and for more than a quarter of the

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# three 0.187.0 (npm): an oriented box (OBB) of a part whose middle is 3 m from its own origin, and the Box3 and the Sphere around
+# three==0.187.0 (npm): an oriented box (OBB) of a part whose middle is 3 m from its own origin, and the Box3 and the Sphere around
 # the same part, are brought along by applyMatrix4 ("to keep both entities in sync") while the part moves, turns or grows.
 # Expected: the same middle from all three. What comes: the middle of the oriented box moves by the matrix's translation alone,
 # neither turned nor scaled (its axes and size are), so that after a quarter turn it is 4.2 m from the part, and meets an

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# three 0.187.0 (npm): a closed prism on a regular polygon of n corners, in a PLY file and in an OBJ file with the same faces.
+# three==0.187.0 (npm): a closed prism on a regular polygon of n corners, in a PLY file and in an OBJ file with the same faces.
 # Expected: the prism's area and volume from both, as PLY's list of a face may have any length.
 # What comes: PLYLoader leaves out both ends of the prism, without a word, as soon as they have five corners, so that the part
 # is an open tube of two thirds of its volume; OBJLoader reads all of it.
