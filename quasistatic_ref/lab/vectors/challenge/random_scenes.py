@@ -6,6 +6,7 @@ along any direction, and targets are near or far. Of bricks and clouds several p
 """
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.lab.program.distance import closest_points
 from quasistatic_ref.lab.program.mechanism import kinematics, slices
@@ -64,8 +65,8 @@ def random_scene(rng: Rng, level: int) -> Json:
     """The input of a case."""
     kind = int(rng.integers(4))
     if level != EASY and kind == 0:
-        makers = (_brick_beside, _brick_on_solid, _cloud_in_plate, _cloud_in_plate)
-        return makers[int(rng.integers(4))](rng)
+        makers = (_brick_beside, _brick_on_solid, _brick_over_edge, _cloud_in_plate, _cloud_in_plate)
+        return makers[int(rng.integers(len(makers)))](rng)
     tree = _bodies(rng, level, kind)
     bodies = {"bodies": tree}
     q = random_q(rng, bodies)
@@ -249,6 +250,21 @@ def _brick_beside(rng: Rng) -> Json:
     place = (top - under) / 2 * rng.integers(-1, 2, 3)  # flush faces, or middles that meet
     place[along] = (top + under)[along] / 2 + float(rng.choice([0.0, -1 / 64, 1 / 1024]))
     case = _free(rng, {"kind": "box", "size": top.tolist()}, [*place.tolist(), *UPRIGHT])
+    case["shapes"]["under"] = on(None, {"kind": "box", "size": under.tolist()})
+    _add_pair(rng, case, "under", "body", int(rng.integers(2, 9)))
+    return case
+
+
+def _brick_over_edge(rng: Rng) -> Json:
+    """A brick that lies askew over the edge of another, tilted, with a corner on that edge."""
+    top, under = rng.choice([0.125, 0.25, 0.5], (2, 3))
+    angles = [rng.uniform(-1.1, -0.4), rng.uniform(-0.2, -0.02)]
+    turn = Rotation.from_euler("zx", angles)
+    edge = [rng.uniform(-0.05, 0.05), *under[1:] / 2]
+    depth = float(rng.choice([0.0, 1 / 64, 1 / 1024]))
+    place = edge + turn.apply(top / 2 - [0.0, 0.0, depth])
+    q = [*place.tolist(), *turn.as_quat().tolist()]
+    case = _free(rng, {"kind": "box", "size": top.tolist()}, q)
     case["shapes"]["under"] = on(None, {"kind": "box", "size": under.tolist()})
     _add_pair(rng, case, "under", "body", int(rng.integers(2, 9)))
     return case

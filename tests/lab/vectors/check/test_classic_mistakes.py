@@ -186,6 +186,7 @@ CENTRE = (
 )
 NO_CENTRE = rewritten("step", *CENTRE)
 SINGLE = ("candidates.py", "in ways(solid, n @ pose[0]):", "in []:")
+FACE_LAST = rewritten("step", "candidates.py", "return [n, face] if", "return [face, n] if")
 BETWEEN = ("candidates.py", "np.abs(way - n[i]).max() > SAME_NORMAL", "False")
 
 
@@ -230,7 +231,10 @@ MISTAKES = {
         (layer, field, with_patches(layer, candidates, FACING=0.9685))
         for layer, field in (("selection", "indices"), ("step", "contacts.index"))
     ],
-    "normals of single corners": [("step", "contacts.index", rewritten("step", *SINGLE))],
+    "normals of single corners": [
+        ("step", "contacts.index", rewritten("step", *SINGLE)),
+        ("step", "contacts.n", FACE_LAST),
+    ],
     "a point between two faces": [("step", "contacts.n", rewritten("step", *BETWEEN))],
     "other tolerances of ties": [
         ("step", "contacts.index", with_patches("step", candidates, **{name: value}))
@@ -284,7 +288,7 @@ def test_a_committed_case_finds_it_and_passes_without_it(layer, field, program):
     assert not wrong_field(layer, found, answer(layer, found.input), digits)
 
 
-EARLIER = {NO_CENTRE: "H"}
+EARLIER = {NO_CENTRE: "H", FACE_LAST: "contacts.index"}
 """The field that stands before its own: a challenge names that one where a case has both wrong."""
 
 
