@@ -121,11 +121,8 @@ def touching_edges(shape, pose, x, n):
     return np.flatnonzero(facing.any(axis=1) | on.all(axis=1) & level).tolist()
 
 
-def crossings(alpha, pose_alpha, beta, pose_beta, nearest, over=0.0):
-    """Edges of two boxes that cross along n, by numbers, with phi, alpha, beta and n there.
-
-    Each end of an edge counts as further out by `over` of its length.
-    """
+def crossings(alpha, pose_alpha, beta, pose_beta, nearest):
+    """Edges of two boxes that cross along n, by numbers, with phi, alpha, beta and n there."""
     _, a, b, n = nearest
     ends_a, _ = edges(alpha)
     ends_b, _ = edges(beta)
@@ -142,7 +139,7 @@ def crossings(alpha, pose_alpha, beta, pose_beta, nearest, over=0.0):
                 continue
             s = np.cross(w, v) @ n / steep
             t = np.cross(w, u) @ n / steep
-            if -over <= min(s, t) and max(s, t) <= 1 + over:
+            if min(s, t) >= 0 and max(s, t) <= 1:
                 one = tail + s * u
                 other = start + t * v
                 edge_pairs.append((i, j, (other - one) @ n, one, other, n))

@@ -31,6 +31,8 @@ from quasistatic_ref.numbers.arrays import Array
 EASY, PLAIN, HARD = 0, 1, 2
 """How hard cases are: a ball on a plane; as the vectors have them; more bodies, or corners."""
 CONES = ("pyramid", "pyramid", "product", "facets-4", "facets-6", "facets-8", "frictionless")
+ASIDE = 1e-11
+"""A hundredth of the tolerance of what is on an edge [m]."""
 GAPS = (0.0005, 0.0, -0.0005, 0.01)
 """[m]"""
 FAR_GAPS = (*GAPS, -0.0005, 0.3, -0.02)
@@ -65,7 +67,13 @@ def random_scene(rng: Rng, level: int) -> Json:
     """The input of a case."""
     kind = int(rng.integers(4))
     if level != EASY and kind == 0:
-        makers = (_brick_beside, _brick_on_solid, _brick_over_edge, _cloud_in_plate, _cloud_in_plate)
+        makers = (
+            _brick_beside,
+            _brick_on_solid,
+            _brick_over_edge,
+            _cloud_in_plate,
+            _cloud_in_plate,
+        )
         return makers[int(rng.integers(len(makers)))](rng)
     tree = _bodies(rng, level, kind)
     bodies = {"bodies": tree}
@@ -260,7 +268,8 @@ def _brick_over_edge(rng: Rng) -> Json:
     top, under = rng.choice([0.125, 0.25, 0.5], (2, 3))
     angles = [rng.uniform(-1.1, -0.4), rng.uniform(-0.2, -0.02)]
     turn = Rotation.from_euler("zx", angles)
-    edge = [rng.uniform(-0.05, 0.05), *under[1:] / 2]
+    # By ASIDE off the edge, or rounding would decide which of the corner's edges crosses it.
+    edge = [rng.uniform(-0.05, 0.05), under[1] / 2 + ASIDE * rng.choice([-1, 1]), under[2] / 2]
     depth = float(rng.choice([0.0, 1 / 64, 1 / 1024]))
     place = edge + turn.apply(top / 2 - [0.0, 0.0, depth])
     q = [*place.tolist(), *turn.as_quat().tolist()]
