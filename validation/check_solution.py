@@ -149,59 +149,68 @@ def rounded(x):
         return float("inf") if x > 0 else float("-inf")
 
 
-def dot(u, v):
-    """The scalar product u'v."""
-    return sum((x * y for x, y in zip(u, v, strict=True)), Fraction(0))
+def whole(values):
+    """Fractions as whole numbers over one unit, and that unit."""
+    unit = lcm(*(v.denominator for v in values))
+    return [v.numerator * (unit // v.denominator) for v in values], unit
 
 
 def along(M, v):
     """The product M v."""
-    return [dot(row, v) for row in M]
+    v, of_v = whole(v)
+    rows = [whole(row) for row in M]
+    return [Fraction(sum(x * y for x, y in zip(row, v, strict=True)), u * of_v) for row, u in rows]
 
 
-def eliminated(M, swaps=True):
-    """Upper triangular rows of a matrix, in whole numbers (Bareiss); None if a pivot is zero.
+def dot(u, v):
+    """The scalar product u'v."""
+    return along([u], v)[0]
 
-    Each pivot is a leading minor of the rows, of which each is first made whole by itself.
+
+def eliminated(S, right):
+    """Rows [S, right] of a symmetric S from the diagonal on, upper triangular (Bareiss).
+
+    They are whole numbers, and each pivot is a leading minor of S in one unit. Where one is zero,
+    the rows end with it: S is no matrix that needs swaps if it is definite, or [H A'; A 0] with H
+    definite.
     """
-    units = [lcm(*(v.denominator for v in row)) for row in M]
-    rows = [[int(v * unit) for v in row] for row, unit in zip(M, units, strict=True)]
-    last = 1
-    for k in range(len(rows)):
-        i = next((i for i in range(k, len(rows) if swaps else k + 1) if rows[i][k]), None)
-        if i is None:
-            return None
-        rows[k], rows[i] = rows[i], rows[k]
-        pivot, *first = rows[k][k:]
-        for i in range(k + 1, len(rows)):
-            lead, *row = rows[i][k:]
-            rest = [(pivot * v - lead * w) // last for v, w in zip(row, first, strict=True)]
-            rows[i] = [0] * (k + 1) + rest
+    n = len(S)
+    numbers, unit = whole([v for i, row in enumerate(S) for v in (*row[i:], right[i])])
+    at = [i * (n + 1) - i * (i - 1) // 2 for i in range(n + 1)]
+    rows, last = [numbers[at[i] : at[i + 1]] for i in range(n)], 1
+    for k in range(n):
+        pivot, *first = rows[k]
+        if not pivot:
+            return rows[: k + 1], unit
+        for i, lead in enumerate(first[:-1]):
+            row = zip(rows[k + 1 + i], first[i:], strict=True)
+            rows[k + 1 + i] = [(pivot * v - lead * w) // last for v, w in row]
         last = pivot
-    return rows
+    return rows, unit
 
 
 def definite(S, share=1e-14):
     """Whether each pivot of elimination is above a share of its entry on the diagonal."""
-    rows, last = eliminated(S, swaps=False) or [], 1
-    for k, row in enumerate(rows):
-        unit = lcm(*(v.denominator for v in S[k]))
-        if row[k] <= max(Fraction(share) * S[k][k] * unit * last, 0):
+    (rows, unit), last = eliminated(S, [Fraction(0)] * len(S)), 1
+    for k, (pivot, *_) in enumerate(rows):
+        if pivot <= max(Fraction(share) * S[k][k] * unit * last, 0):
             return False
-        last = row[k]
-    return len(rows) == len(S)
+        last = pivot
+    return True
 
 
-def solved(M, right):
-    """The solution of M x = right by elimination; None if M is singular."""
-    rows = eliminated([[*row, v] for row, v in zip(M, right, strict=True)])
-    if not rows:
-        return None if M else []
-    D, x = rows[-1][-2], []  # D x is whole
-    for k, row in reversed([*enumerate(rows)]):
-        others = sum(v * w for v, w in zip(row[k + 1 : -1], x, strict=True))
-        x.insert(0, (D * row[-1] - others) // row[k])
-    return [Fraction(v, D) for v in x]
+def solved(H, g, A, b):
+    """The x and y of H x + A'y = g and A x = b, H being definite; None if rows depend."""
+    n, zero = len(H), [Fraction(0)] * len(A)
+    upper = [[*row, *(a[i] for a in A)] for i, row in enumerate(H)]
+    rows, _ = eliminated(upper + [[*a, *zero] for a in A], g + b)
+    if not all(row[0] for row in rows):
+        return None
+    D, x = rows[-1][0] if rows else 1, []  # D x is whole
+    for pivot, *others, last in reversed(rows):
+        x.insert(0, (D * last - sum(v * w for v, w in zip(others, x, strict=True))) // pivot)
+    x = [Fraction(v, D) for v in x]
+    return x[:n], x[n:]
 
 
 def turn(k, K):
@@ -276,14 +285,10 @@ def verdicts(step, solution):
     claims = solution["certificate"]
     counts = [len(rows) for rows in weights] + [len(A) - sum(map(len, weights))]
     W = [sum(counts[:j]) + i for j, i in claims["active"] if 0 <= i < counts[j] and j >= 0]
-    x_lam = solved(
-        [row + [-A[w][i] for w in W] for i, row in enumerate(H)]  # Eq. (9): H x - A_W'lam = g
-        + [A[w] + [Fraction(0)] * len(W) for w in W],  # Eq. (12): A_W x = b_W
-        g + [b[w] for w in W],
-    )
+    solution_on_W = solved(H, g, [A[w] for w in W], [b[w] for w in W])  # Eqs. (9) and (12)
     ordered = len(W) == len(claims["active"]) and sorted(set(W)) == W
-    yield "active names independent rows, in order", ordered and x_lam is not None
-    x, lam_W = x_lam[: len(H)], x_lam[len(H) :]
+    yield "active names independent rows, in order", ordered and solution_on_W is not None
+    x, lam_W = solution_on_W[0], [-y for y in solution_on_W[1]]
     slack = [v - w for v, w in zip(along(A, x), b, strict=True)]
     lam = [read(c, (k,), "lam") for c, k in zip(solution["lam"], counts[:-1], strict=True)]
     every = [v for c in lam for v in c] + read(solution["lam_extra"], (counts[-1],), "lam_extra")
@@ -354,18 +359,15 @@ def program_verdicts(qp):
         return
     q, x = fractions(qp["q"]), fractions(qp["x"])
     W = [rows[name] for name in qp["active"] if name in rows]
-    x_y = solved(
-        [row + [a[i] for a, _, _ in W] for i, row in enumerate(P)]
-        + [a + [Fraction(0)] * len(W) for a, _, _ in W],
-        [-v for v in q] + [side for _, side, _ in W],
-    )
+    x_y = solved(P, [-v for v in q], [a for a, _, _ in W], [side for _, side, _ in W])
     each_once = len(W) == len(qp["active"]) == len(set(qp["active"]))
     yield "active names independent rows", each_once and x_y is not None
-    x, y_W = x_y[:n], x_y[n:]
+    x, y_W = x_y
     yield "x", qp["x"] == [rounded(v) for v in x]
     signs = [y * sign >= 0 if sign else True for y, (_, _, sign) in zip(y_W, W, strict=True)]
     yield "signs of multipliers", all(signs)
-    off = [(dot(a, x) - side, sign) for a, side, sign in rows.values()]
+    at_x = along([a for a, _, _ in rows.values()], x)
+    off = [(v - side, sign) for v, (_, side, sign) in zip(at_x, rows.values(), strict=True)]
     yield "rows", all(v * sign <= 0 if sign else v == 0 for v, sign in off)
     right = {"z": [0.0] * len(qp["z"]), "y": [0.0] * len(qp["y"]), "z_box": [0.0] * n}
     for name, y in zip(qp["active"], y_W, strict=True):
