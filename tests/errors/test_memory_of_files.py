@@ -17,6 +17,8 @@ TIMES = 40
 """Most bytes of memory for each byte of a file."""
 SIZE = 2**19
 """Of each file, nearly [bytes]: far above what readers take of a file of any size."""
+SHORT = 2**16
+"""Of a file each of whose few bytes takes a line of a reader written in Python [bytes]."""
 
 
 def lines(one, count=SIZE):
@@ -41,22 +43,22 @@ FILES = {
     "a CSV of short lines": ("a.csv", lines(b"0 0 0\n")),
     "a CSV with a header": ("a.csv", b"z,y,x\n" + lines(b"0,0,0\n") + b"0,0,nan\n"),
     "an OBJ with one face": ("a.obj", b"v 0 0 0\nf" + b" 1" * (SIZE // 2)),
-    "an OBJ of faces": ("a.obj", b"v 0 0 0\n" + lines(b"f 1 1 1\n")),
-    "an OBJ of points": ("a.obj", lines(b"v 1 2 3\n")),
+    "an OBJ of faces": ("a.obj", b"v 0 0 0\n" + lines(b"f 1 1 1\n", SHORT)),
+    "an OBJ of points": ("a.obj", lines(b"v 1 2 3\n", SHORT)),
     "an OFF of short lines": ("a.off", b"OFF\n" + lines(b"0\n")),
     "an OFF of short lines, well counted": (
-        "a.off", b"OFF\n1 %d 0\n0 0 0\n" % (SIZE // 8) + lines(b"3 0 0 0\n"),
+        "a.off", b"OFF\n1 %d 0\n0 0 0\n" % (SHORT // 8) + lines(b"3 0 0 0\n", SHORT),
     ),
     "a PLY of empty faces": ("a.ply", ply([("face", SIZE, "vertex_indices")], bytes(SIZE))),
     "a PLY of triangles": ("a.ply", ply([("face", FACES, "vertex_index")], TRIANGLES)),
-    "a PLY of an empty grid": ("a.ply", ply([("range_grid", SIZE, "vertex_indices")], bytes(SIZE))),
+    "a PLY of an empty grid": ("a.ply", ply([("range_grid", SHORT, "vertex_indices")], bytes(SHORT))),
     "a PLY in text with one line": (
         "a.ply", ply([("face", 1, "vertex_indices")], b"0 " * (SIZE // 2), "ascii"),
     ),
     "a PLY in text of short lines": (
-        "a.ply", ply([("grid", SIZE // 2, "of")], b"0\n" * (SIZE // 2), "ascii"),
+        "a.ply", ply([("grid", SHORT // 2, "of")], b"0\n" * (SHORT // 2), "ascii"),
     ),
-    "an STL in text": ("a.stl", b"solid\n" + lines(b"vertex 0 0 0\n")),
+    "an STL in text": ("a.stl", b"solid\n" + lines(b"vertex 0 0 0\n", SHORT)),
     "a step of objects": (
         "a.json", b'{"format": "quasistatic-ref/step", "x": [' + lines(b'{"a":0},') + b"0]}",
     ),

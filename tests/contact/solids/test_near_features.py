@@ -86,7 +86,7 @@ def test_random_pairs_have_the_bits_of_a_search_of_all(monkeypatch, count):
 
 def test_a_fine_pair_is_looked_at_near_its_contact_alone(monkeypatch):
     rng = np.random.default_rng(0)
-    points = rng.normal(size=(1200, 3))
+    points = rng.normal(size=(500, 3))
     ball = convex_hull(0.05 * points / np.linalg.norm(points, axis=1, keepdims=True))
     P = polytope(ball).alone
     for distance in (0.099, 0.101, 2.0):
