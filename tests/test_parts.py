@@ -107,7 +107,6 @@ OF_CORE_AND_PARTS = {
     "certify/test_check_solution",
     "certify/test_exact",
     "certify/test_groups",
-    "certify/test_joined_parts",
     "cli/test_inspect",
     "contact/solids/test_solid_pair",
     "errors/test_python_mistakes",

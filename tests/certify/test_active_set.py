@@ -6,16 +6,12 @@ import pytest
 from quasistatic_ref import standard_form
 from quasistatic_ref.certify.active_set import (
     BLOCK,
-    Combination,
     basic_rows,
     dual_active_set,
     least_index,
     most_violated,
     warm_rows,
 )
-from quasistatic_ref.certify.degeneracy import form_degeneracy
-from quasistatic_ref.certify.exact import form_optimum
-from quasistatic_ref.certify.form import MatrixForm, exact_matrix
 from quasistatic_ref.certify.minimiser import Minimiser
 from tests.helpers import resting_point
 from tests.oracles.forms import exact_form_of
@@ -63,50 +59,6 @@ def test_a_row_that_balls_show_to_be_violated_enters_before_any_zero_is_decided(
     fresh = minimiser.on((0,))
     assert most_violated(fresh) == 2
     assert "null_space" not in vars(fresh)
-
-
-def with_equations(equations, A, b, g):
-    """Nearest x to g whose first rows of A x >= b are equations."""
-    rows = np.column_stack([A, -np.array(b, dtype=float)]).astype(float)
-    of_g = exact_matrix(np.array(g, dtype=float)[:, None])
-    return MatrixForm(exact_matrix(np.eye(len(g))), of_g, exact_matrix(rows), equations=equations)
-
-
-def test_an_equation_is_held_whatever_the_sign_of_its_multiplier():
-    """x_0 = 1 pulls back, x_1 = 3 pushes and x_2 = 2 is where the free minimiser is."""
-    form = with_equations(3, np.eye(4), [1, 3, 2, -5], [2, 2, 2, 2])
-    end = form_optimum(form, [3])
-    assert end.delta_q.tolist() == [1, 3, 2, 2]
-    assert end.lam.tolist() == [-1, 1, 0, 0]
-    assert end.working_set == (0, 1, 2)
-    assert form_degeneracy(form, end.working_set).multipliers_unique
-    assert end.smallest_active_multiplier is None
-
-
-def test_an_equation_that_follows_from_others_is_left_out_and_leaves_multipliers_open():
-    form = with_equations(3, [[1, 1], [1, -1], [3, 1]], [2, 0, 4], [5, 0])
-    end = form_optimum(form)
-    assert end.delta_q.tolist() == [1, 1]
-    assert end.working_set == (0, 1)
-    assert not form_degeneracy(form, end.working_set).multipliers_unique
-
-
-@pytest.mark.parametrize("ulp", [2.0**-50, -(2.0**-50)])
-def test_equations_that_contradict_each_other_by_an_ulp_are_the_proof(ulp):
-    A = np.array([[1.0, 1], [1, -1], [3, 1]])
-    b = [2, 0, 4 + ulp]
-    end = form_optimum(with_equations(3, A, b, [5, 0]))
-    assert isinstance(end, Combination)
-    y = [float(end.y[i]) for i in range(3)]
-    assert (y @ A).tolist() == [0, 0]
-    assert y @ np.array(b) > 0
-
-
-def test_a_row_that_equations_contradict_is_proved_with_multipliers_of_either_sign():
-    """x_0 + x_1 = 2 and x_0 - x_1 = 0 leave x_0 = 1; the row asks for x_1 >= 2."""
-    end = form_optimum(with_equations(2, [[1, 1], [1, -1], [0, 1]], [2, 0, 2], [0, 0]))
-    assert isinstance(end, Combination)
-    assert {i: 2 * y / end.y[2] for i, y in end.y.items()} == {0: -1, 1: 1, 2: 2}
 
 
 def test_open_rows_are_left_out_and_the_most_pressed_comes_first():

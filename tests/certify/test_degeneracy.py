@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import solve_step, standard_form
+from quasistatic_ref.certify.degeneracy import form_degeneracy
 from quasistatic_ref.certify.groups import flat_rows
 from tests.closeness import assert_within
 from tests.helpers import changed, random_step
+from tests.oracles.forms import exact_form_of
 
 EPS = 1e-6
 """Of differences, relative to each number: they are right to 1e-9 and better."""
@@ -100,3 +102,10 @@ def test_r27_a_row_that_leaves_its_zero_slack_has_two_sides(seed):
     for t in (EPS, -EPS):
         same = np.abs(slope(step, at, t) - expected).max() <= 1e-6 * size
         assert same == (opens * np.sign(t) >= -1e-9 * size).all()
+
+
+def test_rows_that_combine_to_one_of_the_working_set_leave_multipliers_open():
+    """Row 0 bears, the others touch: twice row 1 and row 2 are three times row 0."""
+    rows = np.array([[0.0, 1.0], [1.0, 1.0], [-2.0, 1.0]])
+    form = exact_form_of(np.eye(2), np.array([0.0, -1.0]), rows, np.zeros(3))
+    assert form_degeneracy(form, (0,))[:2] == (False, True)

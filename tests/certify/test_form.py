@@ -1,16 +1,14 @@
 """Exact numbers and matrices: what is none, and what is zero without a radius."""
 
 from dataclasses import replace
-from fractions import Fraction
 
 import numpy as np
 import pytest
 from flint import arb
 
-from quasistatic_ref import solve_step, verify
+from quasistatic_ref import Extra
 from quasistatic_ref.certify.form import StepForm, exact_matrix, inverse, whole_numbers
 from quasistatic_ref.certify.form import fraction as exact
-from tests.cases import cases
 from tests.helpers import changed, random_step
 
 
@@ -41,12 +39,15 @@ def numbers_of_one_scale(rng, shape):
     return rng.integers(-5, 6, shape) * 2.0 ** rng.choice(SCALES)
 
 
+CONES = ("pyramid", "product", "facets-6", "frictionless")
+
+
 @pytest.mark.filterwarnings("ignore:(overflow|invalid)")
 def test_the_bound_of_a_float_slack_holds_for_numbers_of_any_size():
     """An entry of a row may lose all its digits where J is subnormal: x may be huge there."""
     rng = np.random.default_rng(20261129)
     decided = 0
-    for _ in range(1000):
+    for k in range(400):
         step = random_step(rng, n_a=1, n_u=1)
         n_c = step.contacts.n_c
         contacts = changed(
@@ -56,7 +57,8 @@ def test_the_bound_of_a_float_slack_holds_for_numbers_of_any_size():
             mu_v=np.abs(numbers_of_one_scale(rng, n_c)),
             mu_omega=np.abs(numbers_of_one_scale(rng, n_c)),
         )
-        form = StepForm(replace(step, contacts=contacts))
+        own = Extra(("a", "b"), numbers_of_one_scale(rng, (2, 2)), numbers_of_one_scale(rng, 2))
+        form = StepForm(replace(step, contacts=contacts, extra=own, cone=CONES[k % len(CONES)]))
         x = numbers_of_one_scale(rng, form.n)
         slack, error = form.float_slacks(x, np.abs(x))
         finite = np.isfinite(slack) & np.isfinite(error)
@@ -65,7 +67,7 @@ def test_the_bound_of_a_float_slack_holds_for_numbers_of_any_size():
         for i, value in zip(rows, exact_slacks(form, rows, z), strict=True):
             assert abs(exact(float(slack[i])) - value) <= exact(float(error[i]))
         decided += int((finite & (np.abs(slack) > error)).sum())
-    assert decided > 5000
+    assert decided > 2000
 
 
 def exact_slacks(form, rows, z):
@@ -73,33 +75,3 @@ def exact_slacks(form, rows, z):
     point = [exact(v) for (v,) in z.tolist()]
     of_rows = [[exact(v) for v in row] for row in form.exact_rows(rows)]
     return [sum((a * v for a, v in zip(row, point, strict=True)), exact(0.0)) for row in of_rows]
-
-
-LEAST = 2.0**-1074
-SUBNORMAL = {
-    "an entry that float64 rounds to zero": ([-LEAST, LEAST], 0.125, -1),
-    "a row of one binary digit": ([0, -LEAST], 0.25, 1),
-    "a row of one digit that bears nothing": ([0, -LEAST], 0.875, 1),
-}
-"""J along x and y, phi in units of LEAST X, the sign of the force."""
-X = 2.0**130
-"""The displacement that the force causes without the contact [m]."""
-
-
-@cases("J, phi, sign", SUBNORMAL)
-def test_a_subnormal_jacobian_and_a_huge_step_have_their_exact_optimum(J, phi, sign):
-    step = random_step(0, n_a=1, n_u=0, rows=(4,))
-    contacts = changed(
-        step.contacts, phi=[phi * (LEAST * X)], J=[[[v] for v in (*J, 0, 0)]], mu_v=[0.0],
-        mu_omega=[0.0], n=[[0.6, 0.8, 0.0]], d1=[[-0.8, 0.6, 0.0]], d2=[[0.0, 0.0, 1.0]],
-    )  # fmt: skip
-    step = replace(
-        step, h=1.0, K_q=[[X**-2]], tau_a=[sign / X], delta_q_bar_a=[0.0], contacts=contacts
-    )
-    a = Fraction(0.6) * Fraction(J[0]) + Fraction(0.8) * Fraction(J[1])
-    at_contact = -Fraction(phi * (LEAST * X)) / a
-    optimum = min(at_contact, X) if sign > 0 else max(at_contact, -X)
-    solution = solve_step(step)
-    assert solution.delta_q.tolist() == [float(optimum)]
-    assert bool(solution.certificate.active) == (optimum == at_contact)
-    assert verify(solution).ok

@@ -51,7 +51,9 @@ FILES = {
     ),
     "a PLY of empty faces": ("a.ply", ply([("face", SIZE, "vertex_indices")], bytes(SIZE))),
     "a PLY of triangles": ("a.ply", ply([("face", FACES, "vertex_index")], TRIANGLES)),
-    "a PLY of an empty grid": ("a.ply", ply([("range_grid", SHORT, "vertex_indices")], bytes(SHORT))),
+    "a PLY of an empty grid": (
+        "a.ply", ply([("range_grid", SHORT, "vertex_indices")], bytes(SHORT)),
+    ),
     "a PLY in text with one line": (
         "a.ply", ply([("face", 1, "vertex_indices")], b"0 " * (SIZE // 2), "ascii"),
     ),

@@ -6,10 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import quasistatic_ref as qr
 from quasistatic_ref import Extra, InputError, solve_step, verify
 from quasistatic_ref.files.solution import (
-    infeasible_text,
     load_solution,
     rounded_wrenches,
     solution_text,
@@ -94,27 +92,6 @@ def test_a_file_with_a_bound_of_an_older_version_is_read_and_proves_nothing(tmp_
     assert cli("verify", step, path, status=1).out == refuted
 
 
-def test_what_a_file_says_is_verified_as_by_the_command(tmp_path, cli):
-    """An optimum with its wrench, a proof that there is none, a file of another step."""
-    step = tmp_path / "step.json"
-    step.write_text(step_text(PLAIN))
-    path = qr.save_solution(tmp_path / "solution.json", solve_step(PLAIN))
-    assert verify(load_solution(path, PLAIN))
-    record = json.loads(path.read_text())
-    path.write_text(json.dumps(changed(record, ("wrench/0/2", 1e6))))
-    verdict = verify(load_solution(path, PLAIN))
-    assert not verdict
-    assert verdict.reason.startswith("wrench[0][2] is 1000000.0; the exact one rounds to ")
-    assert cli("verify", step, path, status=1).out == f"refuted: {verdict.reason}\n"
-    path.write_text(json.dumps(changed(record, ("step_sha256", "0" * 64))))
-    assert "belongs to another step" in verify(load_solution(path, PLAIN)).reason
-    wall = Extra(("up", "down"), np.array([np.eye(5)[0], -np.eye(5)[0]]), np.array([1.0, 1.0]))
-    never = PLAIN.replace(extra=wall)
-    with pytest.raises(qr.StepInfeasible) as failure:
-        solve_step(never)
-    path.write_text(infeasible_text(never, failure.value.farkas.exact))
-    assert verify(load_solution(path, never))
-    path.write_text(infeasible_text(never, ["1"] * never.m))
-    assert "A'y is not zero" in verify(load_solution(path, never)).reason
+def test_what_is_no_solution_is_not_verified():
     with pytest.raises(InputError, match="solution: must be what solve_step or load_solution"):
         verify(PLAIN)

@@ -67,16 +67,6 @@ def test_a_drawer_that_is_pushed_stops_at_its_limits(force, fast):
     assert q == (upper if force > 0 else lower)  # all of these forces reach it
 
 
-def test_a_run_has_the_force_of_a_stop():
-    """20 N move 2 kg by 1 mm a step: the second ends at 2 mm, from the third on the stop has them.
-
-    In the second it has 20 N - 2 kg 1 mm / h^2 = 0, up to rounding.
-    """
-    run = pushed_drawer(scene(drawer()), 20.0, 10)
-    upper = run.header.extra.index("c/slide at its upper limit")
-    assert_relative(run["lam_extra"][2:, upper] / H, 20.0)
-
-
 def test_a_table_by_joint_takes_the_place_of_the_file():
     """The drawer may go to 2 mm by its file, and to 1.5 mm here; at least and most 0 hold it."""
     for ends, end in (([-0.001, 0.0015], 0.0015), ([0, 0], 0.0)):

@@ -87,10 +87,6 @@ def touching(system, names):
     return pairs
 
 
-def with_a_ball():
-    return System([*bodies().bodies, Body.of_shape("b", BOX, 1.0, base="ball")])
-
-
 OWN = {"extension": lambda q: Extension(lambda s: [s.delta_q_u[3] <= 1e-5])}
 KINDS = {
     **{f"the cone {cone}": (bodies, KNOWN, {"cone": cone}) for cone in CONES},
@@ -102,7 +98,6 @@ KINDS = {
     "own rows": (bodies, KNOWN, OWN),
     "another backend": (bodies, KNOWN, {"backend": "clarabel"}),
     "no backend": (bodies, KNOWN, {"backend": "none"}),
-    "a joint that C does not know": (with_a_ball, KNOWN, {}),
     "a mass that varies": (None, KNOWN, {}),
     "solids alone": (bodies, ("box", "hull", "cylinder"), {}),
 }
@@ -265,44 +260,3 @@ def test_a_copy_is_a_fast_simulator_of_its_own():
     assert type(other) is FastSimulator
     assert other.simulator is not one.simulator
     assert bits(first_step(scenario, other).q) == bits(first_step(scenario, one).q)
-
-
-def many_bodies(rng):
-    """Spheres, boxes and capsules in a row: some touch the next one, or are in it; one is held."""
-    solids = [SOLIDS["sphere"], BOX, SOLIDS["capsule"]]
-    floor = placed_shape(HalfSpace((0.0, 0.0, 1.0), 0.0))
-    down = np.array([[0.0, 0.0, -1.0]])
-    bodies = []
-    shapes = []
-    pairs = []
-    x = 0.0
-    for i in range(rng.integers(3, 9)):
-        solid = solids[rng.integers(3)]
-        z = float(solid.support_value(down)[0]) + 1e-4 * rng.integers(-1, 2)
-        x += rng.choice([0.15, 0.199, 0.3])
-        held = ("base",) if i == 1 else ()
-        at = (x, 0.01 * rng.integers(-1, 2), z)
-        bodies.append(Body.of_shape(f"b{i}", solid, rng.uniform(0.1, 1.0), actuated=held, xyz=at))
-        shapes.append(placed_shape(solid, i + 1))
-        k = 4 if solid is BOX else 1
-        pairs.append(ContactPair(f"f{i}", floor, shapes[i], 0.5, 0.01, 6, k))
-        if i and rng.integers(2):
-            pairs.append(ContactPair(f"p{i}", shapes[i - 1], shapes[i], 0.3, 0.0, 4, k))
-    return {"system": System(bodies), "pairs": pairs, "h": 0.01, "K_q": 500.0}
-
-
-@needs_compiler
-def test_steps_of_many_groups_are_those_of_the_plain_path(count):
-    """Random scenes."""
-    several = 0
-    for seed in range(count // 4):
-        same = many_bodies(np.random.default_rng(seed))
-        plain = Simulator(**same, backend="none")
-        fast = FastSimulator(Simulator(**same))
-        for one, other in two_steps([plain, fast], plain.system.q_start):
-            assert fast.by_c
-            assert other.solution.statistics.interface == "native"
-            assert data_of(other) == data_of(one)
-            assert bits(other.q) == bits(one.q)
-        several += len(fast._steps.groups) > 2
-    assert several > count // 6
