@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
+from types import UnionType
 
 from quasistatic_ref.formats.quoting import clipped, one_line, short_words, shown_value
 
@@ -183,7 +184,7 @@ class BackendError(InputError):
 @contextmanager
 def about_file(file: str | Path) -> Iterator[None]:
     """Make an InputError of this block say which file it is about, unless it says so already."""
-    check_kind(file, (str, PathLike), "path", "a path")
+    check_kind(file, str | PathLike, "path", "a path")
     try:
         yield
     except InputError as error:
@@ -200,7 +201,7 @@ def about_field(field: str) -> Iterator[None]:
         raise
 
 
-def check_kind(value: object, kinds: type | tuple[type, ...], field: str, wanted: str) -> None:
+def check_kind(value: object, kinds: type | UnionType, field: str, wanted: str) -> None:
     """Refuse an argument of another type: InputError, which says what is `wanted`."""
     if not isinstance(value, kinds):
         raise InputError(f"must be {wanted}", field=field, value=type(value).__name__)

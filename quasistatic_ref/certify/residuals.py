@@ -13,7 +13,8 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.errors import StepDataError, check_kind
+from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.step.standard_form import StandardForm
 
 Violations: TypeAlias = tuple[Array, Array, Array]
@@ -107,6 +108,11 @@ def optimality_residuals(
     -------
     Residuals
 
+    Raises
+    ------
+    InputError
+        If an argument is of another kind or shape.
+
     Examples
     --------
     >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
@@ -115,8 +121,13 @@ def optimality_residuals(
     >>> qr.optimality_residuals(form, solution.delta_q, solution.lam).worst < 1e-15
     True
     """
+    check_kind(form, StandardForm, "form", "a StandardForm, as standard_form(step) returns")
     H, g, A, b = form
-    x, y = (np.asarray(numbers, np.float64) for numbers in (delta_q, lam))
+    x = checked_numbers(delta_q, "delta_q")
+    y = checked_numbers(lam, "lam")
+    for name, numbers, like in (("delta_q", x, g), ("lam", y, b)):
+        if numbers.shape != like.shape:
+            raise StepDataError(f"must have shape {like.shape}", field=name, value=numbers.shape)
     balance = H @ x - g - A.T @ y  # Eq. (9), as (13) has it
     slack = A @ x - b
     short, pull, work = judge(slack, y)  # Eqs. (10)-(12)

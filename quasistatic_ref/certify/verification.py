@@ -35,7 +35,7 @@ from quasistatic_ref.certify.working_set import Point, fraction_point
 from quasistatic_ref.errors import check_kind
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.numbers.precision import working_precision
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import StepData, check_step
 
 
 @runtime_checkable
@@ -121,6 +121,9 @@ def verify_answer(
     >>> bool(qr.verify_answer(step, solution.delta_q, solution.certificate.active))
     True
     """
+    check_step(step)
+    check_kind(claims, Certificate | None, "claims", "a Certificate")
+    check_kind(active, Sequence, "active", "a list of (contact, row)")
     if claims is not None and claims.kind != "none" and not claims.is_of(step):
         return Verdict(False, "the certificate is of another step")
     delta_q = checked_numbers(delta_q, "delta_q")

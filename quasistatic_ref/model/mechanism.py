@@ -10,7 +10,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref.errors import ModelError, check_kind
 from quasistatic_ref.formats.quoting import clipped, counted, suggestion
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.column_map import ColumnMap
@@ -201,6 +201,7 @@ class Mechanism(ABC):
 
     def link(self, name: str) -> int:
         """Number of a link; the name of a body stands for its root link; ModelError if unknown."""
+        check_kind(name, str, "link", "a name")
         if name in self._roots:
             return self._roots[name]
         if name not in self.links:

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import InputError, ModelError
+from quasistatic_ref.errors import InputError, ModelError, check_kind
 from quasistatic_ref.formats.quoting import clipped, suggestion
 from quasistatic_ref.model.joints.joint import COSINE_SINE, QUATERNION, Joint
 from quasistatic_ref.model.rotation import quaternion
@@ -61,6 +61,7 @@ class Named:
             If there is no such name, it has two meanings, two names share an entry, or a value is
             not of its kind.
         """
+        check_kind(values, Mapping, "values", "a mapping of names")
         placed = q.copy()
         check_apart({name: self.q(name) for name in values}, "{}")
         for name, value in values.items():
@@ -150,6 +151,7 @@ class _Places:
         self._meanings.setdefault(name, {}).setdefault(tuple(entries), meaning)
 
     def indices(self, name: str) -> Indices:
+        check_kind(name, str, "name", "a name")
         if name not in self._meanings:
             problem = f"is not a body, joint or coordinate{suggestion(str(name), self._meanings)}"
             raise ModelError(problem, field="name", value=name)

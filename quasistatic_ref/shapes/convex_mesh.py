@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.arrays import Array, Indices, checked_numbers
 from quasistatic_ref.numbers.ordered import dot, norm, product
 from quasistatic_ref.shapes.facets import Facets
 from quasistatic_ref.shapes.frozen import freeze_array
@@ -189,7 +189,7 @@ def convex_hull(points: ArrayLike) -> ConvexMesh:
     """
     from scipy.spatial import ConvexHull, QhullError  # takes as long as a short run
 
-    points = np.array(points, dtype=np.float64)
+    points = checked_numbers(points, "vertices", ModelError)
     if points.ndim != 2 or points.shape[1:] != (3,) or len(points) < 4:
         problem = "must be at least four points, as an array of shape (N, 3)"
         raise ModelError(problem, field="vertices", value=points.shape)

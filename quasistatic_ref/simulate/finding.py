@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import finding_names
@@ -63,6 +63,7 @@ class Finding(Plain):
 
 def check_finding_name(name: str) -> None:
     """Refuse a name that no finding has: InputError. Without ``optional/doctor`` any will do."""
+    check_kind(name, str, "ignore", "a list of names")
     known = finding_names()
     if known and name not in known:
         raise InputError(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from array import array
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import takewhile, zip_longest
 from typing import TYPE_CHECKING, Any
@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from quasistatic_ref.certify.solution import UNKNOWN
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.parts import check_there, doctors
 from quasistatic_ref.simulate.header import RECORDS, Header, Record
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import ARRAYS, FULL, Reading, arrays_of, names_of, no_steps
 from quasistatic_ref.simulate.result import StepArrays, StepResult
+from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.target import Drives, JointTrack, Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
 
@@ -89,6 +90,7 @@ class Recorder:
         observers: Sequence[Observer] | None = None,
         target: Target | None = None,
     ) -> None:
+        check_kind(simulator, Settings, "simulator", "a Simulator")
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         if record == "forces":
@@ -103,7 +105,11 @@ class Recorder:
         self.simulator = simulator
         self.system = simulator.system
         self.record = record
-        self.observers = list(doctors() if observers is None else observers)
+        watch = doctors() if observers is None else observers
+        check_kind(watch, Iterable, "observers", "a list of Observer")
+        self.observers = list(watch)
+        for observer in self.observers:
+            check_kind(observer, Observer, "observers", "a list of Observer")
         self.start = self.system.checked(q)
         self.q = self.start
         self.steps = 0
@@ -139,6 +145,7 @@ class Recorder:
             If the record holds forces and they are not known, or an extension's rows are not those
             of the step before, or one of the two alone has a quadratic cost.
         """
+        check_kind(result, StepResult, "result", "a StepResult, as step returns it")
         self._check(result)
         if result.solution.statistics.unanswered:
             self.unanswered.append(self.steps)

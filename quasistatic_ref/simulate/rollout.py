@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -102,9 +102,10 @@ def rollout(
     >>> len(run), run.phi.shape
     (3, (3, 1))
     """
-    check_kind(simulator, Simulator, "simulator", "a Simulator")
     if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
         raise InputError("must be a whole number, 0 or more", field="steps", value=steps)
+    check_kind(ignore, Iterable, "ignore", "a list of names")
+    check_kind(observers, Iterable, "observers", "a list of Observer")
     for name in ignore:
         check_finding_name(name)
     watch = [*doctors(findings, notes, ignore), *observers]

@@ -79,7 +79,7 @@ class Trajectory(Plain, HasPage):
             array.setflags(write=False)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        if name not in self.arrays:
+        if not isinstance(name, str) or name not in self.arrays:
             near = nearest_name(str(name), self.arrays)
             raise MissingKey(f"is not an array of this trajectory{near}", field=str(name))
         return self.arrays[name]
@@ -151,6 +151,7 @@ class Trajectory(Plain, HasPage):
         InputError
             If there is no such step, or the record is light.
         """
+        check_kind(k, int | np.integer, "step", "a whole number")
         if not 0 <= k < self.steps:
             raise InputError(f"must be 0 to {self.steps - 1}", field="step", value=k)
         if self.header.record != "full":

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.pairs import contact_layout
-from quasistatic_ref.errors import InputError, MissingKey
+from quasistatic_ref.errors import InputError, MissingKey, check_kind
 from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate.scene import Scene
@@ -40,6 +40,7 @@ class ContactsOverSteps(NamedTuple):
 
     def check(self, scene: Scene) -> None:
         """Raise InputError if a scene is not the one that these contacts belong to."""
+        check_kind(scene, Scene, "scene", "a Scenario or Simulator")
         n_c = len(contact_layout(scene.pairs).names)
         if self.wrench.shape[1] != n_c or self.q.shape[1] != scene.system.n_q:
             problem = "is another one than that of the steps: numbers of contacts or of q differ"

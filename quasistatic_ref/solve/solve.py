@@ -15,7 +15,7 @@ from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.exact import ExactOptimum, check_length, optimum_by_groups
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import Certificate, SolverStatistics, StepSolution
-from quasistatic_ref.errors import InputError, check_kind
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, all_finite, positive_number, without_warnings
 from quasistatic_ref.numbers.precision import check_arithmetic
 from quasistatic_ref.parts import extended_step
@@ -25,7 +25,7 @@ from quasistatic_ref.solve.proved import answer_residuals, exact_certificate, pr
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import FREE, Solver
 from quasistatic_ref.solve.units import ScaledStep, in_natural, in_si, out_of_range
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
 
 if TYPE_CHECKING:
@@ -107,7 +107,7 @@ def solve_step(
     >>> bool((qr.solve_step(step).delta_q == qr.solve_step(step, "osqp").delta_q).all())
     True
     """
-    check_kind(step, StepData, "step", "a StepData, as run.step_data(0) returns")
+    check_step(step)
     accuracy = positive_number(accuracy, "accuracy")
     if isinstance(solver, Solver) and fast:
         problem = "has no effect on an existing solver; pass it to solver_for"

@@ -9,13 +9,13 @@ import numpy as np
 
 from quasistatic_ref.certify.curved_cone import curved_cone
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.errors import BackendError, InputError, StepDataError
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.errors import BackendError, InputError, StepDataError, check_kind
+from quasistatic_ref.numbers.arrays import Array, positive_number
 from quasistatic_ref.solve.backends import NONE, QPSOLVERS, backend, check_takes_cones, is_function
 from quasistatic_ref.solve.greeting import greeting_silenced
 from quasistatic_ref.solve.problem_data import problem_data
 from quasistatic_ref.step.cones import PYRAMID, cone
-from quasistatic_ref.step.data import KIND, StepData, differences
+from quasistatic_ref.step.data import KIND, StepData, check_step, differences
 from quasistatic_ref.step.problem import paper_problem, set_values
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -72,6 +72,7 @@ class StepProblem:
     """
 
     def __init__(self, template: StepData, additions: Additions | None = None) -> None:
+        check_step(template, "template")
         self.template = template
         page = paper_problem(template)
         self.page = page
@@ -123,6 +124,7 @@ class StepProblem:
         StepDataError
             If the step is of another kind, naming what differs.
         """
+        check_step(step)
         for name in differences(self.template, step):
             needed = np.asarray(KIND[name](self.template)).tolist()
             value = np.asarray(KIND[name](step)).tolist()
@@ -163,6 +165,8 @@ class StepProblem:
         # Here: it has names of CVXPY that a new one may move.
         from quasistatic_ref.solve.scaled import solve_scaled
 
+        check_kind(solver, str, "solver", "the name of a backend")
+        accuracy = positive_number(accuracy, "accuracy")
         name = solver.lower()
         if name == NONE or name.startswith(QPSOLVERS) or is_function(name):
             raise BackendError("is not called through CVXPY", field="backend", value=solver)

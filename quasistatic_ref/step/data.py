@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.errors import StepDataError, check_kind
 from quasistatic_ref.formats.plain import Plain, field_values
 from quasistatic_ref.formats.shown import HasPage, Shown
 from quasistatic_ref.numbers.arrays import (
@@ -216,6 +216,8 @@ class StepData(Plain, HasPage):
         extra: Extra | None = None,
     ) -> None:
         checked_cone(cone)  # refuses a name that it does not know
+        check_kind(contacts, Contacts, "contacts", "Contacts")
+        check_kind(extra, Extra | None, "extra", "an Extra")
         # Of three that have one length, two outvote the third, which is then refused by its name.
         of_a = {"K_q": K_q, "tau_a": tau_a, "delta_q_bar_a": delta_q_bar_a}
         n_a = sorted(_lengths(of_a))[1]
@@ -330,6 +332,11 @@ class StepData(Plain, HasPage):
     def replace(self, **changes: Any) -> StepData:
         """A copy with some fields changed, validated again."""
         return StepData(**(field_values(self) | changes))
+
+
+def check_step(step: object, field: str = "step") -> None:
+    """Refuse an argument that is no step: InputError."""
+    check_kind(step, StepData, field, "a StepData, as run.step_data(0) returns")
 
 
 def _lengths(values: Mapping[str, ArrayLike]) -> list[int]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import product
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.friction import friction_rows, row_constants
 
 
@@ -52,6 +52,7 @@ def standard_form(step: StepData) -> StandardForm:
     >>> form.H.shape, form.A.shape
     ((6, 6), (6, 6))
     """
+    check_step(step)
     A, b = inequalities(step)
     return StandardForm(step.H, linear_term(step), A, b)
 

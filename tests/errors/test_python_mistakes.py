@@ -38,6 +38,7 @@ def simulator(**more):
 SIMULATOR = simulator()
 FAST = qr.FastSimulator(SIMULATOR)
 STEP = SIMULATOR.step(Q, Q_A).step
+FORM = qr.standard_form(STEP)
 
 
 def step(q=Q, q_bar_a=Q_A, **more):
@@ -59,6 +60,7 @@ def scene(**more):
     return qr.load_scenario(SCENE | more)
 
 
+RUN = run()
 TURNED = SYSTEM.placed({"block": {"rpy": (0.1, 0.2, 0.3)}})
 MISTAKES = {
     "where a step starts": [
@@ -123,6 +125,49 @@ MISTAKES = {
         (lambda: qr.solve_step(STEP, accuracy=[1]), "accuracy: must be a number greater than 0"),
         (lambda: qr.solve_step(STEP, extension=3), "extension: must be an Extension"),
         (lambda: STEP.replace(cone=["pyramid"]), "cone: must be the name of a cone"),
+        (lambda: STEP.replace(contacts=3), "contacts: must be Contacts"),
+        (lambda: STEP.replace(extra=3), "extra: must be an Extra"),
+        (lambda: qr.standard_form(RUN), "step: must be a StepData, as run.step_data"),
+        (lambda: qr.optimality_residuals(3, [], []), "form: must be a StandardForm"),
+        (lambda: qr.optimality_residuals(FORM, 3, []), r"delta_q: must have shape \(12,\)"),
+        (lambda: qr.verify(STEP), "solution: must be what solve_step or load_solution returns"),
+        (lambda: qr.verify_answer(3, [], []), "step: must be a StepData"),
+        (lambda: qr.verify_answer(STEP, [], 3), "active: must be a list of"),
+        (lambda: qr.verify_answer(STEP, [], [], claims=3), "claims: must be a Certificate"),
+        (lambda: qr.contact_forces(RUN), "step: must be a StepData"),
+        (lambda: qr.coulomb_step(RUN), "step: must be a StepData"),
+        (lambda: qr.StepProblem(RUN), "template: must be a StepData"),
+        (lambda: qr.StepProblem(STEP).fill(RUN), "step: must be a StepData"),
+        (lambda: qr.StepProblem(STEP).solve(3), "solver: must be the name of a backend"),
+        (lambda: qr.StepProblem(STEP).solve(accuracy="1"), "accuracy: must be a number greater"),
+        (lambda: qr.derivatives(SYSTEM, Q, Q_A), "simulator: must be a Simulator"),
+        (lambda: qr.derivatives(SIMULATOR, Q, Q_A, by=3), "by: must be names of parameters"),
+        (lambda: qr.step_jax(SYSTEM), "simulator: must be a Simulator"),
+        (lambda: qr.Recorder(SYSTEM, Q), "simulator: must be a Simulator"),
+        (lambda: qr.Recorder(SIMULATOR, Q).add(Q_A, STEP), "result: must be a StepResult"),
+        (lambda: run(observers=[3]), "observers: must be a list of Observer"),
+        (lambda: run(observers=3), "observers: must be a list of Observer"),
+        (lambda: run(ignore=3), "ignore: must be a list of names"),
+        (lambda: run(ignore=[3]), "ignore: must be a list of names"),
+        (lambda: RUN.step_data("0"), "step: must be a whole number"),
+        (lambda: RUN.forces_on("block", BLOCK), "scene: must be a Scenario or Simulator"),
+        (lambda: RUN[["phi"]], "is not an array of this trajectory"),
+        (lambda: qr.relative_turn(3, RUN, "block", "block"), "system: must be a System"),
+        (lambda: qr.relative_turn(SYSTEM, 3, "block", "block"), "trajectory: must be a Trajectory"),
+        (lambda: qr.relative_turn(SYSTEM, RUN, ["block"], "block"), "link: must be a name"),
+        (lambda: SYSTEM.of(Q, ["block"]), "name: must be a name"),
+        (lambda: SYSTEM.placed(3), "values: must be a mapping of names"),
+        (lambda: qr.convex_hull("abcd"), "vertices: must be numbers"),
+        (lambda: qr.mujoco_step(3, 3, 0.01), "model: must be a mujoco.MjModel"),
+        (lambda: qr.mujoco_opinion(3, 3, "1"), "tolerance: must be a number greater than 0"),
+        (lambda: qr.mujoco_scenario(3, path=3), "path: must be a path"),
+        (lambda: qr.scanned_body(3), "scan: must be a path"),
+        (lambda: qr.scanned_body("x.ply", mass="1"), "mass: must be a number greater than 0"),
+        (lambda: qr.draw_scene(None, 3), "of: must be a Moment, as figures.moment makes it"),
+        (lambda: qr.draw_scenes([], [3]), "moments: must be a list of moments"),
+        (lambda: qr.animate(SIMULATOR, STEP, "x.gif"), "run: must be a Trajectory"),
+        (lambda: qr.animate(STEP, RUN, "x.gif"), "scene: must be a Scenario or Simulator"),
+        (lambda: qr.save_view("x.html", 3), "shown: must be a Scenario, a Simulator or a Traj"),
         (
             lambda: qr.save_step(STEP, "x.json"),
             r"must be a StepData: save_step\(path, step\)",

@@ -46,7 +46,7 @@ from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -167,6 +167,7 @@ def coulomb_step(
     >>> qr.coulomb_step(step).converged
     True
     """
+    check_step(step)
     contacts = step.contacts
     s = np.zeros(contacts.n_c) if start is None else np.array(start, dtype=np.float64)
     if s.shape != (contacts.n_c,) or not (all_finite(s) and s.min(initial=0.0) >= 0):

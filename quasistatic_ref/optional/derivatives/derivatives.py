@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import System
@@ -197,6 +197,7 @@ def derivatives(
     """
     check_derivable(simulator)
     near = Nearby(simulator, q, q_bar_a, force)
+    check_kind(by, Iterable, "by", "names of parameters")
     by = (by,) if isinstance(by, str) else tuple(by)
     for name in by:
         check_name(near, name, "by")
@@ -252,6 +253,7 @@ def check_name(near: Nearby, name: str, where: str) -> None:
 
 def check_derivable(simulator: Simulator) -> None:
     """Refuse what has no derivatives; InputError as of :func:`derivatives`."""
+    check_kind(simulator, Simulator, "simulator", "a Simulator")
     if not isinstance(simulator.system, System):
         problem = "has no derivatives where MuJoCo moves it; write its bodies as URDFs"
         raise InputError(problem, field="system", value=type(simulator.system).__name__)

@@ -4,8 +4,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from quasistatic_ref.errors import check_kind
+from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.system import System
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, checked_array
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 
@@ -38,6 +40,8 @@ class LinkMotion:
 
 def link_motion(system: System, trajectory: Trajectory, link: str) -> LinkMotion:
     """Poses of a link (or of a body's root link) along a trajectory."""
+    check_kind(system, Mechanism, "system", "a System")
+    check_kind(trajectory, Trajectory, "trajectory", "a Trajectory")
     number = system.link(link)
     poses = [system.kinematics(q) for q in trajectory["q"]]
     R = np.array([pose.R[number] for pose in poses])
@@ -71,6 +75,7 @@ def relative_turn(
     >>> qr.relative_turn(scenario.system, run, "block", "block")
     array([0., 0., 0.])
     """
+    since = float(checked_array(since, "since", ()))
     motion = link_motion(system, trajectory, link)
     back = link_motion(system, trajectory, to).R.swapaxes(1, 2)
     return replace(motion, R=back @ motion.R).rotation_since(since)

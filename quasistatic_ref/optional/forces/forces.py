@@ -53,7 +53,7 @@ from quasistatic_ref.optional.forces.face_guess import guessed_faces
 from quasistatic_ref.optional.forces.faces import cone_rows
 from quasistatic_ref.optional.forces.of_group import NOTHING_MOVES, group_compliance
 from quasistatic_ref.optional.friction import scaled_by
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian
 
 WRENCH: Final = [1, 2, 0, 3]
@@ -101,6 +101,7 @@ def contact_forces(
     >>> qr.contact_forces(step).wrench.round(3)[0, 2]  # the weight [N]
     np.float64(2.943)
     """
+    check_step(step)
     chosen = None if compliance is None else np.broadcast_to(compliance, step.contacts.n_c)
     if chosen is not None and not (np.isfinite(chosen) & (chosen > 0)).all():
         problem = "must be a positive number of metres per newton"

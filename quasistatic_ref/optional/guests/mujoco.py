@@ -24,7 +24,7 @@ from quasistatic_ref.optional.guests.tolerances import DEEP, FULL_RANK
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
-from quasistatic_ref.step.data import Extra, StepData
+from quasistatic_ref.step.data import Extra, StepData, seconds
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
@@ -104,13 +104,13 @@ def mujoco_step(
     >>> qr.solve_step(step).forces[0, 2].round(3)  # the weight [N]
     np.float64(2.943)
     """
-    return step_with(model, data, h, depth, np.zeros(model.nv))
+    return step_with(model, data, h, depth)
 
 
 def step_with(
-    model: MjModel, data: MjData, h: float, depth: str, drag: Array
+    model: MjModel, data: MjData, h: float, depth: str, drag: Array | float = 0.0
 ) -> tuple[StepData, Coordinates]:
-    """The step of :func:`mujoco_step` under a further load, `drag` (nv,) [N, N m].
+    """The step of :func:`mujoco_step` under a further load, `drag` (nv,) or 0 [N, N m].
 
     Raises
     ------
@@ -119,6 +119,7 @@ def step_with(
     """
     if depth not in DEPTHS:
         raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
+    h = seconds(h)
     as_is = depth == "as is"
     state = mujoco_state(model, data)
     check(state)

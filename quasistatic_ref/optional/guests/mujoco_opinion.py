@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.numbers.arrays import positive_number
 from quasistatic_ref.optional.guests import touches
 from quasistatic_ref.optional.guests.compared import WINDOW, Compared, Mover, MujocoAnswer
 from quasistatic_ref.optional.guests.fates import kind_of
@@ -69,8 +69,7 @@ def mujoco_opinion(
     >>> opinion.findings, round(opinion.contacts[0].exact.normal, 4)  # a quarter of 1 kg [N]
     ((), 2.4525)
     """
-    if not 0 < tolerance < np.inf:
-        raise InputError("must be a positive speed [m/s]", field="tolerance", value=tolerance)
+    tolerance = positive_number(tolerance, "tolerance")
     mujoco_state(model, data).run()  # refuses what is no state
     data = fullest(model, data, WINDOW)
     state = mujoco_state(model, data)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref.errors import ModelError, check_kind
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.guests.tolerances import FULL_RANK
 from quasistatic_ref.parts import needed_package
@@ -186,6 +186,8 @@ def mujoco_state(model: MjModel, data: MjData) -> MujocoState:
         If nothing in the model can move, or the state is not of finite numbers.
     """
     mujoco = needed_package("mujoco", "engines", "mujoco_step")
+    check_kind(model, mujoco.MjModel, "model", "a mujoco.MjModel")
+    check_kind(data, mujoco.MjData, "data", "a mujoco.MjData")
     check_finite(model, data)
     adapted = awake(model)
     adapted.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.errors import InputError, ModelError, ScenarioError
+from quasistatic_ref.errors import InputError, ModelError, ScenarioError, check_kind
 from quasistatic_ref.files.scenario.checks import ignored_findings
 from quasistatic_ref.files.scenario.overrides import Changes, about_changes, apply_settings
 from quasistatic_ref.files.scenario.scenario import Scenario
@@ -162,6 +163,7 @@ def mujoco_scenario(
     >>> scene.run(progress=False).q[:, 2].round(6)  # it falls by g h^2 a step [m]
     array([1.      , 0.999019, 0.998038, 0.997057])
     """
+    check_kind(path, str | PathLike, "path", "a path")
     tables = dict(START)
     with about_changes(settings, fields):
         apply_settings(tables, settings, fields)
@@ -189,6 +191,7 @@ def _scenario_of(
     ignored = ignored_findings(read("findings"))
     if data is None:
         keys = () if callable(targets) or isinstance(targets, str | Path) else targets
+        check_kind(keys, Iterable, "targets", "a file, keyframes or a function")
         data = settled(model, 0.0, keys[0] if keys else None)
     system = MujocoSystem(model, data, h, {**stiffness}, margin)
     if "cone" in tables:

@@ -114,7 +114,7 @@ def described_model(model: pin.Model, geometry: pin.GeometryModel | None) -> tup
     """
     check_kind(model, pin.Model, "model", "a pinocchio.Model, as pin.buildModelFromUrdf makes it")
     wanted = "a pinocchio.GeometryModel, as pin.buildGeomFromUrdf makes it"
-    check_kind(geometry, (pin.GeometryModel, type(None)), "geometry", wanted)
+    check_kind(geometry, pin.GeometryModel | None, "geometry", wanted)
     if model.nv > MOST_COORDINATES:
         problem = f"has more than {MOST_COORDINATES} coordinates; fix some of its joints"
         raise ModelError(problem, field="model.nv", value=model.nv)

@@ -1,19 +1,20 @@
 """A scan as a body of a scenario: its points, mass, centre of mass and inertia."""
 
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
 import trimesh
 
-from quasistatic_ref.errors import InputError, about_file
+from quasistatic_ref.errors import InputError, about_file, check_kind
 from quasistatic_ref.files.clouds import seen_points
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.files.mesh_files import MESHES, loaded_mesh
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
+from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies, positive_number
 from quasistatic_ref.optional.scans.closed import closed_mesh
 from quasistatic_ref.optional.scans.cloud import spacing, stray, thinned
 from quasistatic_ref.optional.scans.solid import Solid, hull_of_points
@@ -157,12 +158,14 @@ def scanned_body(
     >>> bunny.points.shape
     (992, 3)
     """
+    check_kind(scan, str | PathLike, "scan", "a path")
     path = Path(scan)
     name = path.stem.replace(" ", "_") if name is None else name
     Body(name, "<robot/>")  # checks the name
     options, greatest = (("mass", mass), ("density", density)), 1e6
     chosen = [(word, value) for word, value in options if value is not None]
-    if len(chosen) != 1 or not 0 < chosen[0][1] < greatest:
+    chosen = [(word, positive_number(value, word)) for word, value in chosen]
+    if len(chosen) != 1 or not chosen[0][1] < greatest:
         problem = "say one of them, greater than 0: --mass in kg, or --density in kg/m^3"
         raise InputError(problem, field="mass, density", value=[mass, density])
     if points < FEWEST:

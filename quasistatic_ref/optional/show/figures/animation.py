@@ -2,6 +2,7 @@
 
 import shutil
 from collections.abc import Callable
+from os import PathLike
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -10,7 +11,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, PillowWriter
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.files.content import bytes_written
 from quasistatic_ref.files.scenario.scenario import Scenario
 from quasistatic_ref.optional.show.figures.camera import Camera
@@ -80,6 +81,7 @@ def animate(
     ...     qr.animate(scenario, run, Path(folder) / "spin.gif", progress=False).name
     'spin.gif'
     """
+    check_kind(path, str | PathLike, "path", "a path")
     path = _with_ending(Path(path))
     if not 0 < speed < np.inf:
         raise InputError("must be positive and finite", field="speed", value=speed)

@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.camera import Camera
@@ -96,6 +96,7 @@ def draw_scene(
         if part not in PARTS:
             problem = f"must be some of {listed(sorted(PARTS))}"
             raise InputError(problem, field="parts", value=part)
+    check_kind(of, Moment, "of", "a Moment, as figures.moment makes it")
     box = extent(of)
     if around is not None:
         box = np.asarray(around[0]) + around[1] * SIGNS
@@ -143,6 +144,10 @@ def draw_scenes(
     >>> panels[0].get_xlim() == panels[1].get_xlim()
     True
     """
+    check_kind(panels, Sequence, "panels", "a list of axes")
+    check_kind(moments, Sequence, "moments", "a list of moments")
+    for of in moments:
+        check_kind(of, Moment, "moments", "a list of moments, as figures.moment makes them")
     around = middle(box_of(np.concatenate([extent(of) for of in moments])))
     fixed: dict[str, Any] = {
         "around": around,

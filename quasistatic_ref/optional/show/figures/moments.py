@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.friction_cone import limit_at
 from quasistatic_ref.optional.show.figures.looks import link_colours
@@ -148,6 +148,8 @@ def frames(scene: Scene, run: Trajectory, fps: float) -> tuple[list[Moment], flo
     InputError
         If the run has no steps.
     """
+    check_kind(scene, Scene, "scene", "a Scenario or Simulator")
+    check_kind(run, Trajectory, "run", "a Trajectory")
     if not run.steps:
         raise InputError("has no steps to show", field="trajectory")
     h = run.header.h

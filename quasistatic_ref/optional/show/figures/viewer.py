@@ -16,7 +16,7 @@ from typing import Any, Final
 import numpy as np
 
 from quasistatic_ref.contact.jacobian import tangents
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.files.scenario.scenario import Scenario
 from quasistatic_ref.numbers.arrays import Array
@@ -140,6 +140,7 @@ def _visualizer(meshcat: ModuleType) -> Iterator[Any]:
 
 def _scene(shown: Scene | Trajectory, run: Trajectory | None) -> tuple[Scene, Trajectory | None]:
     if not isinstance(shown, Trajectory):
+        check_kind(shown, Scene, "shown", "a Scenario, a Simulator or a Trajectory")
         return shown, run
     if shown.scene is None:
         problem = "is from a file; give its scenario or simulator first, and the trajectory as run"
