@@ -200,8 +200,17 @@ def as_the_cloud_lies(solid, pose, points):
     return phi, alpha, x, n
 
 
+def without_repeats(shape):
+    """The shape; a cloud keeps the first of points that are equal."""
+    if shape["kind"] != "cloud":
+        return shape
+    return shape | {"points": list(dict.fromkeys(map(tuple, shape["points"])))}
+
+
 def candidates(alpha, pose_alpha, beta, pose_beta, k):
     """phi, alpha, beta, n and index of all candidates, and which come after all others."""
+    alpha = without_repeats(alpha)
+    beta = without_repeats(beta)
     nearest = closest_points(alpha, pose_alpha, beta, pose_beta)
     if beta["kind"] == "cloud":
         nearest = as_the_cloud_lies(alpha, pose_alpha, nearest)

@@ -11,13 +11,14 @@ import pytest
 from quasistatic_ref.lab import program
 from quasistatic_ref.lab.program.distance import closest_points
 from quasistatic_ref.lab.program.rows import cone_table
+from quasistatic_ref.lab.program.step import step
 from quasistatic_ref.lab.vectors.challenge.fresh import record_of
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answers
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.files import Case
 from tests.closeness import assert_within
-from tests.lab.vectors.committed_cases import NUMPY, PLAIN_PROGRAM, VECTORS
+from tests.lab.vectors.committed_cases import NUMPY, PLAIN_PROGRAM, VECTORS, cases, expected_of
 from tests.processes import python
 from tests.tolerances import CLOSED_FORM
 
@@ -79,3 +80,26 @@ def test_the_plain_program_shares_no_code_with_the_package():
                 assert {alias.name for alias in part.names} <= LIBRARIES
             elif isinstance(part, ast.ImportFrom):
                 assert part.module in (own if part.level == 1 else LIBRARIES)
+
+
+def test_a_point_that_repeats_an_earlier_one_is_no_contact_of_its_own():
+    """Each cloud with all of its points twice: the program and the package pick what they did."""
+    clouds = 0
+    for case in cases("step"):
+        shapes = dict(case.input["shapes"])
+        for name, placed in shapes.items():
+            if placed["shape"]["kind"] == "cloud":
+                points = [[x + 0.0, y, z] for x, y, z in placed["shape"]["points"]]
+                twice = placed["shape"] | {"points": points[:2] + points}
+                shapes[name] = placed | {"shape": twice}
+                clouds += 1
+        if shapes == case.input["shapes"]:
+            continue
+        repeated = case.input | {"shapes": shapes}
+        wanted = expected_of("step")[case.id]["output"]["contacts"]
+        for contacts in (
+            step(repeated)["contacts"],
+            record_of("step", repeated)["output"]["contacts"],
+        ):
+            assert [one["index"] for one in contacts] == [one["index"] for one in wanted], case.id
+    assert clouds > 0

@@ -43,7 +43,21 @@ type Candidate struct {
 	behind bool
 }
 
+// withoutRepeats keeps the first of equal points; -0 equals 0.
+func withoutRepeats(points []Vec) (kept []Vec) {
+	before := map[Vec]bool{}
+	for _, x := range points {
+		if !before[x] {
+			kept = append(kept, x)
+		}
+		before[x] = true
+	}
+	return
+}
+
 func candidates(alpha, beta Shape, at, bt Pose, k int) (found []Candidate) {
+	alpha.Points = withoutRepeats(alpha.Points)
+	beta.Points = withoutRepeats(beta.Points)
 	if alpha.Kind == "cloud" || beta.Kind == "cloud" {
 		for i, d := range distances(alpha, beta, at, bt) {
 			found = append(found, Candidate{Distance: d, index: i})
