@@ -144,8 +144,11 @@ class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
         Raises
         ------
         BackendError
-            If it has other unknowns than the data, as that of a solver that adds some.
+            If it has no multipliers, as that of SCIP, or other unknowns than the data.
         """
+        if solution.dual_vars is None:
+            problem = "gives no multipliers through CVXPY; choose clarabel or osqp"
+            raise BackendError(problem, field="backend", value=self.solver.lower())
         if any(np.size(x) != len(self.columns) for x in solution.primal_vars.values()):
             raise unknown_form(self.solver)
         primal = {key: np.asarray(x) * self.columns for key, x in solution.primal_vars.items()}

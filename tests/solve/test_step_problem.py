@@ -5,6 +5,7 @@ from dataclasses import replace
 import cvxpy as cp
 import numpy as np
 import pytest
+from cvxpy.reductions.solvers.conic_solvers.clarabel_conif import CLARABEL
 
 import quasistatic_ref as qr
 from quasistatic_ref.lab.bench.scenes import boxes
@@ -123,6 +124,23 @@ def test_what_has_no_solution_and_data_that_are_not_known_are_said_in_a_sentence
     monkeypatch.setattr(step_problem, "problem_data", another_form)
     with pytest.raises(qr.BackendError, match="takes data of a form that is not known here"):
         page.solve()
+
+
+def test_a_solver_without_multipliers_is_said_to_have_none(monkeypatch):
+    """As CVXPY's interface to SCIP does: it gives None in their place, and unknowns of its own."""
+    inverted = CLARABEL.invert
+
+    def without(self, *data):
+        solution = inverted(self, *data)
+        solution.dual_vars = None
+        solution.primal_vars = {key: np.zeros(15) for key in solution.primal_vars}
+        return solution
+
+    monkeypatch.setattr(CLARABEL, "invert", without)
+    with pytest.raises(
+        qr.BackendError, match="gives no multipliers through CVXPY; choose cl"
+    ):
+        qr.StepProblem(pinch()).solve()
 
 
 def test_a_page_of_more_than_a_thousand_numbers_is_solved_in_cvxpy_s_own_way():
