@@ -13,6 +13,7 @@ from flint import fmpq, fmpz
 from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
 from quasistatic_ref.certify.groups import row_owners
+from quasistatic_ref.errors import check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.precision import nearest_fraction
@@ -101,6 +102,7 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
     """
     if not cone(step.cone).polyhedral:
         return "a Farkas vector proves nothing of a cone that is no polyhedron"
+    check_kind(exact, Sequence, "farkas", "a list of fractions")
     form = StepForm(step)
     if len(exact) != form.m:
         return f"the Farkas vector has {len(exact)} entries, the step {form.m} rows"
@@ -124,6 +126,6 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
 def fractions_read(texts: Sequence[str]) -> list[fmpq] | None:
     """The fractions ``"p/q"`` or ``"p"``; None if a text is none."""
     # By pattern first: Fraction would read "1e999999999", and never return.
-    parts = [_FRACTION.fullmatch(text) for text in texts]
+    parts = [_FRACTION.fullmatch(str(text)) for text in texts]
     read = [fmpq(fmpz(part[1]), fmpz(part[2] or "1")) for part in parts if part]
     return read if len(read) == len(parts) else None

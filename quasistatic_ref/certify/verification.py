@@ -32,7 +32,7 @@ from quasistatic_ref.certify.solution import (
     wrong_claim,
 )
 from quasistatic_ref.certify.working_set import Point, fraction_point
-from quasistatic_ref.errors import check_kind
+from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.step.data import StepData, check_step
@@ -123,7 +123,6 @@ def verify_answer(
     """
     check_step(step)
     check_kind(claims, Certificate | None, "claims", "a Certificate")
-    check_kind(active, Sequence, "active", "a list of (contact, row)")
     if claims is not None and claims.kind != "none" and not claims.is_of(step):
         return Verdict(False, "the certificate is of another step")
     delta_q = checked_numbers(delta_q, "delta_q")
@@ -141,6 +140,9 @@ def verify_answer(
         working = flat_rows(step, active)
     except IndexError as error:
         return Verdict(False, str(error))
+    except (TypeError, ValueError):
+        problem = "must be a list of (contact, row)"
+        raise InputError(problem, field="active", value=active) from None
     delta_q_exact = np.zeros(step.n_v)
     lam_exact = np.zeros(step.m)
     reason = ""

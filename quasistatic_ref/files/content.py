@@ -12,9 +12,9 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, cast
 
-from quasistatic_ref.errors import InputError, about_file
+from quasistatic_ref.errors import InputError, about_file, check_kind
 
 LARGEST = 512 * 2**20
 """Largest file that is read [bytes]."""
@@ -28,6 +28,12 @@ _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
 LONG_KEY = re.compile(rf"(?<![\w.-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{MOST_PARTS}}}", re.ASCII)
 PARTIAL = ".partial"
 """End of the names of files that are being written."""
+
+
+def checked_path(path: object) -> Path:
+    """A path from a text or a path; InputError of anything else."""
+    check_kind(path, str | os.PathLike, "path", "a path")
+    return Path(cast("str", path))
 
 
 def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Path:
@@ -50,7 +56,7 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Pat
     InputError
         If the folder cannot be written to; nothing is left behind.
     """
-    path = Path(path)
+    path = checked_path(path)
     try:
         if is_stream(path):
             content = io.BytesIO()
@@ -182,7 +188,7 @@ def bytes_read(
     InputError
         If it is missing, not a file, not readable, or larger than any input should be.
     """
-    path = Path(path)
+    path = checked_path(path)
     try:
         status = path.stat()
         # Devices and pipes may never end, or never begin.

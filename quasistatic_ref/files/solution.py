@@ -25,7 +25,7 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import nearest
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.friction import impulses, wrenches
 from quasistatic_ref.step.text import step_sha256
 
@@ -80,6 +80,7 @@ class SolutionFile:
             If nothing can be proved in this thread: see :mod:`~quasistatic_ref.numbers.precision`.
         """
         step = self.step
+        check_step(step)
         if self.farkas is not None:
             reason = farkas_refutation(step, self.farkas)
             return Verdict(reason is None, reason or "")
@@ -157,6 +158,7 @@ def load_solution(path: str | Path, step: StepData) -> SolutionFile:
     >>> bool(qr.verify(qr.load_solution(path, step)))
     True
     """
+    check_step(step)
     with about_file(path):
         return _solution(TableReader(json_read(path), error=StepDataError), step)
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref import parts
 from quasistatic_ref.certify.solution import UNKNOWN, ContactForces
-from quasistatic_ref.errors import InputError, MissingKey
+from quasistatic_ref.errors import InputError, MissingKey, check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import HasPage

@@ -137,9 +137,7 @@ def test_a_solver_without_multipliers_is_said_to_have_none(monkeypatch):
         return solution
 
     monkeypatch.setattr(CLARABEL, "invert", without)
-    with pytest.raises(
-        qr.BackendError, match="gives no multipliers through CVXPY; choose cl"
-    ):
+    with pytest.raises(qr.BackendError, match="gives no multipliers through CVXPY; choose cl"):
         qr.StepProblem(pinch()).solve()
 
 

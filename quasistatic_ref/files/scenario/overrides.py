@@ -2,7 +2,7 @@
 
 import itertools
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import PurePath
 from typing import Any
@@ -34,7 +34,7 @@ def about_changes(settings: Changes, named: Mapping[str, Any]) -> Iterator[None]
     except InputError as error:
         if error.file is None and error.field == SET:
             error.change = f"{SET} {error.value}"
-        elif error.file is None and error.field is not None:
+        elif error.file is None and error.field not in (None, "settings"):
             error.change = _change(error.field, settings, named)
         raise
 
@@ -88,7 +88,7 @@ def apply_settings(
         If a key is none, or leads to no table; or a value is nested without end.
     """
     before = _second_level(tables)
-    if isinstance(settings, str):
+    if isinstance(settings, str) or not isinstance(settings, Iterable):
         problem = "must be a list of dotted.key=value, or a mapping of dotted keys to values"
         raise ScenarioError(problem, field="settings", value=settings)
     if isinstance(settings, Mapping):

@@ -14,6 +14,7 @@ from quasistatic_ref.errors import (
     InputError,
     ScenarioError,
     about_file,
+    check_kind,
 )
 from quasistatic_ref.files.content import toml_read
 from quasistatic_ref.files.resources import scenario_path
@@ -224,6 +225,7 @@ def load_scenario(
             apply_settings(tables, settings, fields)
             check_sizes(tables)
             return _scenario(HERE, TableReader(tables, error=ScenarioError))
+    check_kind(name, str | Path, "name", "a path, an installed scenario's name or a mapping")
     path = scenario_path(name)
     with about_file(path), about_changes(settings, fields):
         tables = toml_read(path, ScenarioError, "a scenario, which is TOML")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -164,6 +164,8 @@ def mujoco_scenario(
     array([1.      , 0.999019, 0.998038, 0.997057])
     """
     check_kind(path, str | PathLike, "path", "a path")
+    wanted = "a file, names of keyframes or a function"
+    check_kind(targets, Sequence | Path | Callable | None, "targets", wanted)
     tables = dict(START)
     with about_changes(settings, fields):
         apply_settings(tables, settings, fields)
@@ -191,7 +193,6 @@ def _scenario_of(
     ignored = ignored_findings(read("findings"))
     if data is None:
         keys = () if callable(targets) or isinstance(targets, str | Path) else targets
-        check_kind(keys, Iterable, "targets", "a file, keyframes or a function")
         data = settled(model, 0.0, keys[0] if keys else None)
     system = MujocoSystem(model, data, h, {**stiffness}, margin)
     if "cone" in tables:
