@@ -111,7 +111,9 @@ def optimality_residuals(
     Raises
     ------
     InputError
-        If an argument is of another kind or shape.
+        If an argument is of another kind.
+    StepDataError
+        If one has another shape.
 
     Examples
     --------
