@@ -1,6 +1,6 @@
 """Any scene at one instant: bodies, clouds, contact frames, friction cones and forces, to scale."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -144,8 +144,8 @@ def draw_scenes(
     >>> panels[0].get_xlim() == panels[1].get_xlim()
     True
     """
-    check_kind(panels, Sequence, "panels", "a list of axes")
-    check_kind(moments, Sequence, "moments", "a list of moments")
+    check_kind(panels, Iterable, "panels", "a list of axes")
+    check_kind(moments, Iterable, "moments", "a list of moments")
     for of in moments:
         check_kind(of, Moment, "moments", "a list of moments, as figures.moment makes them")
     around = middle(box_of(np.concatenate([extent(of) for of in moments])))
