@@ -100,7 +100,7 @@ class AllPairs:
 
 
 def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
-    """The contacts of some pairs once, as of :meth:`AllPairs.closest_points`."""
+    """The contacts of all pairs: the pairs in order, and each pair's contacts by their rank."""
     return AllPairs(pairs).closest_points(kinematics)
 
 

@@ -180,7 +180,7 @@ def _solid_on_solid(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> Clos
 def search(
     pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints | None = None
 ) -> Search:
-    """What the contacts of a pair are chosen from; `nearest` is its closest pair, if it is known.
+    """The candidates among which the contacts of a pair are chosen.
 
     Raises
     ------
@@ -332,7 +332,7 @@ def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
 
 
 def repeated(candidates: ClosestPoints, pair: Indices) -> Mask:
-    """Which candidates, shape (N,), repeat an earlier one of their `pair`, (N,): they rank last.
+    """Mask of candidates, shape (N,), that repeat an earlier one of their `pair`, (N,).
 
     Those that are alike in all entries are near to each other in a weighted sum of these as well,
     so that only neighbours in its order are compared: next ones, next but one and so on.
@@ -370,7 +370,7 @@ def _cloud_on_solid(pair: ContactPair, solid: ShapeInWorld, cloud: ShapeInWorld)
 def _corners_on_solid(
     solid: ShapeInWorld, other: ShapeInWorld, corners: Array, radius: float, n: Array
 ) -> ClosestPoints:
-    """Corners of another solid, each with a ball about it; n is the pair's normal, out of this."""
+    """Closest points of another solid's corners with balls; n points out of this solid."""
     if not len(corners):
         return joined_contacts([])
     relative = relative_pose(solid, other)
@@ -395,7 +395,7 @@ def contacts_over(
     surface: Surface,
     number: Indices,
 ) -> ClosestPoints:
-    """Contacts of points of another body, each with a ball about it, with a solid as alpha's.
+    """Contacts of a solid, as alpha's, with points of beta's body that have balls about them.
 
     Parameters
     ----------
@@ -424,6 +424,6 @@ def contacts_over(
 
 
 def in_world(pair: ContactPair, R: Array, t: Array) -> tuple[ShapeInWorld, ShapeInWorld]:
-    """Alpha's and beta's shape where their links are; R (L, 3, 3), t (L, 3) [m] are the links'."""
+    """Alpha's and beta's shapes in the world; R (L, 3, 3), t (L, 3) [m] are the links'."""
     pose_a, pose_b = poses_in_world([pair.alpha.link, pair.beta.link], pair.poses, R, t)
     return ShapeInWorld(pair.alpha.shape, *pose_a), ShapeInWorld(pair.beta.shape, *pose_b)

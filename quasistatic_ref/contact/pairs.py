@@ -111,7 +111,7 @@ class ContactPair(Plain):
 
     @cached_property
     def poses(self) -> Array:
-        """[R, t] of alpha and of beta on their links, shape (2, 3, 4); R [-], t [m]."""
+        """Poses [R, t] of alpha's and beta's shapes on their links, shape (2, 3, 4); t in [m]."""
         return np.array([np.column_stack([side.R, side.t]) for side in (self.alpha, self.beta)])
 
     @cached_property
@@ -127,12 +127,12 @@ class ContactPair(Plain):
 
     @cached_property
     def resolution(self) -> float:
-        """Length to whose nearest multiple distances are rounded before they rank [m]."""
+        """Length [m] to whose multiples distances are rounded before they are ranked."""
         return RANKED * self.size
 
     @cached_property
     def corners(self) -> int:
-        """Number of corners of both shapes: the closest pair's, which is counted after them."""
+        """Number of corners of both shapes; the closest pair has the next number."""
         return self.alpha.shape.corner_count + self.beta.shape.corner_count
 
     @cached_property

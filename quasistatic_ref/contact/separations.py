@@ -51,7 +51,7 @@ def rounding(solid: ShapeInWorld, other: ShapeInWorld) -> float:
 
 
 def pair_normal(name: str, a: ShapeInWorld, b: ShapeInWorld) -> tuple[Witness, int]:
-    """Closest points of two solids with the normal that the rule gives, and how it was chosen.
+    """Closest points of two solids with the normal by the rule, and how the rule chose it.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def gaps(a: ShapeInWorld, b: ShapeInWorld, directions: Array) -> Array:
 
 
 def distinct(normals: list[Array]) -> Array:
-    """Unit vectors `normals` (3,) [-] without those that are an earlier one again, shape (T, 3)."""
+    """Unit vectors `normals` (3,) [-], each once, shape (T, 3)."""
     kept: list[Array] = []
     for normal in normals:
         if all(np.abs(normal - other).max() > SAME_NORMAL for other in kept):
@@ -141,7 +141,7 @@ def distinct(normals: list[Array]) -> Array:
 
 
 def mean_direction(normals: Array) -> Array:
-    """The unit vector of the mean of `normals` (T, 3) [-]: of two, their bisector."""
+    """The unit vector along the mean of `normals`, shape (T, 3) [-]."""
     mean = total(normals)
     return np.asarray(mean / norm(mean))
 

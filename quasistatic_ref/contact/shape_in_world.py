@@ -21,7 +21,7 @@ class ShapeInWorld(NamedTuple):
         return rotated(self.R, self.shape.support_point(product(self.R.T, direction))) + self.t
 
     def reach(self, directions: Array) -> Array:
-        """How far it reaches along unit vectors (N, 3) of the world frame, shape (N,) [m]."""
+        """How far the shape reaches along unit vectors (N, 3) of the world, shape (N,) [m]."""
         return self.shape.support_value(product(directions, self.R)) + dot(directions, self.t)
 
 

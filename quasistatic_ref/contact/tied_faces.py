@@ -37,7 +37,7 @@ was chosen, (N,)."""
 
 
 def faces_apart(heights: Array, normals: Array, within: float | Array) -> tuple[Indices, Mask]:
-    """The highest face of each point, and those of another normal that are as high.
+    """The highest face of each point, and all faces as high that have another normal.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def corner_surface(
 def _facing(
     shape: Shape, x: Array, n: Array, phi: Array, normal: Array, within: Array, near: Array
 ) -> tuple[Mask, Array, Array]:
-    """Which points are over a face that faces n, and what they have then; others as they were."""
+    """Mask of points over a face that faces n, and their normals, gaps and feet there."""
     heights, normals = shape.faces(x)
     if not heights.size:
         return np.zeros(len(x), dtype=bool), phi, normal
@@ -122,7 +122,7 @@ def _facing(
 
 
 def _over(shape: Shape, x: Array, height: Array, normal: Array, near: Array) -> Mask:
-    """Whether points are not above a plane, and their feet on it are on the shape."""
+    """Mask of points at most at a plane's height whose feet on the plane lie on the shape."""
     over = (height <= near) & np.isfinite(height)
     if over.any():
         foot = x[over] - height[over, None] * normal[over]

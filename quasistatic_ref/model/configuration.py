@@ -54,7 +54,7 @@ def configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
 
 
 def unit_configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
-    """Copy of q, finite, of shape (n_q,), its quaternions divided by their lengths.
+    """A finite copy of q, shape (n_q,), with quaternions scaled to length one.
 
     Raises
     ------
@@ -134,7 +134,7 @@ class UnitParts:
 
 
 def normalised(joints: Sequence[Joint], q: Array) -> Array:
-    """Copy of q, shape (n_q,), its quaternions of length one, however long they were.
+    """A copy of q, shape (n_q,), whose quaternions of any length are scaled to length one.
 
     Those that are of length one but for rounding keep their bits, and those of length zero stay.
 

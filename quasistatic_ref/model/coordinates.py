@@ -60,7 +60,7 @@ class Order:
 
 
 def with_shape(x: ArrayLike, name: str, shape: tuple[int, ...]) -> Array:
-    """Numbers as a float64 array of that shape [any unit]; ModelError, which names it, else."""
+    """Numbers as a float64 array of a shape; ModelError with `name` if they have another."""
     if type(x) is np.ndarray and x.dtype == np.float64 and x.shape == shape:
         return x
     numbers = checked_numbers(x, name, ModelError)

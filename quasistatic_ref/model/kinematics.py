@@ -42,7 +42,7 @@ class Kinematics:
         return self.J_of(slice(None))
 
     def J_of(self, links: slice | list[int]) -> Array:
-        """Jacobians of k links, by their numbers, shape (k, 6, n_v) [m, rad]: those rows of J."""
+        """Jacobians of the k links with the given numbers, shape (k, 6, n_v) [m, rad]."""
         J = self.column_map.of_coordinates(self.columns * self.column_map.moves[links])
         J[:, :3] += crossed(J[:, 3:], self.t[links, :, None])  # nu + omega x t
         return J

@@ -234,7 +234,7 @@ class Mechanism(ABC):
         return configuration(self.joints, self.n_q, q)
 
     def normalised(self, q: ArrayLike) -> Array:
-        """Copy of q whose quaternions, and pairs (cos, sin), are divided by their lengths.
+        """A copy of q with quaternions and pairs (cos, sin) divided by their lengths.
 
         For a q that comes with fewer digits than float64 has: from float32, or from a file.
 

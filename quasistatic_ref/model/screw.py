@@ -93,7 +93,7 @@ def carried(position: Vector, R: list[list[float]], t: Vector) -> list[float]:
 
 
 def turned(q_joint: Vector, w: Vector, half: HalfTurn) -> list[float]:
-    """A quaternion times that of a rotation vector, of length one; without a turn as it is."""
+    """A quaternion times that of a rotation vector, scaled to length one."""
     _, C, ratio = half
     p, q, r = w
     scale = ratio / 2

@@ -90,7 +90,7 @@ def positive_number(value: object, field: str) -> float:
 
 
 def _has_truth(value: object) -> bool:
-    """Whether True or False is in nested lists: next to numbers NumPy takes them for 1 and 0."""
+    """Whether nested lists contain True or False, which NumPy would take for 1 and 0."""
     if isinstance(value, list | tuple):
         return any(map(_has_truth, value))
     return isinstance(value, bool | np.bool_)
@@ -157,13 +157,13 @@ def check_and_freeze(
     prefix: str = "",
     error: type[InputError] = StepDataError,
 ) -> None:
-    """Replace fields of a frozen dataclass, of those shapes, by :func:`checked_array` of them."""
+    """Check named fields of a frozen dataclass for their shapes, and replace them."""
     for key, shape in shapes.items():
         array = checked_array(getattr(owner, key), prefix + key, shape, error)
         object.__setattr__(owner, key, array)
 
 
 def freeze_copies(owner: object, *fields: str) -> None:
-    """Replace fields of a frozen dataclass by read-only copies: what was given may change."""
+    """Replace fields of a frozen dataclass by read-only copies, which no caller can change."""
     for field in fields:
         object.__setattr__(owner, field, read_only(np.array(getattr(owner, field))))

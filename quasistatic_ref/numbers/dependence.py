@@ -14,7 +14,7 @@ class ExactRows(Protocol):
     """Rows without rounding, such as those of an exact form."""
 
     def integers(self, some: Sequence[int]) -> Sequence[Row]:
-        """Some rows [a, c] in whole numbers, times a power of two that they have in common."""
+        """Some rows [a, c] of the form, all multiplied by one power of two, as integers."""
 
 
 def implied(held: Sequence[Row], rows: Sequence[Row]) -> list[bool]:
@@ -42,7 +42,7 @@ def null_space(rows: Sequence[Row], size: int) -> fmpz_mat:
 
 
 def independent_rows(form: ExactRows, candidates: Sequence[int]) -> tuple[int, ...]:
-    """Those of some rows of A, in order of preference, that are independent of those before."""
+    """The rows of A, in order of preference, that do not depend on earlier ones."""
     columns, _, rank = _eliminated([row[:-1] for row in form.integers(candidates)])
     chosen: list[int] = []
     for i, column in zip(candidates, columns, strict=True):

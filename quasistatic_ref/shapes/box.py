@@ -44,12 +44,12 @@ class Box(Rounded):
         return self.half_extents, 0.0
 
     def faces(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m], above six planes."""
+        """Heights of `points`, shape (N, 3) [m], above the six faces, and their normals."""
         heights = np.concatenate([points, -points], axis=1) - np.tile(self.half_extents, 2)
         return heights, np.broadcast_to(DIRECTIONS, (len(points), 6, 3))
 
     def corners(self, towards: Array) -> tuple[Array, float]:
-        """Its vertices, shape (8, 3) [m], whichever way `towards` [-] is."""
+        """The box's vertices, shape (8, 3) [m], whatever the direction `towards` [-] is."""
         return self._vertices, 0.0
 
     @cached_property
@@ -59,10 +59,10 @@ class Box(Rounded):
 
     @property
     def edge_count(self) -> int:
-        """Those of a face."""
+        """Number of edges of one face."""
         return 4
 
     @property
     def sizes(self) -> dict[str, Any]:
-        """Its edges [m]."""
+        """Edge lengths of the box [m], by their name in files."""
         return {"size": 2 * self.half_extents}

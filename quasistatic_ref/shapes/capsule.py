@@ -25,9 +25,9 @@ class Capsule(Revolved, Rounded):
 
     @cached_property
     def core(self) -> tuple[Array, float]:
-        """Its segment, as half extents of shape (3,) [m], and the radius."""
+        """The capsule's segment, as half extents of shape (3,) [m], and its radius [m]."""
         return np.array([0.0, 0.0, self.half_length]), self.radius
 
     def corners(self, towards: Array) -> tuple[Array, float]:
-        """Centres of its caps, shape (2, 3) [m], and its radius, whichever way `towards` [-] is."""
+        """Centres of the caps, shape (2, 3) [m], and the radius, for every `towards` [-]."""
         return np.array([[0, 0, -self.half_length], [0, 0, self.half_length]]), self.radius

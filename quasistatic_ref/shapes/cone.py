@@ -26,11 +26,11 @@ class Cone(Revolved):
 
     @property
     def rim_radius(self) -> float:
-        """Of its base [m]."""
+        """Radius of the rim of the base [m]."""
         return self.radius
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m].
+        """Signed distances and outward normals of `points`, shape (N, 3) [m].
 
         In the half-plane (r, z) it is a triangle with the edges rim - tip and axis - rim.
         """
@@ -63,7 +63,7 @@ class Cone(Revolved):
         return phi, np.concatenate([flat[:, :1] * outward, flat[:, 1:]], axis=1)
 
     def faces(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m], above the side and the base."""
+        """Heights of `points`, shape (N, 3) [m], above the side and the base, and normals."""
         p, outward = _half_plane(points)
         heights = np.stack(self._heights(p), axis=1)
         normals = np.zeros((len(points), 2, 3))

@@ -63,11 +63,11 @@ class ConvexMesh(Shape):
 
     @property
     def is_convex(self) -> bool:
-        """Whether the mesh that it stands for is its own hull."""
+        """Whether the mesh that was read equals its own convex hull."""
         return self.excess <= CONVEX_EXCESS
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m].
+        """Signed distances and outward normals of `points`, shape (N, 3) [m].
 
         Inside, the largest of the signed distances to the planes of its faces, which is exact;
         outside, the distance to the nearest triangle. The normal is that of a face, unless an edge
@@ -83,7 +83,7 @@ class ConvexMesh(Shape):
         return phi, normal
 
     def _distance(self, points: Array) -> tuple[Array, Array]:
-        """Of points few enough to be handled at once."""
+        """The same as `signed_distance`, of points few enough for one batch."""
         level, _ = self.faces(points)
         face = level.argmax(axis=1)
         phi = level[np.arange(len(points)), face]
@@ -103,11 +103,11 @@ class ConvexMesh(Shape):
 
     @cached_property
     def facets(self) -> Facets:
-        """Its triangles, prepared for distances."""
+        """The hull's triangles, prepared for distances."""
         return Facets(self.vertices[self.triangles], self.normals, self.offsets)
 
     def _nearest_offsets(self, points: Array) -> Array:
-        """From the nearest point of the surface's triangles to each point outside, shape (N, 3)."""
+        """Vectors (N, 3) to points outside of the hull from its nearest points [m]."""
         facets = self.facets
         near = facets.near(points)
         every = np.arange(len(points))
@@ -137,7 +137,7 @@ class ConvexMesh(Shape):
         return np.where(nearer[:, None], level[every, i, None] * facing, offset)
 
     def faces(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m], above the planes of all triangles."""
+        """Heights of `points`, shape (N, 3) [m], above all triangles' planes, and normals."""
         n = self.normals
         x, y, z = points.T[:, :, None]
         heights = x * n[:, 0] + y * n[:, 1] + z * n[:, 2] - self.offsets
@@ -148,16 +148,16 @@ class ConvexMesh(Shape):
         return np.asarray(self.vertices[dot(self.vertices, direction).argmax()])
 
     def support_value(self, directions: Array) -> Array:
-        """Of the vertices along `directions` (N, 3) [-], shape (N,) [m]."""
+        """Reach of the vertices along `directions` (N, 3) [-], shape (N,) [m]."""
         return np.asarray(product(directions, self.vertices.T).max(axis=1))
 
     def corners(self, towards: Array) -> tuple[Array, float]:
-        """Its vertices, shape (V, 3) [m], whichever way `towards` [-] is."""
+        """The mesh's vertices, shape (V, 3) [m], whatever the direction `towards` [-] is."""
         return self.vertices, 0.0
 
     @property
     def edge_count(self) -> int:
-        """A face has no more than the whole has vertices."""
+        """Upper bound of a face's number of edges: the number of all vertices."""
         return len(self.vertices)
 
     def words(self) -> str:

@@ -21,11 +21,11 @@ class Cylinder(Revolved):
 
     @property
     def rim_radius(self) -> float:
-        """Of both rims [m]."""
+        """Radius of both rims [m]."""
         return self.radius
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m].
+        """Signed distances and outward normals of `points`, shape (N, 3) [m].
 
         In the half-plane (r, |z|) it is a rectangle.
         """
@@ -43,7 +43,7 @@ class Cylinder(Revolved):
         return np.where(is_outside, outside, excess.max(axis=1)), normal
 
     def faces(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m], above the side and both caps."""
+        """Heights of `points`, shape (N, 3) [m], above the side and both caps, and normals."""
         r, outward = from_axis(points)
         caps = np.stack([points[:, 2], -points[:, 2]], axis=1) - self.half_length
         heights = np.concatenate([(r - self.radius)[:, None], caps], axis=1)
@@ -54,7 +54,7 @@ class Cylinder(Revolved):
         return heights, normals
 
     def support_point(self, direction: Array) -> Array:
-        """On a rim, or mid-side or mid-cap, by the `direction`; shapes (3,), [m] and [-]."""
+        """A point of a rim, mid-side or mid-cap, by `direction`; both (3,), [m] and [-]."""
         rim = rim_point(self.radius, direction)
         return np.array([*rim, self.half_length * np.sign(direction[2])])
 

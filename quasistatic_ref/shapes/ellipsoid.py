@@ -41,7 +41,7 @@ class Ellipsoid(Shape):
         freeze_array(self, "half_axes", (3,))
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m].
+        """Signed distances and outward normals of `points`, shape (N, 3) [m].
 
         The closest point x of p has p = x + t grad, x_i = e_i^2 p_i / (t + e_i^2), and t is the
         largest root of sum (e_i p_i / (t + e_i^2))^2 = 1. With e the least half-axis and
@@ -96,5 +96,5 @@ class Ellipsoid(Shape):
 
     @property
     def sizes(self) -> dict[str, Any]:
-        """Its axes [m]."""
+        """Lengths of the three axes [m], by their name in files."""
         return {"size": 2 * self.half_axes}

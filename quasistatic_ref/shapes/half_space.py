@@ -68,13 +68,13 @@ class HalfSpace(Shape):
         return phi, normal
 
     def faces(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m], above its plane."""
+        """Heights of `points`, shape (N, 3) [m], above the boundary plane, and normals."""
         phi, normal = self.signed_distance(points)
         return phi[:, None], normal[:, None]
 
     @property
     def sizes(self) -> dict[str, Any]:
-        """Its normal [-] and offset [m]."""
+        """The half-space's normal [-] and offset [m], by their names in files."""
         return {"normal": self.normal, "offset": self.offset}
 
     def words(self) -> str:

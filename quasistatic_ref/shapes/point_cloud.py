@@ -68,12 +68,12 @@ class PointCloud(Shape):
 
     @cached_property
     def extent(self) -> float:
-        """Longest edge of the box about it along its own axes [m]."""
+        """Longest edge of the cloud's bounding box along its own axes [m]."""
         return float(np.ptp(self.points, axis=0).max())
 
     @cached_property
     def groups(self) -> Groups:
-        """Its points, cut in two across the longest side until groups are small."""
+        """The cloud's points in small groups, each half of a group cut across its longest side."""
         groups = [np.arange(len(self.points))]
         while len(groups[0]) > GROUP:
             longest = [np.ptp(self.points[some], axis=0).argmax() for some in groups]
@@ -89,6 +89,6 @@ class PointCloud(Shape):
         return Groups(groups, middle, np.array(reach))
 
     def words(self) -> str:
-        """How many points it has, and the edges of the box about them [m]."""
+        """Number of points, and the edges of the cloud's bounding box [m]."""
         extent = dimensions(np.ptp(self.points, axis=0))
         return f"cloud of {len(self.points)} points within {extent}"

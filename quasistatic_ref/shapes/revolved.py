@@ -35,12 +35,12 @@ class Revolved(Shape):
 
     @property
     def edge_count(self) -> int:
-        """As of a square: a rim crosses each edge twice, a line once."""
+        """Four, as of a square: a rim crosses an edge at most twice, a line once."""
         return 4
 
     @property
     def sizes(self) -> dict[str, Any]:
-        """Its radius and length [m]."""
+        """Radius and length of the solid [m], by their names in files."""
         return {"radius": self.radius, "length": 2 * self.half_length}
 
 

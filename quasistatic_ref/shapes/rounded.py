@@ -18,11 +18,11 @@ class Rounded(Shape):
         raise self.lacks("has no core")
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m], by the distance to the core."""
+        """Distances and normals of `points`, shape (N, 3) [m], less the radius."""
         return distance_to_rounded_box(points, *self.core)
 
     def support_point(self, direction: Array) -> Array:
-        """From the core's corner along `direction`, the radius beyond; shapes (3,), [m] and [-]."""
+        """The core's corner along `direction`, moved out by the radius; both (3,), [m] and [-]."""
         half_extents, radius = self.core
         return np.asarray(radius * direction + half_extents * np.sign(direction))
 

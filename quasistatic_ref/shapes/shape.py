@@ -57,7 +57,7 @@ class Shape(Plain):
         raise self.lacks("a cloud touches solid shapes only")
 
     def at_points(self, some: Indices | Mask | slice) -> Self:
-        """The shape as `some` of the points see it: it is one for all of them."""
+        """The shape as some of the points see it; most shapes are the same for all points."""
         return self
 
     def faces(self, points: Array) -> tuple[Array, Array]:

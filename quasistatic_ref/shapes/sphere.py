@@ -31,7 +31,7 @@ class Sphere(Rounded):
 
     @cached_property
     def core(self) -> tuple[Array, float]:
-        """Its centre, as half extents of shape (3,) [m], and the radius."""
+        """The sphere's centre, as half extents of shape (3,) [m], and its radius [m]."""
         return np.array([0.0, 0.0, 0.0]), self.radius
 
     @property

@@ -97,5 +97,5 @@ def told(findings: Sequence[Finding], ignored: Sequence[Finding], notes: bool) -
 
 
 def _named(findings: Sequence[Finding]) -> str:
-    """Names of findings, and what they are about."""
+    """The names of findings, each with the body, pair or joint that it is about."""
     return ", ".join(f"{one.name} ({one.of})" if one.of else one.name for one in findings)

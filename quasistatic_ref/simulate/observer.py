@@ -45,7 +45,7 @@ class Recording(Protocol):
 
 
 class Observer:
-    """An observer of a run, whose methods do nothing: a class of its own overrides some of them.
+    """An observer of a run; a subclass overrides the methods that it needs.
 
     Attributes
     ----------
@@ -90,5 +90,5 @@ class Observer:
         return {}
 
     def end(self, recorder: Recording, trajectory: "Trajectory", interrupted: bool) -> "Trajectory":
-        """At the end, also of a run that failed: its trajectory, perhaps with another header."""
+        """Called at the end of a run, also of one that failed: may replace the trajectory."""
         return trajectory

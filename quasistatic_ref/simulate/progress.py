@@ -14,7 +14,7 @@ def progress_bar(
     words: str | None = None,
     shown: bool = True,
 ) -> tqdm:
-    """A bar with an estimate of the time left; it leaves no line behind.
+    """A progress bar that estimates the time left, and is erased at the end.
 
     Parameters
     ----------

@@ -103,7 +103,7 @@ NEEDED = ("t", "q", "delta_q", "mu_v", "mu_omega", "rows")
 
 
 class Reading:
-    """The numbers of one step's result in the form in which a trajectory keeps them.
+    """The numbers of one step's result, in the form in which a trajectory stores them.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ class Reading:
 
     @property
     def tau(self) -> Array:
-        """All generalised forces but those of springs, shape (n_v,) [N, N m]."""
+        """All generalised forces except those of springs, shape (n_v,) [N, N m]."""
         return np.concatenate([self.step.tau_a, self.step.tau_u])[: self.n_v]
 
     @property
@@ -180,7 +180,7 @@ def names_of(record: str, law: str, own_rows: bool, own_cost: bool) -> list[str]
 
 
 def arrays_of(readings: Sequence[Reading], names: Sequence[str]) -> StepArrays:
-    """Arrays over some steps that follow one another, of those `names` that results have."""
+    """Arrays over consecutive steps, of the names that the steps' results hold."""
     arrays: StepArrays = {}
     for name in names:
         kept = ARRAYS[name]
@@ -210,7 +210,7 @@ def no_steps(header: Header, rows: Indices, n_q_a: int = 0) -> dict[str, NDArray
 
 
 def without_steps(header: Header, arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-    """The arrays of a file of no steps, with those that older files leave out.
+    """The arrays of a file of no steps, with the arrays that older files lack.
 
     Parameters
     ----------

@@ -207,7 +207,7 @@ class Recorder:
                 arrays[name] = _checked_note(name, note, len(results), before.get(name))
 
     def _arrays(self, results: Sequence[StepResult]) -> tuple[StepArrays, StepArrays]:
-        """Arrays of the last steps: those that the trajectory keeps, and those for observers."""
+        """Arrays of the last steps for the trajectory, and those for the observers."""
         readings = [Reading(result, self.system.n_v) for result in results]
         law, rows, cost = self.simulator.law, bool(self.extra), bool(self.with_cost)
         arrays: StepArrays = {
@@ -310,7 +310,7 @@ class Recorder:
 
 
 def _checked_note(name: str, note: ArrayLike, steps: int, before: Array | None) -> Array:
-    """What an observer notes of some steps, shape (steps, ...) [any unit], as it did `before`.
+    """An observer's note on some steps, shape (steps, ...), if it fits its earlier notes.
 
     Raises
     ------

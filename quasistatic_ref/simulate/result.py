@@ -134,6 +134,6 @@ class StepResult(Plain, Shown):
 
     @property
     def tied(self) -> dict[str, str]:
-        """By name, the contacts with several possible normals, and how one was chosen."""
+        """Names of the contacts with several possible normals, and how one normal was chosen."""
         chosen = zip(self.step.contacts.name, self.points.tie.tolist(), strict=True)
         return {name: SAYS[tie] for name, tie in chosen if tie != UNIQUE_NORMAL}

@@ -299,7 +299,7 @@ class Simulator(Settings, Shown):
             return StepResult(end.q, step, solution, points, times, here.q, self, end)
 
     def start_cold(self) -> None:
-        """Forget what is kept of earlier steps, if answers depend on it."""
+        """Forget all that answers of later steps could depend on."""
         self.working_set = ()
         if self.solver is not None and self.solver.remembers:
             self.solver = None
@@ -394,7 +394,7 @@ class Simulator(Settings, Shown):
             return self.otherwise_solved(step, failure)
 
     def solved(self, scaled: ScaledStep, solver: Solver) -> StepSolution:
-        """Solve a step by a given solver; errors as of ``solve_step``."""
+        """The solution of a scaled step by a given solver; raises the errors of ``solve_step``."""
         solution = without_warnings(
             solved, scaled, solver, self.accuracy, self.certify, self.working_set
         )

@@ -242,7 +242,7 @@ class Trajectory(Plain, HasPage):
         return parts.contact_forces(step, near)
 
     def wrench_on(self, name: str, scene: Scene | None = None) -> Array:
-        """Sum of the contact wrenches on a body or a link, in each step, as lam has them.
+        """Sum of the contact wrenches by lam on a body or a link, for each step.
 
         Parameters
         ----------
@@ -317,7 +317,7 @@ class Trajectory(Plain, HasPage):
         return scene
 
     def to_pandas(self) -> DataFrame:
-        """One row a step, one column a number: ``arm/elbow [rad]``, ``grip(mug, left)/2.f_n [N]``.
+        """A data frame with a row for each step; a column is e.g. ``arm/elbow [rad]``.
 
         See :func:`~quasistatic_ref.optional.show.table.data_frame`.
 
@@ -329,7 +329,7 @@ class Trajectory(Plain, HasPage):
         return parts.step_table(self)
 
     def contacts_to_pandas(self) -> DataFrame:
-        """One row a step and contact: its pair, point, gap, forces, points and frame.
+        """A data frame with a row for each contact of each step.
 
         Raises
         ------

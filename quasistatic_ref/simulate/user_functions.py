@@ -151,7 +151,7 @@ def with_all_arguments(function: Callable[..., Value], name: str) -> OfTimeQAndL
 
 
 def needed_arguments(function: Callable[..., Value], name: str) -> int:
-    """How many of (t, q, last) a function takes, 1 to 3 [-]; InputError if it takes others."""
+    """How many of (t, q, last) a function takes, 1 to 3; InputError if it takes others."""
     try:
         parameters = list(signature(function).parameters.values())
     except (TypeError, ValueError):  # compiled, and without a signature

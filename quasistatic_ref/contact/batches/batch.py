@@ -12,7 +12,7 @@ from quasistatic_ref.numbers.arrays import Array, Mask
 
 
 class Batch(ABC):
-    """Pairs of one kind, P of them, whose contacts are formed at once.
+    """P pairs of one kind, whose contacts are formed at once.
 
     Each number comes from the operations, in their order, that form it where the pair is searched
     by itself, so that its bits are the same.
@@ -31,7 +31,7 @@ class Batch(ABC):
 
     @abstractmethod
     def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
-        """Ranked contacts at given poses of the links, (L, 3, 3) and (L, 3) [m].
+        """Ranked contacts of the pairs at poses of the links, (L, 3, 3) and (L, 3) [m].
 
         Returns
         -------
@@ -42,7 +42,7 @@ class Batch(ABC):
         """
 
     def in_world(self, R: Array, t: Array) -> tuple[Pose, Pose]:
-        """Poses of alpha's and beta's shapes at those of the links."""
+        """Poses of alpha's and beta's shapes, where the links have the given poses."""
         return poses_in_world(self.links, self.poses, R, t)
 
 

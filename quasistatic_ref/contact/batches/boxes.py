@@ -28,7 +28,7 @@ class BoxOfEach(Box):
 
 
 def boxes_of(shapes: Sequence[Shape]) -> Polytope:
-    """Some boxes or capsules, stacked."""
+    """Boxes or capsules stacked as one array of polytopes."""
     return stacked([flat for flat in map(polytope, shapes) if flat is not None])
 
 
@@ -132,7 +132,7 @@ class Boxes(Batch):
         return contacts_over(poses[on], poses[1 - on], corners, 0.0, surface, number)
 
     def _crossings(self, poses: tuple[Pose, Pose], nearest: Witnesses) -> ClosestPoints:
-        """Crossings of edges; numbers of those that are none are negative."""
+        """Crossings of edges; a pair of edges that do not cross has a negative number."""
         some: list[Mask] = []
         ends: list[Array] = []
         of_side = zip(self._solids, self._extents, poses, nearest[1:3], (1, -1), strict=True)

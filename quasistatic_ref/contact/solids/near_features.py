@@ -47,7 +47,7 @@ class Near(NamedTuple):
 
 
 def are_fine(a: Polytope, b: Polytope) -> bool:
-    """Whether a pair has so many edges that it is worth while to leave some out."""
+    """Whether a pair has so many edges that bounds on them save time."""
     one = a.vertices.shape[0] == 1
     of_mesh = isinstance(a.shape, ConvexMesh) or isinstance(b.shape, ConvexMesh)
     return one and of_mesh and len(a.edges) * len(b.edges) > MANY

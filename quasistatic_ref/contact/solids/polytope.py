@@ -83,7 +83,7 @@ class Polytope:
         return replace(self, vertices=vertices, normals=normals, offsets=offsets)
 
     def part(self, edges: Indices) -> "Polytope":
-        """Some of its edges, with the faces that meet there, and all of its corners."""
+        """The polytope with some of its edges, the faces beside them, and all of its corners."""
         faces, sides = np.unique(self.sides[edges], return_inverse=True)
         return replace(
             self,
@@ -157,7 +157,7 @@ def _box(box: Box) -> Polytope:
 
 
 def _mesh(mesh: ConvexMesh) -> Polytope:
-    """Coplanar triangles are one face, and what they share is no edge."""
+    """A mesh as a polytope: coplanar triangles form one face, without edges between them."""
     every = np.column_stack([mesh.normals, mesh.offsets])
     planes, face = np.unique(every, axis=0, return_inverse=True)
     face = face.reshape(-1)

@@ -186,7 +186,7 @@ def padded(values: NDArray[Any], pair: Indices, count: int, filling: float) -> N
 
 
 def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Indices, Array, Array]:
-    """Common normals, from a to b, of the edges whose arcs cross; and the gaps along them.
+    """Normals from a to b of edges whose arcs cross, and the gaps along the normals.
 
     Before them stands of which pair each is. The arc of an edge joins the normals of its two faces;
     those of b count negated. (D. Gregorius, "The separating axis test between convex polyhedra".)
@@ -219,7 +219,7 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Indices, Array, Array]:
 def _nearest(
     a: Polytope, b: Polytope, R: Array, t: Array, way: Array, n: Array, size: Array
 ) -> tuple[Array, Array, Array]:
-    """Closest points of cores that are apart or touch, and how far they miss ways (P, 3) [m].
+    """Closest points of cores without overlap, and their distance from rays (P, 3) [m].
 
     The largest gap of each pair is along n, (P, 3) [-].
 

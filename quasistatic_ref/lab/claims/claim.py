@@ -18,7 +18,7 @@ NOT_RUN = "not run (engine not installed)"
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """One quantity over a sweep: what came out, and what should have.
+    """One quantity over a sweep: its measured and its expected values.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Claim:
-    """A sentence that can be wrong, and how it is measured.
+    """A sentence about the model that measurements can refute.
 
     Parameters
     ----------

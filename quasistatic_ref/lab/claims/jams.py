@@ -37,7 +37,7 @@ def pushed_peg(depth: float, width: float, mu: float, force: float) -> StepData:
 
 
 def peg_evidence() -> Evidence:
-    """The depth at which the peg wedges, for weak and strong pushes; and how it slides deeper."""
+    """Depths at which a peg wedges under weak and strong pushes, and where it slides on."""
     sweep = grid([0.01, 0.04], [0.1, 0.3, 0.8], [1e-3, 1.0, 1e6])
     widths, mus, _ = sweep.T
     expected = mus * widths

@@ -32,7 +32,7 @@ GEOMS = {
 
 @dataclass(frozen=True, eq=False)
 class Heap:
-    """One scene for both engines.
+    """A heap of bodies above a floor, as a scene of both engines.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class Heap:
 
 
 def heap(seed: int) -> Heap:
-    """Some bodies, so near to each other that they touch, above a floor."""
+    """Bodies above a floor, so near to each other that they touch."""
     rng = np.random.default_rng(seed)
     free = tuple(rng.permutation(FREE)[: 2 + seed % 4])
     axis = rng.normal(size=3)

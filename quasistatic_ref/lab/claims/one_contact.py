@@ -101,7 +101,7 @@ def threshold_evidence() -> Evidence:
 
 
 def slip_evidence() -> Evidence:
-    """One step in all regimes; then the sequence of steps along an axis."""
+    """One step in each regime of a contact, and then a sequence of steps along an axis."""
     solved = []
     formula = []
     scale = []

@@ -69,7 +69,7 @@ def mu_omega(r: Array, N: Array) -> tuple[float, float]:
 
 
 def patch_torsion_evidence() -> Evidence:
-    """One ring; then more and more rings under two pressures."""
+    """The torque at which a ring of points turns, then many rings under two pressures."""
     ring = [mu_omega(np.full(n, RING_RADIUS), np.full(n, LOAD / n))[0] for n in (1, 3, 6)]
     both = {
         name: np.array([mu_omega(*rings(pressure, n)) for n in RING_RINGS]).T
@@ -139,7 +139,7 @@ def loaded_patch(tau: float) -> StepData:
 
 
 def flat_patch_evidence() -> Evidence:
-    """The torque that turns it, its turn, and who bears the load."""
+    """The torque that turns a flat patch, how far it turns, and which points bear load."""
     points, _ = disk()
     r = np.hypot(points[:, 0], points[:, 1])
     limit = DISK_MU * M * GRAVITY * DISK_RADIUS

@@ -88,7 +88,7 @@ def claims_page(sections: Mapping[str, Sequence[str]]) -> str:
 
 
 def chapters_of(page: str) -> dict[str, str]:
-    """The chapters of a ``claims.md``, by the names of their claims."""
+    """The chapters of a ``claims.md`` by the names of its claims."""
     return {text[1]: text[0] for text in CHAPTER.finditer(page)}
 
 

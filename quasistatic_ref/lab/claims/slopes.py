@@ -152,7 +152,7 @@ def limit_of_rolling() -> Comparison:
 
 
 def evidence() -> Evidence:
-    """Forces along several directions; every step against the one before it."""
+    """Forces along several directions, each step compared with the one before."""
     turned = []
     wanted = []
     heights = []

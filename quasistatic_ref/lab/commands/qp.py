@@ -109,7 +109,7 @@ def _in_words(answer: Answer) -> str:
 
 
 def _table(rows: list["Row"]) -> list[tuple[str, ...]]:
-    """A line a call: what it says, residuals in natural units, digits, seconds."""
+    """A line for each call: what the solver says, its residuals, digits and seconds."""
     head = ("solver", "accuracy", "says", "primal", "dual", "gap", "reached", "digits", "seconds")
     lines: list[tuple[str, ...]] = [head]
     for row in rows:

@@ -57,6 +57,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Print it."""
+    """Print the schema."""
     print(json.dumps(SCHEMAS[options.file](), indent=2))
     return 0

@@ -70,7 +70,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _summary(rows: list[Row]) -> list[tuple[str, ...]]:
-    """One line a solver: how many calls, and what it said."""
+    """A line for each solver: its number of calls, and what it said."""
     lines: list[tuple[str, ...]] = [("solver", "calls", *SAYINGS)]
     for label in sorted({f"{row.door}:{row.solver}" for row in rows}):
         said = Counter(row.says for row in rows if f"{row.door}:{row.solver}" == label)

@@ -53,7 +53,7 @@ def smaller(alpha, beta):
 
 
 def gaps(phi, smaller_size):
-    """Distances as they rank: which multiple of RANKED of the smaller size is the nearest."""
+    """Distances rounded for ranking: multiples of RANKED times the smaller size."""
     return np.rint(phi / (RANKED * smaller_size)) if smaller_size else phi
 
 
@@ -147,7 +147,7 @@ def crossings(alpha, pose_alpha, beta, pose_beta, nearest):
 
 
 def ways(solid, n):
-    """Along which a corner may bear on a box, the last one first: n, and the face about it."""
+    """Directions along which a corner may bear on a box: the face about it, then n."""
     if solid["kind"] != "box":
         return []
     i = int(np.argmax(np.abs(n)))
@@ -156,7 +156,7 @@ def ways(solid, n):
 
 
 def bearing(box, x, way):
-    """How far points are beyond a box along a way, and which bear there: their foot is on it."""
+    """Heights of points over a box along a way, and which of them bear there."""
     half = np.array(box["size"]) / 2
     near = 2 * OVER * max(half)
     gap = x @ way - np.abs(way) @ half
@@ -261,7 +261,7 @@ def most_candidates(alpha, beta, last):
 
 
 def crossing_index(last, k, i, j):
-    """Of alpha's edge i and beta's j: after the closest pair, and what fills the number."""
+    """The index of the crossing of alpha's edge i and beta's edge j among candidates."""
     return last + np.minimum(k, last + 9) + 2 * (12 * i + j)
 
 
@@ -273,7 +273,7 @@ def repeats(phi, alpha, n, repeated):
 
 
 def k_first(rank, index, late, k):
-    """The k candidates that rank first, late ones last, in the order of their index."""
+    """The k candidates of the first ranks, late ones last, in the order of their index."""
     order = np.lexsort((index, rank, late))[:k]
     return order[np.argsort(index[order])]
 

@@ -158,7 +158,7 @@ def on_halfspace(half, pose_h, shape, pose):
 
 
 def swapped(points):
-    """The same with alpha and beta exchanged."""
+    """The closest points with alpha and beta exchanged."""
     phi, a, b, n = points
     return phi, b, a, -n
 
@@ -275,7 +275,7 @@ def by_projections(alpha, pose_alpha, beta, pose_beta):
 
 
 def from_afar(alpha, pose_alpha, beta, pose_beta, n):
-    """The same of shapes that nearly touch: moved apart along n, they keep points and normal."""
+    """Closest points of shapes that nearly touch, found after moving them apart along n."""
 
     def normal(n):
         _, x, y, n_afar = by_projections(
@@ -296,7 +296,7 @@ def from_afar(alpha, pose_alpha, beta, pose_beta, n):
 
 
 def closest_points(alpha, pose_alpha, beta, pose_beta):
-    """The same in the conventions of the vectors.
+    """Closest points of two shapes in the conventions of the vectors.
 
     n points from alpha's body to beta's, also in penetration, where phi is negative.
     """

@@ -7,7 +7,7 @@ from .rotation import AXES, quaternion_product, rotation, skew, unit
 
 
 def coefficients(t):
-    """Sin t / t, (1 - cos t) / t^2, (t - sin t) / t^3, by series where they would cancel."""
+    """The ratios sin t / t, (1 - cos t) / t^2 and (t - sin t) / t^3; by series for small t."""
     if t < 0.3:
         ratios = []
         for first in (1, 2, 3):

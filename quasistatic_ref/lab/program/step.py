@@ -88,7 +88,7 @@ def objective(case, M, tau):
 
 
 def step(case):
-    """Layer 8: all of it."""
+    """Layer 8: a whole step, from poses and loads to the next q."""
     at = kinematics(case["mechanism"], np.array(case["q"]))
     return step_at(case, at, contacts_of(case, at))
 

@@ -52,12 +52,12 @@ def contacts_of(
 
 
 def no_contacts(n_v: int) -> Contacts:
-    """No contact at all, between bodies of n_v coordinates."""
+    """A `Contacts` of no contact, between bodies of n_v coordinates."""
     return contacts_of((), (), np.zeros((0, 4, n_v)), (), (), ())
 
 
 def repeated(every: Contacts, index: Any, **changes: Any) -> Contacts:
-    """Some of the contacts, as often as their numbers occur, with some fields changed."""
+    """Contacts of the given numbers, repeated as the numbers are, with changed fields."""
     fields = {key: getattr(every, key)[np.asarray(index, dtype=int)] for key in NUMBERS} | changes
     return Contacts(name=tuple(f"c{j}" for j in range(len(index))), **fields)
 

@@ -41,7 +41,7 @@ def program_step(H: Array, g: Array, A: Array, b: Array) -> StepData:
 
 
 def conic_step(H: Array, g: Array, F: Array, phi: Array) -> StepData:
-    """The same of second-order cones: contacts in the ellipsoid with mu_v = mu_omega = 1.
+    """The step whose standard form is a program with second-order cones.
 
     Parameters
     ----------

@@ -145,7 +145,7 @@ def push(
 
 
 def push_step(of: Push) -> StepData:
-    """The step: q_a the pusher's x, y; q_u the slider's x, y, z and angle; it stays level.
+    """The step of a push: q_a is the pusher's x, y; q_u the slider's x, y, z and angle.
 
     The pusher is an upright post that is smooth along its length: it does not feel the rise.
     """

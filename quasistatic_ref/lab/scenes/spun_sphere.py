@@ -19,7 +19,7 @@ SETTLED = 40
 
 
 def layer_at_torque(h: float, tau: float) -> float:
-    """Gap where it no longer changes, at a fixed torque [m]."""
+    """The gap at which a sphere settles that a fixed torque spins [m]."""
     phi = 0.0
     for _ in range(SETTLED):
         wrench = (0, 0, -M * GRAVITY, 0, 0, tau)
@@ -39,7 +39,7 @@ def spun_step(phi: float, lag: float, h: float) -> StepData:
 
 
 def layer_at_rate(h: float) -> float:
-    """Gap where it no longer changes, at an imposed spin rate [m]."""
+    """The gap at which a sphere settles that spins at an imposed rate [m]."""
     phi = 0.0
     lag = 0.0
     for _ in range(SETTLED):

@@ -54,11 +54,11 @@ class AxisJoint(Joint):
         return [position]
 
     def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
-        """Its entries of q (+) delta_q."""
+        """The joint's entries of q (+) delta_q."""
         return [q[0] + delta_q[0]]
 
     def change(self, q: list[float], q_next: list[float]) -> list[float]:
-        """Its entry of q_next (-) q."""
+        """The joint's entry of q_next (-) q."""
         return [q_next[0] - q[0]]
 
 

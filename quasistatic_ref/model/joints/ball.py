@@ -20,13 +20,13 @@ class Ball(TwistJoint):
 
     @classmethod
     def at(cls, xyz: Array, rpy: Array) -> list[float]:
-        """Its entries of q at a pose."""
+        """The joint's entries of q at a pose."""
         return [*quaternion(rpy).tolist()]
 
     def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
-        """Its entries of q (+) delta_q."""
+        """The joint's entries of q (+) delta_q."""
         return screw.turned(q, delta_q, screw.half_turn(delta_q))
 
     def change(self, q: list[float], q_next: list[float]) -> list[float]:
-        """Its entries of q_next (-) q."""
+        """The joint's entries of q_next (-) q."""
         return screw.rotation_between(q, q_next)[0]

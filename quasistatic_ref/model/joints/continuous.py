@@ -12,7 +12,7 @@ from quasistatic_ref.numbers.arrays import Array
 
 
 def _wheel(axis: Array) -> Any:
-    """A wheel of pinocchio's about any unit vector, which it makes of a URDF alone."""
+    """Pinocchio's unbounded revolute joint about a unit vector, made of a URDF text."""
     xyz = " ".join(map(repr, axis.tolist()))
     text = (
         '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous">'
@@ -30,18 +30,18 @@ class Continuous(AxisJoint):
 
     @property
     def positions(self) -> tuple[Position, ...]:
-        """Its entries of q."""
+        """The joint's entries of q."""
         return Position(f"{self.name}.cos", "-"), Position(f"{self.name}.sin", "-")
 
     @classmethod
     def at(cls, position: float) -> list[float]:
-        """Its entries of q at a position, an angle [rad]."""
+        """The joint's entries of q at a position, which is an angle [rad]."""
         return [*cos_sin(position)]
 
     def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
-        """Its entries of q (+) delta_q."""
+        """The joint's entries of q (+) delta_q."""
         return screw.heading(q, delta_q[0])
 
     def change(self, q: list[float], q_next: list[float]) -> list[float]:
-        """Its entry of q_next (-) q."""
+        """The joint's entry of q_next (-) q."""
         return [screw.turn_between(q, q_next)]

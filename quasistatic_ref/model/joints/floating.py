@@ -22,18 +22,18 @@ class Floating(TwistJoint):
 
     @classmethod
     def at(cls, xyz: Array, rpy: Array) -> list[float]:
-        """Its entries of q at a pose."""
+        """The joint's entries of q at a pose."""
         return [*xyz.tolist(), *quaternion(rpy).tolist()]
 
     def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
-        """Its entries of q (+) delta_q."""
+        """The joint's entries of q (+) delta_q."""
         v, w = delta_q[:3], delta_q[3:]
         half = screw.half_turn(w)
         t = screw.translation(v, w, half)
         return [*screw.carried(q[:3], screw.rows(q[3:]), t), *screw.turned(q[3:], w, half)]
 
     def change(self, q: list[float], q_next: list[float]) -> list[float]:
-        """Its entries of q_next (-) q."""
+        """The joint's entries of q_next (-) q."""
         apart = [b - a for a, b in zip(q[:3], q_next[:3], strict=True)]
         w, a, c2 = screw.rotation_between(q[3:], q_next[3:])
         return [*screw.combined(screw.along(screw.rows(q[3:]), apart), w, a, -0.5, c2), *w]

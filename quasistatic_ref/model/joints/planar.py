@@ -21,18 +21,18 @@ class Planar(TwistJoint):
 
     @classmethod
     def at(cls, xyz: Array, rpy: Array) -> list[float]:
-        """Its entries of q at a pose."""
+        """The joint's entries of q at a pose."""
         return [*xyz[:2].tolist(), *cos_sin(float(rpy[2]))]
 
     def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
-        """Its entries of q (+) delta_q."""
+        """The joint's entries of q (+) delta_q."""
         x, y, angle = delta_q
         w = [0.0, 0.0, angle]
         t = screw.translation([x, y, 0.0], w, screw.half_turn(w))
         return [*screw.carried([*q[:2], 0.0], _rows(q), t)[:2], *screw.heading(q[2:], angle)]
 
     def change(self, q: list[float], q_next: list[float]) -> list[float]:
-        """Its entries of q_next (-) q."""
+        """The joint's entries of q_next (-) q."""
         apart = screw.along(_rows(q), [q_next[0] - q[0], q_next[1] - q[1], 0.0])
         angle = screw.turn_between(q[2:], q_next[2:])
         return [*screw.linear_part(apart, [0.0, 0.0, angle])[:2], angle]

@@ -34,7 +34,7 @@ class TwistJoint(Joint):
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
-        """Its entries of delta_q."""
+        """The joint's entries of delta_q."""
         return tuple(
             Coordinate(f"{self.name}.{axis}", self.name, unit, self.actuated)
             for axis, unit in (TWIST[i] for i in self.twist)
@@ -42,7 +42,7 @@ class TwistJoint(Joint):
 
     @property
     def positions(self) -> tuple[Position, ...]:
-        """Its entries of q: lengths first."""
+        """The joint's entries of q, lengths before angles."""
         owner = self.name.removesuffix("/base")
         units = ["m"] * self.lengths + ["-"] * (len(self.entries) - self.lengths)
         named = zip(self.entries, units, strict=True)

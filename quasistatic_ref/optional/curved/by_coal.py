@@ -76,7 +76,7 @@ ROUNDS = 30
 
 
 class Judged(NamedTuple):
-    """An answer, and by how much it is wrong.
+    """Closest points of two solids, and a bound of their error.
 
     Attributes
     ----------
@@ -155,7 +155,7 @@ def _resized(shape: Shape, scale: float) -> Shape:
 
 @lru_cache(maxsize=256)
 def geometry(shape: Shape) -> coal.CollisionGeometry:
-    """The shape as coal gets it: of a box the polytope.
+    """A shape as a collision geometry of coal; a box becomes a convex polytope.
 
     A `coal.Box` is 1e-10 larger, or not, by what its process asked coal before.
 
@@ -192,7 +192,7 @@ def _polytope(vertices: Array, triangles: Indices) -> coal.CollisionGeometry:
 
 
 def _best(a: ShapeInWorld, b: ShapeInWorld, start: Judged) -> Judged:
-    """Of an answer and the maxima near it, the widest gap that is proved."""
+    """The widest proved gap among an answer and the local maxima near it."""
     if not np.isfinite(start.n).all():
         return start
     ways = [judged(a, b, *way) for way in settled(a, b, Witness(*start[:4]))]

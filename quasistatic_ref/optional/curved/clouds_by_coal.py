@@ -96,7 +96,7 @@ def geometry(solid: Shape) -> coal.CollisionGeometry:
 
 
 def pairs_by_coal(pairs: tuple[ContactPair, ...]) -> tuple[ContactPair, ...]:
-    """The same pairs, their solids measured by coal.
+    """Pairs whose solids have their distances measured by coal.
 
     Raises
     ------

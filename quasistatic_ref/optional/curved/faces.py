@@ -39,7 +39,7 @@ class Kinks(NamedTuple):
     normals: Array
 
     def near(self, n: Array, within: float) -> "Kinks":
-        """Those near a direction.
+        """The kinks whose directions lie near a given one.
 
         Parameters
         ----------
@@ -148,7 +148,7 @@ class Face(NamedTuple):
     n: Array
 
     def nearest(self, x: Array) -> Array:
-        """Its point nearest to the line through x along n, shape (3,) [m].
+        """The face's point nearest to the line through x along n, shape (3,) [m].
 
         Parameters
         ----------

@@ -85,7 +85,7 @@ def _normals(a: ShapeInWorld, b: ShapeInWorld, n: Array) -> Iterator[Array]:
 
 
 def _distinct(axes: Array, levels: Array) -> Iterator[tuple[Array, float]]:
-    """Circles n . u = c without those that are an earlier one, or that with -u and -c.
+    """Circles n . u = c, each once: (-u, -c) is the same circle as (u, c).
 
     Parallel edges have one circle. From -u and -c follow the same bits, but for signs of zeros.
     """
@@ -126,7 +126,7 @@ def _on_sphere(a: ShapeInWorld, b: ShapeInWorld, n: Array) -> tuple[Array, float
 def _on_circle(
     a: ShapeInWorld, b: ShapeInWorld, u: Array, c: float, n: Array
 ) -> tuple[Array, float] | None:
-    """Along n = c u + s m, with m a unit vector across u that turns."""
+    """Newton's step for the gap on the circle n = c u + s m, where m is a unit vector across u."""
     m = _unit(n - (n @ u) * u)
     s = np.sqrt(1 - c * c)
     t = _cross(u, m)

@@ -34,7 +34,7 @@ APART = 0.985
 def rival_directions(
     a: ShapeInWorld, b: ShapeInWorld, first: Array, phi: float, size: float
 ) -> list[Array]:
-    """Directions of other maxima of the gap, in whose neighbourhood it may exceed phi.
+    """Directions of other local maxima of the gap, near which it may exceed phi.
 
     Parameters
     ----------

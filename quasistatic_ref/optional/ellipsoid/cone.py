@@ -74,7 +74,7 @@ class EllipsoidCone(CurvedCone):
         return np.column_stack([f_n, mu * scaled.T]).ravel()
 
     def judge(self, mu: Array) -> Judge:
-        """As of the base; of each contact with motion s and impulse f in one number each.
+        """The judge of forces and motions of contacts, as of the base class, in this cone.
 
         (10) reads s_n >= ||mu o s_t||, (11) f_n >= ||f_t / mu|| and (12) f's = 0.
 
@@ -133,7 +133,7 @@ class EllipsoidCone(CurvedCone):
         lam: Array | None,
         claims: Certificate | None,
     ) -> Verdict:
-        """Whether an answer in the ellipsoid is what it is claimed to be.
+        """The verdict on an answer in the ellipsoid: whether all of its claims hold.
 
         delta_q of an exact answer is held against the rational optimum, bit for bit. Of an
         enclosure, a feasible pair is found again and checked in balls: delta_q must be within the
@@ -237,7 +237,7 @@ def _not_enclosed(
 def _not_multipliers(
     step: StepData, form: ExactForm, x: Sequence[fmpq], lam: Array, claimed: float | None
 ) -> str:
-    """What is wrong with lam: outside of its cones, or not what holds x."""
+    """Why lam is no multiplier at x: outside of its cones, or not in balance; or empty."""
     if claimed is None:
         _, pull, _ = cone_violations(step.contacts.mu, np.zeros(form.m), lam)
         allowed = IMPULSES * float(np.abs(lam).max(initial=0.0))

@@ -223,7 +223,7 @@ def point(pair: Checked) -> list[fmpq]:
 
 
 def guesses(frame: ScaledBlocks, start: Start | None) -> Iterator[Guess]:
-    """Candidate answers to be checked: those of Newton's method from `start` come first."""
+    """Candidate optima, those of Newton's method from `start` before the others."""
     if start is not None:
         yield from _by_newton(frame.problem, frame.start(*start))
     pair = interior_point(frame.problem, GAP)

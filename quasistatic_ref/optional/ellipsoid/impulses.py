@@ -48,7 +48,7 @@ def outside_of_cones(step: StepData, impulse: Sequence[fmpq]) -> str:
 
 
 def raised(step: StepData, lam: Array) -> Array:
-    """Impulses whose normal parts are as large as their cones want: rounding lowers some.
+    """Impulses with normal parts raised to their cones, where rounding had lowered them.
 
     Parameters
     ----------

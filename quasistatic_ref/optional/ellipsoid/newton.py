@@ -43,7 +43,7 @@ OPEN, STICKS, SLIDES = range(3)
 
 
 def contact_states(problem: Blocks, pair: Pair) -> list[int]:
-    """Which blocks are open, stick and slide, as an answer shows it: the larger of two slacks."""
+    """The state of each block (open, sticking, sliding), by the larger of two slacks."""
     states = []
     s = problem.split(problem.slacks(pair.x, pair.y))
     for s_j, y_j in zip(s, problem.split(pair.y), strict=True):

@@ -64,7 +64,7 @@ class FunctionSolver(BackendSolver):
         return scaled.out_of_reach
 
     def reply(self, options: Options, scaled: ScaledStep) -> Reply:
-        """The reply of the user's function to the program as it is written."""
+        """The reply of the user's function to the program in natural units."""
         H, g, A, b = self.form
         with apart():
             returned = self.function(H.copy(), -g, -A, -b)
@@ -113,7 +113,7 @@ def real_numbers(values: object) -> Array:
 
 @contextmanager
 def apart() -> Iterator[None]:
-    """A context for a user's code: its prints go to standard error; it cannot end the process.
+    """A context for a user's code: prints go to standard error, and exits become errors.
 
     It runs in the caller's context.
 
@@ -184,6 +184,6 @@ def function_at(target: str) -> Function:
 
 
 def _look_in(folder: Path) -> None:
-    """Let Python find modules in a folder, where no others have their names."""
+    """Let Python import modules from a folder, after all other places."""
     if str(folder) not in sys.path:
         sys.path.append(str(folder))

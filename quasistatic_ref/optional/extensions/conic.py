@@ -47,7 +47,7 @@ class ConicProgram:
     exponential: int
 
     def violations(self, s: Array, z: Array) -> Violations:
-        """As :func:`~quasistatic_ref.certify.residuals.row_violations`.
+        """Violations of the cones by s and z, in the form of `row_violations`.
 
         Parameters
         ----------

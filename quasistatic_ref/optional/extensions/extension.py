@@ -58,7 +58,7 @@ class Symbols:
 
 @dataclass(frozen=True, eq=False)
 class Rises(Plain):
-    """Private rises: un-actuated coordinates of a step alone, without a pose, 0 where it starts.
+    """Un-actuated coordinates that exist within one step alone and start it at 0.
 
     Whatever slides lifts its rise against a load, which is friction, (R40). The first rises lie on
     coordinates, r >= |delta_q_i|; each of the others adds to the gap of a contact.
@@ -142,11 +142,11 @@ ExtensionOfQ = Callable[[Array], Extension]
 
 
 class OfBodies(Protocol):
-    """What the tables of a scenario's bodies add to each step."""
+    """The extension by the tables of a scenario's bodies, at each q."""
 
     @property
     def of_urdf(self) -> tuple[Sequence[str], Sequence[str]]:
-        """The bodies whose friction of joints, and those whose limits, are those of their URDF."""
+        """Names of the bodies with joint friction, and of those with limits, from their URDF."""
 
     def __call__(self, q: Array) -> Extension:
         """The extension at q, shape (n_q,)."""

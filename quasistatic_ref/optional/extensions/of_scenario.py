@@ -69,7 +69,7 @@ def of_scenario(
     K_q: Array,
     gravity: Array,
 ) -> tuple[tuple[ContactPair, ...], OfScenario]:
-    """The pairs with those of supports, and what else the tables of bodies add to each step.
+    """The scenario's pairs with those of supports, and the extension by its bodies' tables.
 
     Parameters
     ----------

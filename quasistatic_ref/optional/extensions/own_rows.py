@@ -8,7 +8,7 @@ from quasistatic_ref.step.data import Extra, StepData
 
 
 def with_numbers(step: StepData, extension: Extension) -> StepData:
-    """A step with the rows and the private rises of an extension."""
+    """A step with an extension's rows and private rises, which are numbers already."""
     rows = extension.rows
     if rows is not None:
         extra = joined(step.extra, rows)

@@ -87,7 +87,7 @@ def quadratic_program(
 
 
 def _columns(unknowns: Sequence[cp.Variable], first: Mapping[int, int], absent: int) -> list[int]:
-    """The columns of the unknowns' entries, the first of each by its id; those of none `absent`."""
+    """Column numbers of the unknowns' entries; `absent` for those without a first column."""
     columns: list[int] = []
     for x in unknowns:
         entries = range(first[x.id], first[x.id] + x.size) if x.id in first else [absent] * x.size

@@ -23,7 +23,7 @@ WAYS = (1.0, -1.0)
 
 
 def with_rises(step: StepData, rises: Rises) -> StepData:
-    """A step with private rises: its last coordinates, and rows after those that it has."""
+    """A step with private rises as its last coordinates, and their rows as its last rows."""
     p = len(rises)
     c = len(rises.coordinates)
     if not p:

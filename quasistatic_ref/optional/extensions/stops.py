@@ -57,13 +57,13 @@ class JointLimits(Plain):
 
     @cached_property
     def _finite(self) -> Mask:
-        """Which of the lower and then of the upper ends are finite, shape (2 c,)."""
+        """Mask of the limits that are finite: the lower ones, then the upper ones, shape (2 c,)."""
         finite: Mask = np.isfinite(np.concatenate([self.lower, self.upper]))
         return finite
 
     @cached_property
     def _of_every_q(self) -> tuple[tuple[str, ...], Array]:
-        """Names and A of the stops, whatever q is."""
+        """Names and matrix A of the stops' rows, which do not depend on q."""
         c = len(self)
         A = np.zeros((2, c, self.n_v))
         A[0, np.arange(c), self.coordinates] = 1.0
@@ -124,7 +124,7 @@ def urdf_limits(system: System, bodies: Collection[str]) -> dict[str, tuple[floa
 
 
 def stops_of(system: System, limits: Mapping[str, tuple[float, float]]) -> JointLimits:
-    """Stops of joints.
+    """The stops of joints at limits, lower and upper [m, rad], by the joints' names.
 
     Parameters
     ----------

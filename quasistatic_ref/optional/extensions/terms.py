@@ -60,7 +60,7 @@ def checked_terms(extension: Extension, symbols: Symbols) -> list[cp.Constraint 
 
 
 def _check_numbers(term: cp.Constraint | cp.Expression, field: str, known: set[int]) -> None:
-    """Refuse a Parameter of the user's without a value, and numbers that are none."""
+    """Refuse a term with a Parameter without value, or with numbers that are not finite."""
     parameters = [p for p in term.parameters() if p.id not in known]
     for parameter in parameters:
         if parameter.value is None:
@@ -76,7 +76,7 @@ def _check_numbers(term: cp.Constraint | cp.Expression, field: str, known: set[i
 
 
 def _bounding(order: cp.Constraint, field: str) -> cp.Constraint | None:
-    """An inequality without the rows whose limit is infinite: they bind nothing; None of none."""
+    """An inequality without rows of infinite limit; None if no row is left."""
     expression = order.expr if isinstance(order, cp.constraints.Inequality) else order.args[0]
     constants = [np.asarray(c.value) for c in [*expression.constants(), *expression.parameters()]
                  if c.value is not None and not hasattr(c.value, "tocsc")]  # fmt: skip

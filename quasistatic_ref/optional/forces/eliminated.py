@@ -103,7 +103,7 @@ class EliminatedStep:
         return Candidate(Minimiser(form, working), _matrix(scaled_s, n), scale)
 
     def _active(self, under: MatrixForm) -> tuple[int, ...]:
-        """The working set of the user's own rows, which are those of a form."""
+        """The working set among the user's own rows."""
         end = dual_active_set(under)
         if not isinstance(end, Combination):
             return end.working

@@ -114,7 +114,7 @@ class _Energy:
         return at
 
     def settled(self, at: Pieces) -> tuple[Pieces, bool]:
-        """Where Newton's method ends from some pieces, and whether it is the minimum."""
+        """The pieces at which Newton's method ends, and whether they hold the minimum."""
         x = self.zero(at)
         at = self.pieces_at(x, at)
         for _ in range(STEPS):
@@ -151,13 +151,13 @@ class _Energy:
         return np.asarray(x)
 
     def pieces_at(self, x: Array, near: Pieces) -> Pieces:
-        """The pieces at x; where rounding decides, the pieces `near`."""
+        """The pieces at x; `near` decides where rounding would."""
         extra = self.step.extra
         pressing = tuple((extra.A @ x < extra.b).tolist())
         return self.pieces(self.B @ x + self.gap, near)._replace(pressing=pressing)
 
     def pieces(self, z: Array, near: Pieces) -> Pieces:
-        """The pieces of given lengths of the contacts, shape (n_c, 4)."""
+        """The pieces that the lengths z of the contacts, shape (n_c, 4), lie in."""
         faces = []
         for z_j, count, rows in zip(z, self.step.counts.tolist(), near.faces, strict=True):
             conditions = _floats(self.step.cone, count, rows)[:-4] @ z_j
@@ -167,7 +167,7 @@ class _Energy:
         return near._replace(faces=tuple(faces))
 
     def onto(self, at: Pieces) -> Array:
-        """What s is, times z, on the face of each contact, shape (n_c, 4, 4)."""
+        """Matrices that project z onto the face of each contact, shape (n_c, 4, 4)."""
         counts = self.step.counts.tolist()
         faces = [_floats(self.step.cone, n, f)[-4:] for n, f in zip(counts, at.faces, strict=True)]
         return np.array(faces).reshape(-1, 4, 4)

@@ -24,7 +24,7 @@ Rows = tuple[int, ...]
 
 @dataclass(frozen=True, eq=False)
 class Face:
-    """A face of the cone of forces: where the point nearest to -z lies there, and where it is.
+    """A face of the cone of forces, with its projection of points and its conditions.
 
     Parameters
     ----------

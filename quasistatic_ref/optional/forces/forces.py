@@ -128,7 +128,7 @@ def contact_forces(
 
 
 def _one_of(compliances: Array) -> float:
-    """The compliance [m/N] that is given to each contact of a group, shape (c,)."""
+    """The one compliance [m/N] that all contacts of a group, shape (c,), are given."""
     distinct = np.unique(compliances)
     if len(distinct) > 1:
         problem = "must be one number for all contacts of a group"
@@ -215,7 +215,7 @@ def compliant_form(step: StepData, compliance: float) -> MatrixForm:
 
 
 def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:
-    """The optimum with compliance as it is defined.
+    """The optimum of the step with compliance, computed directly from its definition.
 
     It equals that of :func:`~quasistatic_ref.optional.forces.eliminated.eliminated_optimum`.
     Every s is solved for, which takes 30 times longer, and always ends.

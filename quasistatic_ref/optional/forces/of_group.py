@@ -90,7 +90,7 @@ def group_compliance(step: StepData) -> float:
 
 
 def counted(b: Array, largest: Array) -> Array:
-    """Mobilities b, shape (k, 3) [-], as they are, down to a share `HARDLY_MOVES` of the largest.
+    """Mobilities b, shape (k, 3) [-]; those far below the largest count as large ones.
 
     Below, small^2 / b, which grows to the largest again; shape (k, 3). `largest` has shape (k, 1),
     or () for one of all [-].

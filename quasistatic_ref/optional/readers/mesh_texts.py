@@ -60,7 +60,7 @@ def text_of_mesh(content: bytes) -> str:
 
 
 def _lines(content: bytes) -> list[str]:
-    """Lines as editors count them; ``splitlines`` also parts at letters of Latin-1."""
+    """Lines of a text file, parted at line feeds and carriage returns only."""
     lines = re.split("\r\n|\r|\n", text_of_mesh(content))
     check_lines(lines)
     return lines
@@ -195,7 +195,7 @@ def _off(content: bytes) -> Mesh:
 
 
 def _numbered(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
-    """Lines that say something, without comments, and their numbers from 1 on."""
+    """Lines with content, without comments, and their numbers from 1 on."""
     for number, line in enumerate(lines, start=1):
         if stripped := line.partition("#")[0].strip():
             yield number, stripped
@@ -313,7 +313,7 @@ class _PlyBody:
 
 
 def _ply_header(lines: list[str]) -> tuple[bool, list[tuple[str, int, _Properties]]]:
-    """Whether it is text, whose numbers are all taken as float64, and what follows the header."""
+    """Whether a PLY is text, and its elements with their counts and properties."""
     kinds: dict[str, np.dtype[Any]] = {}
     is_text = False
     elements: list[tuple[str, int, _Properties]] = []

@@ -64,7 +64,7 @@ class _Part(NamedTuple):
 
 
 class _Stated(NamedTuple):
-    """A checked file in the form in which trimesh reads it.
+    """A file whose counts were checked, in the form in which trimesh reads it.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ def _buffer(path: Path, uri: str | None, chunk: bytes) -> bytes:
 def _check_gltf_sizes(
     buffers: Sequence[bytes], views: Sequence[Any], accessors: Sequence[Any]
 ) -> None:
-    """Check that arrays lie within their files; all of them are read."""
+    """Check that views lie within buffers, and accessors within views."""
     total = 0
     for number, view in enumerate(views):
         start, size = view.get("byteOffset", 0), view["byteLength"]
@@ -265,7 +265,7 @@ def _target(element: Element) -> str:
 
 
 def _float_count(source: Element) -> int:
-    """How many numbers a source has, which are all that it states."""
+    """Number of values in a COLLADA source, checked against the count that it states."""
     array = source.find("float_array")
     if array is None:
         return 0
@@ -308,7 +308,7 @@ PLACED: Final[dict[str, Callable[[Path, bytes], _Stated]]] = {
 
 
 def placed_mesh(path: Path, content: bytes) -> Mesh:
-    """All that a file shows, where it places it, in metres."""
+    """The mesh of all parts of a file, each where the file places it, in metres."""
     import trimesh  # takes as long as a short run
 
     stated = PLACED[path.suffix.lower()](path, content)

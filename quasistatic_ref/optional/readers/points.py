@@ -61,7 +61,7 @@ def _pcd(path: Path) -> Array:
 
 
 def _check_pcd(content: bytes) -> None:
-    """Check what the header states against what follows it."""
+    """Check the counts in the header of a PCD against the data that follow."""
     line = re.search(rb"^DATA[ \t]+(\w+)[ \t]*\r?\n", content[:LARGEST_HEADER], re.MULTILINE)
     end = len(content) if line is None else line.end()
     header = dict(re.findall(rb"^([A-Z]+)[ \t]+(.*?)\r?$", content[:end], re.MULTILINE))

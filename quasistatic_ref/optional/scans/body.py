@@ -80,7 +80,7 @@ class ScannedBody(Plain):
         return -float(self.points[:, 2].min())
 
     def scenario(self) -> str:
-        """A scenario (TOML) in which it is on a floor, the way up that it was scanned."""
+        """A scenario (TOML) in which the scanned body stands on a floor as it was scanned."""
         return (
             'format = "quasistatic-ref/scenario"\n'
             "version = 1\n"
@@ -246,7 +246,7 @@ def _grid(points: Array) -> float | None:
 
 
 def _metres(points: Array, unit: str | None) -> float:
-    """The unit of coordinates [m]; an InputError where it must be said."""
+    """The length of one unit of coordinates [m]; InputError where the caller must state it."""
     if unit is not None:
         if unit not in UNITS:
             problem = f"is not a unit{suggestion(unit, UNITS)}"

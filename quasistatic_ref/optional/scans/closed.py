@@ -69,7 +69,7 @@ def _check_encloses(something: bool) -> None:
 
 
 def _check_edges(ends: Array, problem: str) -> None:
-    """Check that no edge is left, of ends (E, 2, 3) [m]."""
+    """Refuse a mesh with open edges; `ends` are theirs, shape (E, 2, 3) [m]."""
     if len(ends):
         x, y, z = 1e3 * ends[0].mean(axis=0)
         place = f"{len(ends)} edges, the first at ({x:.4g}, {y:.4g}, {z:.4g}) mm"
@@ -77,7 +77,7 @@ def _check_edges(ends: Array, problem: str) -> None:
 
 
 def _check_shells(mesh: trimesh.Trimesh) -> None:
-    """Check that the volumes of all shells, of cavities less than zero, sum to what they fill."""
+    """Refuse overlapping shells: their volumes must sum to the volume that they fill."""
     whole = Manifold()
     for shell in sorted(mesh.split(repair=False), key=lambda shell: -abs(shell.volume)):
         cavity = shell.volume < 0

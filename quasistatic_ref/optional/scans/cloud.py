@@ -27,7 +27,7 @@ def spacing(points: Array) -> float:
 
 
 def stray(points: Array) -> Mask:
-    """Which points, shape (N, 3) [m], belong to no surface of the others, shape (N,)."""
+    """Mask of the points, shape (N,), that are far from the surface of all others."""
     n = len(points)
     tree = cKDTree(points)
     for count in (LINKS // 2, LINKS):  # half of them join most surfaces, in less time
@@ -66,7 +66,7 @@ def thinned(points: Array, count: int) -> Indices:
 
 
 def _farthest(points: Array, chosen: list[int], count: int) -> Indices:
-    """Numbers of points, from those chosen on, each the farthest from all before it."""
+    """Numbers of points: the chosen ones, then again and again the farthest from all before."""
     chosen = list(chosen or [0])
     distance, _ = cKDTree(points[chosen]).query(points)
     while len(chosen) < count:

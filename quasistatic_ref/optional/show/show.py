@@ -54,7 +54,7 @@ def text_page(page: Page) -> str:
 
 
 def html_page(page: Page) -> str:
-    """The same as one HTML element that needs nothing from elsewhere, with more of the rows."""
+    """Title, facts and rows of a page as one HTML element that loads nothing."""
     title, facts, header, rows = page
     parts = [f"<div><p><strong>{_safe(title)}</strong></p>"]
     if facts:

@@ -18,7 +18,7 @@ FORCE = ("f_d1 [N]", "f_d2 [N]", "f_n [N]", "tau_n [N m]")
 
 
 def trajectory_page(trajectory: Trajectory) -> Page:
-    """A run: how far it went, what of it is proved, and its contacts in the last step.
+    """A run in words: its length, its proved steps, and the contacts of its last step.
 
     Contacts that bear load come first.
     """

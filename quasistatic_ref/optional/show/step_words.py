@@ -15,7 +15,7 @@ CONTACT = ("contact", "gap [m]", "normal", "mu_v", "mu_omega [m]", "rows")
 
 
 def certificate_page(certificate: Certificate) -> Page:
-    """What is claimed of an answer."""
+    """A certificate in words: what it proves of a solution."""
     residual = max(certificate.residuals.values(), default=None)
     facts = [f"worst residual {number(residual)}, error bound {number(certificate.error_bound)}"]
     known = certificate.multipliers_unique, certificate.differentiable

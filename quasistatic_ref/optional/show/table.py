@@ -40,7 +40,7 @@ FORMATS: Final = (".csv", ".parquet")
 
 
 def data_frame(trajectory: "Trajectory") -> "DataFrame":
-    """One row a step, its index being t [s].
+    """A run as a data frame with one row for each step, indexed by the time t [s].
 
     ``arm/elbow [rad]`` and ``mug.z [m]`` are positions after the step, ``target arm/elbow [rad]``
     what they were to become, ``delta_q mug/base.z [m]`` the displacement in the step, and
@@ -56,7 +56,7 @@ def data_frame(trajectory: "Trajectory") -> "DataFrame":
 
 
 def contact_frame(trajectory: "Trajectory") -> "DataFrame":
-    """One row a step and contact: t, its pair, its point's number, and its numbers.
+    """A run as a data frame with one row for each contact of each step.
 
     Raises
     ------
@@ -153,7 +153,7 @@ def _sums(trajectory: "Trajectory", pair: str, of_pair: Mask) -> dict[str, NDArr
 
 
 def _of_contacts(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:
-    """What is known of contacts by names of columns, shape (steps, n_c)."""
+    """Columns of the table of contacts by name, shape (steps, n_c) each."""
     columns = {"point": trajectory["point"]}
     arrays = {name: trajectory[name] for name in CONTACT}
     arrays["wrench"] = np.array([shown_forces(trajectory, k) for k in range(trajectory.steps)])

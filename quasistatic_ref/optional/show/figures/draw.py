@@ -182,7 +182,7 @@ def _draw_contact(
 
 
 def camera_of(view: str | Camera) -> Camera:
-    """The camera of a view: one of ``PLANES`` by its name, or that which is given.
+    """The camera of a view: a camera itself, or one of ``PLANES`` by its name.
 
     Raises
     ------
@@ -230,7 +230,7 @@ def round_scale(scale: float) -> float:
 
 
 def _legend(axes: Axes, of: Moment, parts: Collection[str], scale: float) -> None:
-    """What is what, above the axes, in as few lines as there is room for."""
+    """Write above the axes what each colour and line stands for."""
     handles: list[Artist] = []
     if "forces" in parts and scale > 0:
         label = f"1 N is {MILLI * scale:g} mm"

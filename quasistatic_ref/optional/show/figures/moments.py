@@ -58,7 +58,7 @@ class DrawnContact:
 
     @property
     def bears(self) -> bool:
-        """Whether it bears load."""
+        """Whether the contact bears load."""
         return self.state != "apart"
 
 
@@ -94,7 +94,7 @@ class Moment:
 
 
 def still(scene: Scene) -> Moment:
-    """The start of a scene: its bodies where they are, without contacts."""
+    """The moment at which a scene starts: its bodies without contacts."""
     return _moment(scene, scene.system.q_start, 0.0, ())
 
 
@@ -234,7 +234,7 @@ def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:
 
 
 def _state(run: Trajectory, k: int, j: int, frame: Array) -> str:
-    """Of a contact that bears load; ``"sticking"`` where the record does not know it at once."""
+    """State of a contact that bears load; ``"sticking"`` if the record does not hold it."""
     if run.header.record != "full":
         return "sticking"
     delta_q = run["delta_q"][k]  # without private rises, which J has

@@ -51,11 +51,11 @@ class Pen:
         self.camera = camera
 
     def seen(self, points: Array) -> Array:
-        """To the right and upwards [mm], shape (N, 2)."""
+        """Coordinates of points to the right and upwards [mm], shape (N, 2)."""
         return MILLI * self.camera.seen(np.atleast_2d(points))[:, :2]
 
     def dot(self, point: Array, bears: bool) -> None:
-        """A contact point, shape (3,) [m], filled where it bears load."""
+        """Draw a contact point, shape (3,) [m], filled if the contact bears load."""
         self.axes.plot(
             *self.seen(point).T, marker="o", linestyle="", color="black", markeredgewidth=0.6,
             markersize=scaled(3.5 if bears else 2.2), markerfacecolor=FORCE if bears else "white",
@@ -63,14 +63,14 @@ class Pen:
         )  # fmt: skip
 
     def line(self, points: Array, colour: str, dashes: str, width: float) -> None:
-        """A line through points [m]."""
+        """Draw a line through points [m]."""
         self.axes.plot(
             *self.seen(points).T, color=colour, linestyle=dashes, linewidth=scaled(width),
             zorder=7,
         )  # fmt: skip
 
     def bodies(self, of: Moment, centre: Array, half: float) -> None:
-        """From the farthest to the nearest, half-spaces first.
+        """Draw the bodies of a moment from the farthest to the nearest, half-spaces first.
 
         Parameters
         ----------
@@ -114,7 +114,7 @@ class Pen:
         )  # fmt: skip
 
     def _floor(self, floor: HalfSpace, corners: Array) -> None:
-        """A square of its surface; a line, where it is seen from its side."""
+        """Draw a half-space as a square of its surface, or as a line if seen edge on."""
         from_the_side = abs(self.camera.axes()[2] @ floor.normal) < EDGE_ON
         edge, linewidth = ("0.5", 1.4) if from_the_side else ("0.6", 0.6)
         self._fill(self.seen(corners), FLOOR, edge, linewidth, zorder=0.5)
@@ -127,14 +127,14 @@ class Pen:
         )
 
     def hull(self, points: Array) -> None:
-        """Its outline, filled; nothing where it is seen edge on."""
+        """Draw the filled outline of the hull of points, unless it is seen edge on."""
         outline = self.seen(points)
         with suppress(QhullError):
             outline = outline[ConvexHull(outline).vertices]
             self._fill(outline, CONE_FACE, CONE_EDGE, alpha=0.35, zorder=6)
 
     def arrow(self, start: Array, along: Array) -> None:
-        """The arrow of a force.
+        """Draw the arrow of a force.
 
         Parameters
         ----------
@@ -145,7 +145,7 @@ class Pen:
         force_arrow(self.axes, (x, y), (u, v))
 
     def finish(self, box: Array, view: str | Camera) -> None:
-        """Coordinates along an axis of the world only.
+        """Set limits and labels of the axes: coordinates only along an axis of the world.
 
         Parameters
         ----------

@@ -170,7 +170,7 @@ def legend_above(axes: Axes, handles: Sequence[Artist], title: str = "") -> None
 
 
 def _lift_title(axes: Axes, legend: Legend) -> None:
-    """Let the title of axes avoid a legend: Matplotlib lets it avoid axes inside of axes alone."""
+    """Keep the title of axes clear of a legend above them, by an empty inset in its place."""
     inside = axes.inset_axes((0.0, 1.0, 1.0, 0.0))
     inside.set_axis_off()
     page: Any = axes.get_figure(root=False)

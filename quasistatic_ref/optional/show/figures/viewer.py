@@ -126,7 +126,7 @@ def viewer_package() -> ModuleType:
 
 @contextmanager
 def _visualizer(meshcat: ModuleType) -> Iterator[Any]:
-    """A visualizer whose server ends with it; what meshcat prints of its address is not shown."""
+    """A context with a meshcat visualizer, which prints no address and ends with it."""
     with redirect_stdout(StringIO()):
         visualizer = meshcat.Visualizer()
     try:
@@ -149,7 +149,7 @@ def _scene(shown: Scene | Trajectory, run: Trajectory | None) -> tuple[Scene, Tr
 
 
 def _caption(title: str, scene: Scene, run: Trajectory | None, scale: float) -> str:
-    """What is shown, in HTML: the bodies and the states of contacts in their colours."""
+    """The HTML text below a view: its title, and the colours of bodies and contact states."""
     words = [escape(title)]
     if run is not None:
         words.append(f"h = {1e3 * run.header.h:g} ms, friction {escape(run.header.cone)}")
@@ -173,7 +173,7 @@ def scene_drawn(
     scale: float,
     looks: Sequence[Visual] = (),
 ) -> None:
-    """Every object once, and how all move.
+    """Draw every object of a scene once, and add how all of them move.
 
     Links are at ``links/K``, contacts at ``contacts/J`` and their forces at ``forces/J``, each of
     these with an object for each state, of which one is visible at a time.
@@ -236,7 +236,7 @@ def scene_drawn(
 
 
 def _draw_links(links: Any, first: Moment, half: float, looks: Sequence[Visual]) -> None:
-    """All links: what their URDFs show, or else what touches; clouds besides."""
+    """Draw all links with their URDF's visuals, or else their shapes, and the clouds."""
     for k, visual in enumerate(looks):
         links[f"{visual.link}/visual{k}"].set_object(*_lit(visual.corners, visual.colour))
     visible = {visual.link for visual in looks}
@@ -291,5 +291,5 @@ def _y_along(direction: Array) -> Array:
 
 
 def _number(colour: str) -> int:
-    """A colour as three.js has it, a byte each."""
+    """A colour as the 24-bit integer that three.js takes."""
     return int(colour.removeprefix("#"), 16)

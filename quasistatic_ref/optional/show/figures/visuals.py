@@ -26,7 +26,7 @@ AROUND, UP = 32, 12
 
 
 class Visual(NamedTuple):
-    """One visual element.
+    """One visual element of a URDF: a shape, its pose on a link, and its colour.
 
     Parameters
     ----------
