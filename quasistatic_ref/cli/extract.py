@@ -32,7 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Write the step, bit for bit as it was solved.
+    """Write one step of a run as a step file, bit for bit as it was solved.
 
     Raises
     ------

@@ -213,7 +213,7 @@ def _print(record: dict[str, Any]) -> None:
 
 
 def _print_list(heading: str, sentences: Sequence[str]) -> None:
-    """Print a heading and sentences below it; nothing for no sentences."""
+    """Print a heading with sentences below it, unless there is no sentence."""
     if sentences:
         print(f"\n{heading}:")
     for sentence in sentences:

@@ -95,7 +95,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def parsed(arguments: list[str]) -> argparse.Namespace:
-    """The options of the command that is named, whose module is imported for them."""
+    """The options of the command that the arguments name; only its module is imported."""
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed, as by >&-: what is printed goes nowhere
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 open until the process ends
@@ -136,7 +136,7 @@ def status(options: argparse.Namespace) -> int:
 
 
 def _option(error: InputError, options: argparse.Namespace) -> str | None:
-    """The option that wrote the value of an error, as the user wrote it; None if none did."""
+    """The option, as the user wrote it, that holds the value of an error; or None."""
     written = getattr(options, str(error.field), None)
     if written is None or written is False or written != error.value:
         return None

@@ -32,7 +32,7 @@ def _flat(table: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, Any]]:
 
 
 def field_lines(fields: Mapping[str, Any]) -> list[str]:
-    """One line a field, ``name = value``, long values cut."""
+    """A line ``name = value`` for each field, with long values cut."""
     texts = {name: json_text(value) for name, value in fields.items()}
     return [
         f"{name} = {text if len(text) <= WIDTH else text[: WIDTH - 4] + ' ...'}"

@@ -84,7 +84,7 @@ def add(parser: argparse.ArgumentParser, *names: str, **more: Any) -> None:
 
 
 def check_at_least_one(options: argparse.Namespace, name: str) -> None:
-    """Refuse an option that counts something, and is given as less than 1.
+    """Refuse a value below 1 of an option that counts something.
 
     Raises
     ------
@@ -123,7 +123,7 @@ def scenario_settings(options: argparse.Namespace) -> list[str]:
 
 
 def step_of(options: argparse.Namespace) -> StepData:
-    """The step file of a command, in the cone of ``--cone`` where that is given."""
+    """The step of a command's file, in the cone of ``--cone`` if the option was used."""
     step = load_step(options.step)
     return step if options.cone is None else step.replace(cone=options.cone)
 
@@ -162,7 +162,7 @@ def print_wrapped(words: str, indent: str = "", first: str | None = None) -> Non
 
 
 def failed_run(failure: RunFailed, path: Path) -> int:
-    """Write the steps of a failed run, and its failing step; say where they are; its status.
+    """Save the steps of a failed run and its failing step, print where, return the exit status.
 
     A trajectory that is there stays.
     """

@@ -196,7 +196,7 @@ def _print(summary: Mapping[str, Any]) -> None:
 
 
 def check_replaceable(path: Path, steps: int) -> None:
-    """Refuse to replace a file that is there by a run, unless it is a run that is no longer.
+    """Refuse to overwrite a file, unless it is a run of no more steps than this one.
 
     Raises
     ------

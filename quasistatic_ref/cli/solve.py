@@ -37,7 +37,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Solve it and write the solution file; a word on the certificate goes to standard error.
+    """Solve a step file, write the solution, and print its certificate on standard error.
 
     An infeasible step gets a solution file too, with the proof, and exit status 3.
 

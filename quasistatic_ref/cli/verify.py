@@ -22,7 +22,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Exit status 0 if all that is claimed holds, 1 if it does not."""
+    """Verify a solution file; exit status 0 if all of its claims hold, 1 if not."""
     if options.solution is None:
         with needing("an answer of exact_qp"):
             from quasistatic_ref.optional.qp.files import load_answer

@@ -74,7 +74,7 @@ class Field:
 
 
 class Tables(dict[str, dict[str, Field]]):
-    """Fields by name, by the kind of table that they are in."""
+    """The declared fields of each kind of table, by name."""
 
     def fields(self, table: TableReader, kind: str) -> Callable[..., Any]:
         """The values in a table of some kind, as a function of the names of its fields.

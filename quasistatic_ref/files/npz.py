@@ -54,7 +54,7 @@ UNREADABLE: tuple[type[Exception], ...] = (
 def npz_arrays(
     path: str | Path, what: str, only: str = "", missing: frozenset[bytes] = frozenset()
 ) -> dict[str, NDArray[Any]]:
-    """Every array of the file by name, each of the shape and type that it has there.
+    """Every array of a .npz file by name, of the shape and type that the file states.
 
     Parameters
     ----------

@@ -76,7 +76,7 @@ class Plain:
 
 
 class Late(Plain):
-    """Plain data of which some fields are formed when they are read.
+    """Plain data of which some fields are computed when they are read.
 
     A class inherits it before the class whose data it forms.
 
@@ -121,7 +121,7 @@ def field_values(data: Plain) -> dict[str, Any]:
 
 
 def bits(value: Any) -> Any:
-    """Something equal for two values if and only if they are of the same types and bits.
+    """An object that equals that of another value only if types and bits are the same.
 
     Parameters
     ----------

@@ -93,7 +93,7 @@ def nearest_name(name: str, known: Iterable[str]) -> str:
 
 
 def short_words(text: str) -> str:
-    """Text whose unbroken words are clipped: a sentence has none so long but what it quotes."""
+    """The text with very long unbroken words clipped: only quoted input has such words."""
     if len(text) <= LONGEST:
         return text
     return re.sub(rf"\S{{{LONGEST + 1},}}", lambda word: clipped(word[0]), text)

@@ -28,7 +28,7 @@ BASE_WORDS = (FIXED, *BASES)
 
 @dataclass(frozen=True, eq=False)
 class Body(Plain):
-    """One URDF in the world.
+    """One mechanism in the world: a URDF, a shape or a pinocchio Model, and its base.
 
     Parameters
     ----------

@@ -86,7 +86,7 @@ def combined(v: Vector, w: Vector, a: float, c1: float, c2: float) -> list[float
 
 
 def carried(position: Vector, R: list[list[float]], t: Vector) -> list[float]:
-    """The position of a base, 3 floats, after a translation t in its own axes, those of R [m]."""
+    """The position of a base, 3 floats, moved by a translation t along its own axes R [m]."""
     x, y, z = t
     moves = zip(position, R, strict=True)
     return [start + (p * x + q * y + r * z) for start, (p, q, r) in moves]
@@ -130,7 +130,7 @@ def rotation_between(q_joint: Vector, q_joint_next: Vector) -> tuple[list[float]
 
 
 def heading(q_joint: Vector, angle: float) -> list[float]:
-    """(cos, sin) turned by an angle, of length one; without a turn as it is."""
+    """The pair (cos, sin) of a heading turned by an angle, scaled to length one."""
     if angle == 0:
         return [*q_joint]
     c, s = q_joint

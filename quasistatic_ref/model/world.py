@@ -156,7 +156,7 @@ def _prefixed(model: pin.Model, name: str) -> pin.Model:
 
 
 def _anchor(body: Body) -> pin.SE3:
-    """Placement of a body's model in the world, as far as q does not hold it."""
+    """Pose of a body's model in the world, where q does not hold it."""
     xyz = np.array(body.xyz)
     if body.base == FIXED:
         return pin.SE3(rotation(np.asarray(body.rpy)), xyz)

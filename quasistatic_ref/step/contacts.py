@@ -112,12 +112,12 @@ class Contacts(Plain, Shown):
 
     @property
     def moved(self) -> tuple[Indices, Indices]:
-        """Contacts and coordinates that move them, (k,) each: where J is not zero."""
+        """Indices of the contacts and coordinates, (k,) each, for which J is not zero."""
         contact, coordinate = np.nonzero(self.J.any(axis=1))
         return contact, coordinate
 
     def raised(self, s: Array) -> Contacts:
-        """These contacts with phi + s, shape (n_c,) [m], in the place of phi."""
+        """These contacts with gaps phi + s, where s has shape (n_c,) [m]."""
         return replace(self, phi=self.phi + s)
 
     def motion(self, delta_q: Array) -> Array:

@@ -72,5 +72,5 @@ def ends_within(step: StepData, units: Units, far: float = FAR) -> tuple[Array, 
 
 
 def _lengths(J: Array) -> Array:
-    """At least 1, and at least the length of the rows of each of J, (n, rows, n_v): (n,) [-]."""
+    """The Frobenius norm of each matrix of J, (n, rows, n_v), and at least 1, shape (n,) [-]."""
     return np.asarray(np.maximum(1.0, np.sqrt(np.einsum("cij,cij->c", J, J))))

@@ -217,7 +217,7 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
 
 
 def _followers(system: System, entry: BodyEntry) -> dict[str, str]:
-    """For each joint that mimics another: the sentence that it has no coordinate of its own."""
+    """A sentence for each joint that mimics another: it has no coordinate of its own."""
     body = f"{entry.body.name}/"
     return {
         one.name.removeprefix(body): no_coordinate(one.of.removeprefix(body))

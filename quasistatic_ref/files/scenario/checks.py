@@ -35,7 +35,7 @@ def ignored_findings(table: TableReader) -> tuple[str, ...]:
 
 
 def checked_fields(table: TableReader, kind: str) -> Callable[..., Any]:
-    """The fields of a table, as :func:`.fields_of` has them, without a name that is none of them.
+    """The fields of a table, after a check that each name in the table is one of them.
 
     Raises
     ------

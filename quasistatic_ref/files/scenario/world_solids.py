@@ -22,7 +22,7 @@ from quasistatic_ref.shapes.placed_shape import (
 
 
 class Kind(NamedTuple):
-    """One kind of solid.
+    """One kind of solid that a scenario's table can hold.
 
     Parameters
     ----------

@@ -46,11 +46,11 @@ class Tag:
     notes: list[str] = field(default_factory=list)
 
     def inner(self, element: Element, where: str) -> "Tag":
-        """An element inside of this one, and what it is called in messages."""
+        """A child element, with its name for messages."""
         return replace(self, element=element, where=where)
 
     def named(self, tag: str) -> Iterator["Tag"]:
-        """The children of that kind, which are called by their names, as ``link[base]``."""
+        """The children of one kind, called by their names in messages, as ``link[base]``."""
         for element in self.element.findall(tag):
             name = self.inner(element, tag).text("name")
             yield self.inner(element, f"{tag}[{name}]")

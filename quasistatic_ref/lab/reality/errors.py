@@ -44,7 +44,7 @@ def estimate(groups: Sequence[Array]) -> dict[str, list[float]]:
 
 
 def summary(poses: Mapping[str, Array], pushes: Mapping[str, Pushes]) -> dict[str, dict[str, Any]]:
-    """One entry for each pair and one, ``all``, for the mean over pairs: plain data.
+    """Errors for each pair, and their mean over pairs under ``all``, as plain data.
 
     Each has ``pushes``, ``error``, ``moved``, ``published`` and ``more`` (error less that of the
     published simulator, push by push): each of the last four has ``mean``, ``low`` and ``high``,

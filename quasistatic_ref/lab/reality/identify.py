@@ -40,7 +40,7 @@ def identified_ratio(loads: Loads, rho: float) -> float:
 
 
 def cosines(loads: Loads, chi: float, rho: float) -> Array:
-    """Of the angle between each measured twist and that predicted from its load, shape (n,).
+    """Cosines of the angles between measured twists and those predicted by loads, (n,).
 
     Parameters
     ----------

@@ -53,7 +53,7 @@ class Loads:
     twist: Array
 
     def about(self, centre: Array) -> "Loads":
-        """The same about a `centre`, shape (2,) [m]."""
+        """The same loads and motions about a `centre`, shape (2,) [m]."""
         wrench = self.wrench.copy()
         twist = self.twist.copy()
         x, y = centre
@@ -109,7 +109,7 @@ def pairs_read(only: Sequence[str] = ()) -> list[Pair]:
 
 
 def loads_read(pairs: Sequence[Pair]) -> dict[str, Loads]:
-    """The loads of each pair about the centre of its outline; those that move nothing are left out.
+    """The loads of each pair about the centre of its outline; loads without motion are left out.
 
     The name of a pair -> its loads.
     """
@@ -123,7 +123,7 @@ def loads_read(pairs: Sequence[Pair]) -> dict[str, Loads]:
 
 
 def pushes_read(pairs: Sequence[Pair]) -> dict[str, Pushes]:
-    """The pushes of each pair: its name -> all of them, in the order of their numbers."""
+    """The pushes of each pair by the pair's name, in the order of their numbers."""
     return {
         pair.name: Pushes(
             _columns(rows, "x0", "y0", "theta0"),

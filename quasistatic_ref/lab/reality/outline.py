@@ -29,7 +29,7 @@ class Outline:
 
     @cached_property
     def area(self) -> float:
-        """Its area [m^2]."""
+        """Area inside of the outline [m^2]."""
         return float(np.sum(_crosses(self.vertices))) / 2
 
     @cached_property
@@ -62,7 +62,7 @@ class Outline:
         return float(_crosses(a) @ means / (3 * self.area))
 
     def closest(self, point: Array) -> tuple[float, Array, Array]:
-        """Where a point is closest to it.
+        """The outline's closest point to a given point, with distance and normal.
 
         Parameters
         ----------

@@ -92,7 +92,7 @@ def prediction(of: Pushed, pose: Array, path: Array, certify: Certify = "full") 
 
 
 def solver_for_step(step: StepData, solver: Solver | None) -> Solver:
-    """A solver that takes the step: the one before, where it does."""
+    """A solver for the step: the solver of the step before if it fits."""
     if solver is None or not solver.fits(step):
         return solver_for(step, fast=True)
     return solver
@@ -152,7 +152,7 @@ CLOSE = 1e-6
 
 
 def from_contact(points: list[Array], gap: Callable[[Array], float]) -> list[Array]:
-    """What is left of a path, points of shape (2,) [m], from where it first touches.
+    """The rest of a path, points of shape (2,) [m], from its first contact on.
 
     Parameters
     ----------

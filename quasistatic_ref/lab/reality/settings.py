@@ -42,5 +42,5 @@ class Settings:
         return self.advance / (self.mu_v * GRAVITY * self.h**2)
 
     def record(self) -> dict[str, Any]:
-        """The same as plain data."""
+        """The settings as plain data."""
         return asdict(self)

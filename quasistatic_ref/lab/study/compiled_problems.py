@@ -36,7 +36,7 @@ class CompiledProblem:
         return np.array(self.x.value, dtype=np.float64)
 
     def dual(self) -> Array | None:
-        """Its multipliers, shape (m,), where the backend has any."""
+        """Multipliers of the problem, shape (m,), if the backend returned any."""
         parts = [row.dual_value for row in self.rows]
         if any(part is None for part in parts):
             return None

@@ -149,7 +149,7 @@ def _by_setting(table: Any) -> Any:
 
 
 def _best(every: Any) -> Any:
-    """For each solver its best line: the one with six digits most often, by any interface."""
+    """The best row of each solver: the one that most often has six digits."""
     order = every.sort_values(["six", "ms"], ascending=[False, True])
     return order[~order["label"].str.partition(":")[2].duplicated()]
 

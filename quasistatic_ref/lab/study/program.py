@@ -29,7 +29,7 @@ class Program(NamedTuple):
     equations: int = 0
 
     def natural(self, units: Units) -> "Program":
-        """The same in natural units, which are powers of two: nothing is rounded."""
+        """The program in natural units, which are powers of two: nothing is rounded."""
         form = natural_form(StandardForm(*self[:4]), units)
         return Program(*form, self.equations)
 
@@ -43,19 +43,19 @@ class Known(Protocol):
 
     @property
     def id(self) -> str:
-        """Its name, which no other problem of the study has."""
+        """The program's name, unique in a study."""
 
     @property
     def family(self) -> str:
-        """What it is a member of: a row of the table by families."""
+        """The name of the program's family, a row of the table by families."""
 
     @property
     def dial(self) -> float | None:
-        """Where the dial of its family stands; None: it has none."""
+        """The value of the family's dial; None if the family has no dial."""
 
     @property
     def feasible(self) -> bool:
-        """Whether it has a solution."""
+        """Whether the program has a solution."""
 
     @property
     def program(self) -> Program:

@@ -106,7 +106,7 @@ def study(
     limits: Limits | None = None,
     progress: bool = True,
 ) -> list[Row]:
-    """Put problems to solvers, or what is left of them: a row for each call.
+    """Run what is left of a study: each problem by each solver and setting, a row a call.
 
     Parameters
     ----------
@@ -233,7 +233,7 @@ def _recorded(path: Path, numbers: Mapping[str, str], limits: Limits) -> None:
 def _measured_all(
     todo: Sequence[Measurement], limits: Limits, executor: Executor | None
 ) -> Iterator[Sequence[Row]]:
-    """The rows of all measurements, as they come: one after the other, or from an executor."""
+    """The rows of all measurements, as an executor, or this process, finishes them."""
     by_solver = [list(some) for _, some in groupby(todo, key=lambda one: one.solver.label)]
     if executor is None:
         for measurements in by_solver:
@@ -248,7 +248,7 @@ def _measured_all(
 
 
 def rows_of_block(measurements: Sequence[Measurement], limits: Limits) -> list[Row]:
-    """The rows of some measurements of one solver, wherever an executor calls for them."""
+    """The rows of some measurements of one solver, measured in this process."""
     return list(measured(measurements, limits))
 
 

@@ -59,7 +59,7 @@ def known_to(door: str) -> list[str]:
 
 
 def installed_here(door: str) -> tuple[str, ...]:
-    """Those of them that are installed."""
+    """The installed ones of the solvers that an interface offers."""
     others = [name for name in known_to(door) if name not in BACKENDS and find_spec(name)]
     return (*installed(door), *others)
 
@@ -96,22 +96,22 @@ class Solver:
 
     @property
     def facts(self) -> dict[str, Any]:
-        """What the table knows of it: nothing of a function."""
+        """The facts about the solver in the table of backends; empty for a function."""
         return {} if self.door == FUNCTION else table()[self.target]
 
     @property
     def version(self) -> str:
-        """Of the package that it comes in; "" of a function."""
+        """Version of the package that holds the solver; empty for a function."""
         known = BACKENDS.get(self.target)
         package = known.to_install if known else self.target
         return "" if self.door == FUNCTION else _version(package)
 
     def takes(self, setting: Setting) -> bool:
-        """Whether a setting means anything to it."""
+        """Whether a setting has a meaning for the solver."""
         return setting.name in self.options or setting.accuracy is None or "accuracy" in self.facts
 
     def asked(self, setting: Setting, seconds: float) -> tuple[Options, float | None]:
-        """The options that a setting is to this solver, and the accuracy that it is asked for.
+        """The solver's options for a setting, and the accuracy that they ask for.
 
         Parameters
         ----------
@@ -173,7 +173,7 @@ def function_solver(
 
 
 def solvers_of(wanted: Iterable[str | Callable[..., Any] | Solver]) -> list[Solver]:
-    """Solvers by their names, functions and solvers, each once.
+    """Solvers by their names, and functions, each once.
 
     Raises
     ------
@@ -194,7 +194,7 @@ def solvers_of(wanted: Iterable[str | Callable[..., Any] | Solver]) -> list[Solv
 
 
 def settings_of(wanted: Iterable[str | Setting]) -> list[Setting]:
-    """Settings by their names, and others, each once; InputError if a name is unknown."""
+    """Settings by their names, and settings themselves, each once; InputError otherwise."""
     known = {setting.name: setting for setting in SETTINGS}
     chosen: dict[str, Setting] = {}
     for one in wanted:

@@ -171,7 +171,7 @@ class SolverProcess:
         return self._connection is not None
 
     def end(self) -> None:
-        """End the process, and what it has started."""
+        """End the worker process, and all processes that it has started."""
         if self._connection is not None:
             self._connection.close()
             with contextlib.suppress(ProcessLookupError):

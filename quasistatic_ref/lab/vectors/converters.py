@@ -49,7 +49,7 @@ def tangent_map(mechanism: Json, q: Json, tangent: str) -> Array:
 
 
 def converted(layer: str, case: Json, output: Json, tangent: str, quaternion: str) -> Json:
-    """An answer in the package's conventions; one that has them already is returned as it is.
+    """An answer in the package's conventions, converted from those of another program.
 
     Raises
     ------

@@ -27,7 +27,7 @@ SHARED = "shared"
 
 @dataclass(frozen=True)
 class Case:
-    """One input of a layer.
+    """One input of a layer, by its name.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def answers_written(
 
 
 def check_layer(name: str) -> str:
-    """Return a layer's name; InputError if it is none."""
+    """The name of a layer; InputError if no layer has it."""
     if name not in LAYERS:
         raise InputError(f"is not a layer{suggestion(name, LAYERS)}", field="layer", value=name)
     return name

@@ -29,7 +29,7 @@ COPIED = ("README.md", "CITATION.cff", "LICENSE*", "inputs/*.json", "schemas/*.j
 
 
 def new_record(name: str, case: Case) -> dict[str, Json]:
-    """What a layer is expected to answer to a new case, as it stands in the file.
+    """The expected output of a layer for a new case, as its file stores it.
 
     Raises
     ------

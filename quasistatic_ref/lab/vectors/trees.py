@@ -10,7 +10,7 @@ Path = tuple[str | int, ...]
 
 
 def nodes(value: Json, path: Path = ()) -> Iterator[tuple[Path, Json]]:
-    """Every part with its place, the whole before what is in it."""
+    """Every part of a JSON value with its path; a whole comes before its parts."""
     yield path, value
     inside = enumerate(value) if isinstance(value, list) else ()
     for key, inner in value.items() if isinstance(value, dict) else inside:
@@ -18,7 +18,7 @@ def nodes(value: Json, path: Path = ()) -> Iterator[tuple[Path, Json]]:
 
 
 def mapped(value: Json, leaf: Callable[[Json], Json], kept: Collection[str] = ()) -> Json:
-    """The same nesting with another value in the place of each leaf; fields `kept` stay."""
+    """The JSON value with every leaf replaced, except in the fields `kept`."""
     if isinstance(value, dict):
         return {key: v if key in kept else mapped(v, leaf, kept) for key, v in value.items()}
     if isinstance(value, list | tuple):

@@ -130,7 +130,7 @@ def _equal(one: Array, other: Array, rounding: float) -> bool:
 
 
 def _slope(sides: Sequence[Side], rounding: float, nowhere: Array) -> Array:
-    """Of the slopes by smaller and smaller differences the first that the next one confirms."""
+    """The first slope, of differences that get smaller, that the next slope confirms."""
     slopes = [side.slope if len(side.ends) == 2 else nowhere for side in sides]
     for slope, smaller, side in zip(slopes, slopes[1:], sides[1:], strict=False):
         if _equal(slope, smaller, rounding / abs(side.eps)):

@@ -79,42 +79,42 @@ class Derivatives(Plain, Shown):
 
     @property
     def dq_dq(self) -> Array:
-        """By q, shape (n_v, n_v) [per m or rad]."""
+        """The derivative of q+ by q, shape (n_v, n_v) [per m or rad]."""
         return self._rate("q")
 
     @property
     def dq_dq_bar_a(self) -> Array:
-        """By the target of the actuated coordinates, shape (n_v, n_a) [per m or rad]."""
+        """The derivative of q+ by the target q_bar_a, shape (n_v, n_a) [per m or rad]."""
         return self._rate("q_bar_a")
 
     @property
     def dq_dtau(self) -> Array:
-        """By the external generalised force, shape (n_v, n_v) [per N or N m]."""
+        """The derivative of q+ by the external force tau, shape (n_v, n_v) [per N or N m]."""
         return self._rate("tau")
 
     @property
     def dq_dmu_v(self) -> Array:
-        """By each pair's coefficient of friction, shape (n_v, pairs) [per 1]."""
+        """The derivative of q+ by each pair's mu_v, shape (n_v, pairs) [per 1]."""
         return self._rate("mu_v")
 
     @property
     def dq_dmu_omega(self) -> Array:
-        """By each pair's torsional coefficient, shape (n_v, pairs) [per m]."""
+        """The derivative of q+ by each pair's mu_omega, shape (n_v, pairs) [per m]."""
         return self._rate("mu_omega")
 
     @property
     def dq_dK_q(self) -> Array:
-        """By the diagonal of K_q, shape (n_v, n_a) [per N/m or N m/rad]."""
+        """The derivative of q+ by the diagonal of K_q, shape (n_v, n_a) [per N/m or N m/rad]."""
         return self._rate("K_q")
 
     @property
     def dq_dh(self) -> Array:
-        """By the time step, shape (n_v,) [per s]."""
+        """The derivative of q+ by the time step h, shape (n_v,) [per s]."""
         return np.asarray(self._rate("h")[:, 0])
 
     @property
     def dq_dmasses(self) -> Array:
-        """By each link's mass, its inertia about its centre staying, shape (n_v, L) [per kg]."""
+        """The derivative of q+ by each link's mass, its inertia fixed, shape (n_v, L) [per kg]."""
         return self._rate("masses")
 
     def along(self, **directions: ArrayLike) -> Array:

@@ -38,7 +38,7 @@ class StepOfEntries:
         return exact_step(self._simulator, *self._unit(q, q_bar_a), force).q
 
     def slope(self, q: Array, q_bar_a: Array, force: Array, *tangents: Array) -> Array:
-        """The change of q+ along a tangent of each of them, shape (n_q,): one column.
+        """The change of q+ along tangents of q, q_bar_a and the force, shape (n_q,).
 
         Parameters
         ----------
@@ -65,7 +65,7 @@ class StepOfEntries:
         return np.asarray(self._outward(near.result.q) @ (size * column.rate))
 
     def columns(self, name: str, q: Array, q_bar_a: Array, force: Array) -> Array:
-        """The derivatives of q+ by one of them, shape (n_q, P).
+        """The derivatives of q+ by q, q_bar_a or the force, shape (n_q, P).
 
         Raises
         ------
@@ -85,7 +85,7 @@ class StepOfEntries:
         return at, system.checked(whole)[: system.n_q_a]
 
     def _inward(self, name: str, q: Array, q_bar_a: Array) -> Array:
-        """How tangent coordinates of one of them change with its entries."""
+        """The derivative of tangent coordinates by entries of q or of q_bar_a."""
         system = self._system
         if name == "tau":
             return np.eye(system.n_v)

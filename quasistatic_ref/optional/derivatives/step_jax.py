@@ -90,7 +90,7 @@ def jax_package() -> ModuleType:
 
 
 class _Calls:
-    """A step and its derivatives, as functions of JAX that are called outside of it.
+    """A step and its derivatives as functions that JAX calls on the host.
 
     Attributes
     ----------

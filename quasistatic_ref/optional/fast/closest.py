@@ -16,7 +16,7 @@ from quasistatic_ref.shapes.rounded import Rounded
 
 
 def solid_size(pair: ContactPair) -> Array | None:
-    """The four numbers that fast.h wants of the solid under a cloud; None where C does not know it.
+    """The four numbers that C takes of a solid under a cloud; None if C does not know it.
 
     Returns
     -------

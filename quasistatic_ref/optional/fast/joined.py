@@ -36,7 +36,7 @@ class JoinedContacts(Late, Contacts):
 
     @property
     def moved(self) -> tuple[Indices, Indices]:
-        """Contacts and coordinates that move them, (k,) each: where J is not zero."""
+        """Indices of the contacts and coordinates, (k,) each, for which J is not zero."""
         contact, k = np.nonzero(self.own_J.any(axis=1))
         return contact, self.column[contact, k]
 

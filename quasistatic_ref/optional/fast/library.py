@@ -74,5 +74,5 @@ class Structure:
             setattr(self.pointer, field, ffi.cast(types[field].type, number))
 
     def __getitem__(self, field: str) -> NDArray[Any]:
-        """One of its arrays, which C may write."""
+        """An array of the structure by its field, which C may write."""
         return self._arrays[field]

@@ -55,7 +55,7 @@ class Poses:
         self._kinematics: Kinematics | None = None
 
     def move(self, q: Array) -> None:
-        """Write the poses of a configuration (n_q,), unless they are already written."""
+        """Write the poses of a configuration (n_q,), unless the last call wrote the same."""
         at = q.tobytes()
         if at == self._at:
             return

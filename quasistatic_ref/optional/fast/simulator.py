@@ -180,7 +180,7 @@ class FastSimulator(Simulator):
     def step(
         self, q: ArrayLike | State, q_bar_a: ArrayLike, force: ArrayLike | None = 0.0
     ) -> StepResult:
-        """One step, as of a Simulator."""
+        """Take one step, as `Simulator.step` does, and to the same bits."""
         with by_one_thread(self.system):
             if self.by_c:
                 try:
@@ -196,7 +196,7 @@ class FastSimulator(Simulator):
             return self.simulator.step(q, q_bar_a, force)
 
     def _step(self, q: ArrayLike, q_bar_a: ArrayLike, force: ArrayLike | None) -> StepResult | None:
-        """The step; None if it is a first step whose data differ from the plain path's."""
+        """One step by compiled code; None if its data differ from the plain path's first step."""
         times: dict[str, float] = {}
         lap = stopwatch(times)
         change = self._sums.actuated_difference(q, q_bar_a)  # which checks both
@@ -291,7 +291,7 @@ class FastSimulator(Simulator):
             return self.otherwise_solved(step, failure)
 
     def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
-        """The closest points, as the simulator finds them."""
+        """Closest points by the plain simulator."""
         return self.simulator.closest_points(kinematics)
 
     def step_data(
@@ -301,7 +301,7 @@ class FastSimulator(Simulator):
         force: ArrayLike | None,
         points: ClosestPoints,
     ) -> StepData:
-        """The problem of one step, as the simulator forms it."""
+        """The data of one step by the plain simulator."""
         return self.simulator.step_data(q, q_bar_a, force, points)
 
     def fitting_solver(self, step: StepData) -> Solver:
@@ -313,6 +313,6 @@ class FastSimulator(Simulator):
         return self.solver
 
     def start_cold(self) -> None:
-        """Forget what the solvers keep of earlier steps, if answers depend on it."""
+        """Forget all that answers of later steps could depend on."""
         super().start_cold()
         self.simulator.start_cold()

@@ -24,7 +24,7 @@ DAQP = "daqp"
 
 
 def fast_solver(step: StepData, name: str | None = None) -> Solver:
-    """DAQP by its own interface, where it is asked for by name or by default; others as without.
+    """DAQP by its own interface if `name` asks for it; another solver through CVXPY.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ class FormedStep(ScaledStep):
 
 
 class FastSolver(BackendSolver):
-    """DAQP for steps of one kind; it starts from its answer to the step before.
+    """DAQP for steps of one kind; each starts from the answer of the step before.
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ class FastSolver(BackendSolver):
         self.written = None
 
     def reply(self, options: Options, scaled: ScaledStep) -> Reply:
-        """One attempt, by the workspaces that are kept if the groups are those of before."""
+        """One attempt, in the kept workspaces if the groups of the step are as before."""
         kept = self._kept.pop(id(options), None)  # what has raised is set up again
         if kept is None or kept.program is not self.program:
             kept = Workspaces(self.program, self._blocks, options)

@@ -100,7 +100,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class Body:
-    """A body that touches and can move, in both; with all that is welded to it.
+    """A body that moves and touches in both engines, with all bodies welded to it.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ class Body:
 
 
 class Mover(NamedTuple):
-    """A body that can move, with all that is welded to it.
+    """A body that can move, with all bodies welded to it.
 
     Parameters
     ----------
@@ -301,7 +301,7 @@ class Compared:
         )
 
     def _balanced(self, mover: Mover) -> bool:
-        """Whether what accelerates a body is no more than FORCES_AGREE of the forces on it."""
+        """Whether the net force on a body is at most FORCES_AGREE of the forces on it."""
         theirs = self.theirs
         touching = [mover.name in contact.bodies for contact in theirs.contacts]
         forces = theirs.wrenches[touching, 2]

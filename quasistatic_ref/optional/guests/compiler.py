@@ -40,7 +40,7 @@ LARGEST_MODEL = 256 * 2**20
 
 
 def compiled_model(path: Path, roots: Sequence[str | Path] = ()) -> MjModel:
-    """The model of an MJCF file as MuJoCo compiles it; its warnings are not printed from then on.
+    """The model of an MJCF file as MuJoCo compiles it, with later warnings not printed.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def compiled_model(path: Path, roots: Sequence[str | Path] = ()) -> MjModel:
 
 
 def quiet_mujoco() -> ModuleType:
-    """MuJoCo, which else prints what it warns of, and writes MUJOCO_LOG.TXT where it is called."""
+    """MuJoCo's module, set to neither print warnings nor write MUJOCO_LOG.TXT."""
     mujoco = needed_package("mujoco", "engines", "MJCF")
     mujoco.set_mju_user_warning(lambda text: None)
     return mujoco

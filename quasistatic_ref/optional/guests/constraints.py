@@ -55,7 +55,7 @@ class Row(NamedTuple):
 
 
 class Held(NamedTuple):
-    """The equalities of a step, and what of them it leaves out.
+    """The equality constraints that a step takes over from MuJoCo, and those that it leaves out.
 
     Parameters
     ----------
@@ -210,7 +210,7 @@ def extra_of(rows: Sequence[Row], n: int) -> Extra:
 
 
 def followers(state: MujocoState, tied: Tied) -> Sequence[tuple[int, int, tuple[float, float]]]:
-    """Joints that follow others: their entries of qpos, the other's (-1: none), and a line.
+    """Joints that follow others: their qpos entries, their leaders' (-1: none), and a line.
 
     Raises
     ------

@@ -78,7 +78,7 @@ def findings(
 
 
 class _Meeting(NamedTuple):
-    """Two bodies that touch: their contacts, and those of them that can move."""
+    """Two bodies that touch: their contacts, and which of the two can move."""
 
     contacts: list[Contact]
     bodies: list[Body]
@@ -173,7 +173,7 @@ def _motion_of(side: Bearing, body: Body) -> float:
 
 
 def _share(touching: Sequence[Contact], pair: str) -> float:
-    """Of what the contacts of a pair could bear together, the share that MuJoCo's do [-]."""
+    """The share of what the contacts of a pair could bear that MuJoCo's forces use [-]."""
     sides = [c.theirs for c in touching if c.pair == pair and c.theirs.normal > 0]
     normal = sum(side.normal for side in sides)
     return sum(side.share * side.normal for side in sides) / normal if normal else 0.0
@@ -252,7 +252,7 @@ def _penetration(meeting: _Meeting, weight: float) -> Iterator[Named]:
 
 
 def _inside(meeting: _Meeting, size: float) -> Named:
-    """Two bodies that are so deep in each other that they are not rigid."""
+    """The finding that two bodies overlap so deeply that they cannot be rigid."""
     cause = f"{meeting.depth / size:.0%} of the distance from the middle to the farthest point of "
     cause += "the smaller one; rigid bodies do not"
     return _penetrates(meeting, cause, STIFFER)

@@ -104,7 +104,7 @@ def passive_springs(state: MujocoState) -> Iterator[Spring]:
 
 
 def slack(state: MujocoState, i: int) -> bool:
-    """Whether the spring of a tendon is within the lengths at which it does not pull."""
+    """Whether a tendon's spring is within the range of lengths in which it does not pull."""
     shortest, longest = state.model.tendon_lengthspring[i]
     return bool(shortest < state.data.ten_length[i] < longest)
 
@@ -134,13 +134,13 @@ def disabled(state: MujocoState, i: int) -> bool:
 
 
 def stiffness(state: MujocoState, i: int) -> float:
-    """By how much the force of an actuator falls with its length [N/m, N m/rad]."""
+    """How much an actuator's force falls per unit of its length [N/m, N m/rad]."""
     affine = kind_of(state, "actuator_biastype", i) == "AFFINE"
     return -float(state.model.actuator_biasprm[i, 1]) if affine else 0.0
 
 
 def saturated(state: MujocoState, i: int, m: Array) -> bool:
-    """Whether the force of an actuator is as large as it, its joint or its tendon may have it."""
+    """Whether an actuator's force is at a limit of the actuator, its joint or its tendon."""
     model = state.model
     data = state.data
     j = model.actuator_trnid[i, 0]

@@ -210,7 +210,7 @@ def actuated(state: MujocoState, springs: Sequence[Spring], T: Array) -> tuple[I
 
 
 def default_cone(model: MjModel, rubs: bool, extra: Extra) -> tuple[str, tuple[str, ...]]:
-    """The cone of a model, of which contacts rub or not, and a note where it is another."""
+    """The cone of a model, which of its contacts rub, and a note where MuJoCo's differs."""
     if not (model.opt.cone and rubs):
         return PYRAMID, ()
     if equality := first_equality(extra):
@@ -268,7 +268,7 @@ def friction_name(state: MujocoState, row: int) -> str:
 
 
 def coordinate_name(state: MujocoState, dof: int) -> str:
-    """One of MuJoCo's velocities by its joint."""
+    """The name of one of MuJoCo's velocities, formed from its joint's."""
     joint = int(state.model.dof_jntid[dof])
     axes = AXES.get(kind_of(state, "jnt_type", joint))
     axis = f".{axes[dof - state.model.jnt_dofadr[joint]]}" if axes else ""

@@ -115,7 +115,7 @@ def mujoco_opinion(
 
 
 def _answer(state: MujocoState, data: MjData, now: MjData) -> MujocoAnswer:
-    """What MuJoCo says of a state: at rest, as the user has it, and `now`, after ``mj_forward``."""
+    """MuJoCo's forces in a state: at rest, as the user has it, and `now`, by ``mj_forward``."""
     model = state.model
     active = awake(model)
     moves = copy.copy(now)
@@ -136,7 +136,7 @@ def _answer(state: MujocoState, data: MjData, now: MjData) -> MujocoAnswer:
 
 
 def _mover(state: MujocoState, b: int) -> Mover:
-    """A body by its number, with all that is welded to it."""
+    """The body of a number, with all bodies welded to it."""
     model = state.model
     welded = np.flatnonzero(model.body_weldid == b)
     geoms = np.flatnonzero(np.isin(model.geom_bodyid, welded))

@@ -166,7 +166,7 @@ def _table(
     sides: Sequence[tuple[object, object]],
     columns: Mapping[str, tuple[str, float]],
 ) -> list[tuple[str, ...]]:
-    """Rows with three columns for each number: MuJoCo's, the exact one, how they differ."""
+    """Rows with three columns for each number: MuJoCo's, the exact one, their difference."""
     rows = [(first, *(word for column in columns for word in (column, "exact", "diff")))]
     for name, (theirs, exact) in zip(names, sides, strict=True):
         cells = []

@@ -38,7 +38,7 @@ def unlisted(state: MujocoState) -> Iterator[Named]:
 
 
 def misplaced(state: MujocoState) -> Iterator[Named]:
-    """Findings on geoms that start so deep in each other that they cannot be meant to be there."""
+    """Findings on geoms that overlap so deeply at the start that it must be a mistake."""
     radii = state.model.geom_rbound
     for overlap in overlaps(state):
         least = min(radii[g] for g in overlap.geoms if radii[g] > 0)
@@ -47,7 +47,7 @@ def misplaced(state: MujocoState) -> Iterator[Named]:
 
 
 def _penetrates(state: MujocoState, overlap: Overlap, when: str) -> Named:
-    """The finding about two geoms, whatever MuJoCo makes of them."""
+    """The finding that two geoms overlap."""
     a, b = overlap.geoms
     body, other = touches.mover_name(state, a), touches.mover_name(state, b)
     if body == "world":

@@ -103,7 +103,7 @@ class Places:
         return ContactPair(name, sides[0], sides[1], mu_v, mu_omega, rows=rows, k=k)
 
     def points(self, state: MujocoState) -> ClosestPoints:
-        """The contacts of all pairs in their places, each pair's in ascending distance.
+        """The contacts of all pairs in their places, in each pair by ascending distance.
 
         phi is MuJoCo's distance less its margin; alpha and beta are on the surfaces. Places beyond
         those of a pair's contacts have the centres of its geoms, a vertical normal, and the gap
@@ -143,7 +143,7 @@ class Places:
 
 
 def overlapped_children(state: MujocoState, places: Places) -> tuple[str, ...]:
-    """Sentences on bodies that overlap what joints hold to them, which MuJoCo lets them touch.
+    """Sentences on bodies that overlap those they are jointed to, where MuJoCo sees contact.
 
     Its filter of parents and children leaves out bodies that are part of the world.
     """
@@ -167,7 +167,7 @@ def overlapped_children(state: MujocoState, places: Places) -> tuple[str, ...]:
 
 
 def _places_of(state: MujocoState, a: int, b: int) -> int:
-    """Places of a pair of geoms, by their kinds."""
+    """Number of contact places of a pair of geoms, by their kinds."""
     kinds = {geom_kind(state, g) for g in (a, b)}
     if kinds & {*ONE}:
         return 1
@@ -233,7 +233,7 @@ def candidates(state: MujocoState, gap: float = 0.0) -> list[MjContact]:
 
 
 def _gaps(model: MjModel) -> tuple[tuple[Array, float], ...]:
-    """What decides from which gap on MuJoCo has a contact; those of two geoms or bodies add up."""
+    """The numbers by which MuJoCo decides at what gap two geoms have a contact."""
     return (model.geom_gap, 0.5), (model.pair_gap, 1.0), (model.body_margin, 0.5)
 
 

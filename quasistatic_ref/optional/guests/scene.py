@@ -52,7 +52,7 @@ class MujocoSimulator(Simulator):
     """A simulator whose closest points are those that MuJoCo finds."""
 
     def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
-        """The contacts of all pairs, in their places."""
+        """The contacts of all pairs, each in its fixed place."""
         points = cast("Placed", kinematics).points
         assert points is not None
         return points

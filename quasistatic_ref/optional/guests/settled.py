@@ -66,7 +66,7 @@ def settled(
 
 
 def velocities(model: MjModel, data: MjData, seconds: float) -> tuple[Array, Array]:
-    """MuJoCo's mean velocity over the next seconds [s], and over as many after them, (nv,) each.
+    """MuJoCo's mean velocities over some seconds [s], and over as many after them, (nv,) each.
 
     The controls stay those of `data`.
 

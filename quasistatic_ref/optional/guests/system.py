@@ -321,7 +321,7 @@ class MujocoSystem(Mechanism):
         return SceneState(self, q)
 
     def freed(self, points: ClosestPoints, columns: Array) -> ClosestPoints:
-        """The same places, except that a contact which nothing can open bears nothing.
+        """The same contacts, except that a contact that nothing can open bears no load.
 
         Its bodies are in each other, and no joint moves them along its normal.
 

@@ -68,7 +68,7 @@ class StateContact(NamedTuple):
 
 
 def numbers(state: MujocoState) -> list[int]:
-    """MuJoCo's numbers of its contacts, without those between bodies that do not move."""
+    """Numbers of MuJoCo's contacts between bodies of which at least one can move."""
     if state.disables("CONSTRAINT"):
         return []
     return [i for i, touch in enumerate(state.data.contact) if touch.exclude in USED_OR_IN_GAP]

@@ -162,7 +162,7 @@ def _is_identity(placement: pin.SE3) -> bool:
 def _links_of_joints(
     model: pin.Model, root: int
 ) -> tuple[dict[int, str], dict[int, dict[str, pin.SE3]]]:
-    """Of each joint the link at its origin, and the places of the links that are welded to that."""
+    """The link at each joint's origin, and the poses of the links welded to that link."""
     carriers = {}
     welded = {}
     for joint in range(root, model.njoints):

@@ -16,7 +16,7 @@ NONE = np.zeros(0)
 
 
 def exact_answer(form: StandardForm, warm: Sequence[int] = ()) -> Answer:
-    """The exact answer of a quadratic program, or an exact proof that it has none.
+    """The exact solution of a quadratic program, or an exact proof that it has none.
 
     Parts that neither H nor a row couples are solved one by one.
 

@@ -38,7 +38,7 @@ UNREADABLE = (KeyError, TypeError, ValueError, IndexError, AttributeError, Overf
 def set_read(
     folder: str | Path, families: Sequence[str] | None = None, ids: Sequence[str] | None = None
 ) -> list[Problem]:
-    """The problems of a set, or of some of its families, or those of some names.
+    """The problems of a set, or those of some families or names.
 
     Families with answers that are not proved are left out.
 

@@ -58,7 +58,7 @@ def problems_of_runs(scenarios: Sequence[str], total: int, progress: bool = True
 
 
 def _run(scenario: Scenario) -> Trajectory:
-    """Its run, each step exact: the same bits whatever the machine's solvers."""
+    """A run of the scenario whose every step is exact."""
     try:
         return scenario.run(progress=False, findings=False)
     except RunFailed as failure:
@@ -68,7 +68,7 @@ def _run(scenario: Scenario) -> Trajectory:
 
 
 def problem_of(step: StepData, name: str, warm: Sequence[int]) -> Problem:
-    """A problem from a step: what it is, and its exact answer.
+    """A problem made of a step, with its exact answer.
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ ENCLOSED = "enclosed"
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What is known of a solution.
+    """The exact solution of a problem, or the proof that there is none.
 
     Parameters
     ----------
@@ -83,12 +83,12 @@ class Problem:
 
     @property
     def id(self) -> str:
-        """Its name."""
+        """The problem's name."""
         return str(self.facts["id"])
 
     @property
     def family(self) -> str:
-        """The family that it is of."""
+        """The name of the problem's family."""
         return str(self.facts["family"])
 
     @property
@@ -99,7 +99,7 @@ class Problem:
 
     @property
     def feasible(self) -> bool:
-        """Whether it has a solution."""
+        """Whether the problem has a solution."""
         return not self.answer.farkas
 
     @property
@@ -109,7 +109,7 @@ class Problem:
 
     @cached_property
     def natural(self) -> "Problem":
-        """The same in natural units, without rounding; Farkas vectors are those of SI units."""
+        """The problem in natural units, without rounding; its Farkas vector stays in SI units."""
         S, ell, rho = self.units
         answer = self.answer
         if self.feasible:

@@ -51,7 +51,7 @@ def challenge_status(options: argparse.Namespace) -> int:
 
 
 def _print_outcome(outcome: Outcome, options: argparse.Namespace) -> None:
-    """Print what came of it, and write the counterexamples."""
+    """Print the outcome of a challenge, and write its counterexamples."""
     written = [] if options.again else [
         finding.write_folder(options.out, options.program) for finding in outcome.findings
     ]  # fmt: skip

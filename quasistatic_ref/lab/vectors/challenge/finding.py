@@ -47,17 +47,17 @@ class Failure:
 
     @property
     def title(self) -> str:
-        """One line: the case and what was seen."""
+        """A line with the case and the mistake."""
         return f"{self.id}: {self.kind}: {self.reason}"
 
     @property
     def record(self) -> dict[str, Json]:
-        """As it stands in JSON."""
+        """The finding as a JSON object."""
         finite: dict[str, Json] = mapped(asdict(self), _finite)
         return {"format": FORMAT, "version": 2, **finite}
 
     def write_folder(self, folder: Path, command: str) -> Path:
-        """Write its folder: the record, and a page with the line that runs it again."""
+        """Write the finding's folder: its record, and a page with the command that repeats it."""
         place = folder / self.id.replace("/", "-")
         text_written(place / RECORD, json.dumps(self.record, indent=1, allow_nan=False) + "\n")
         program = ("quasistatic-ref", "vectors", "challenge", "--command", command)

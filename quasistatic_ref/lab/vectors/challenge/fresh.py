@@ -41,7 +41,7 @@ REFUSALS = (QuasistaticError, ArithmeticError, ValueError, LookupError)
 
 
 def fresh_case(name: str, seed: tuple[int, ...], level: int) -> tuple[Json, Json]:
-    """An input of a layer and what is expected of it: the same for the same seed.
+    """A random input of a layer and its expected output; one seed gives one case.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def fresh_case(name: str, seed: tuple[int, ...], level: int) -> tuple[Json, Json
 
 
 def record_of(name: str, case: Json) -> Json | None:
-    """What is expected of an input; None if it is none, or if nothing decides its answer."""
+    """The expected output of an input; None if the input is invalid or has no one answer."""
     try:
         with np.errstate(all="ignore"):  # as the plain program meets 0 / 0
             record = agreed_record(name, case)

@@ -155,7 +155,7 @@ class Program:
         self.layers = tuple(name for name in LAYERS if name in supported)
 
     def _end(self, process: "subprocess.Popen[bytes]") -> Reply:
-        """What is said of a program whose output has ended."""
+        """The reply that reports how a program's output ended."""
         with contextlib.suppress(subprocess.TimeoutExpired):
             process.wait(timeout=1.0)
         status = process.poll()
@@ -194,7 +194,7 @@ class Program:
 
 
 class Function:
-    """A Python function with the face of a program; what it raises is an error that it answers.
+    """A Python function in the place of a program; what it raises counts as an error reply.
 
     Parameters
     ----------
@@ -220,7 +220,7 @@ class Function:
 
 
 def _record(line: bytes) -> Json:
-    """The JSON object that a line is; None if it is none."""
+    """The JSON object in a line; None if the line holds no JSON object."""
     try:
         record = json.loads(line)
     except (ValueError, RecursionError):
@@ -229,6 +229,6 @@ def _record(line: bytes) -> Json:
 
 
 def _kill(process: "subprocess.Popen[bytes]") -> None:
-    """End a program and what it started, which is in its session."""
+    """Kill a program and all processes of its session."""
     with contextlib.suppress(ProcessLookupError, PermissionError):
         os.killpg(process.pid, signal.SIGKILL)

@@ -148,7 +148,7 @@ def _stiffness(rng: Rng, n_a: int) -> Json:
 
 
 def _add_pair(rng: Rng, case: Json, alpha: str, beta: str, k: int) -> None:
-    """Let two shapes of a scene touch, either of them being alpha."""
+    """Make a contact pair of two shapes of a scene, in either order."""
     friction = few_digits([rng.uniform(0.1, 1), rng.uniform(0.001, 0.02)], 3)
     friction = [0.0, 0.0] if rng.integers(10) == 0 else friction
     sides = (alpha, beta) if rng.integers(3) else (beta, alpha)

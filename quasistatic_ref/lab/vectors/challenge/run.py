@@ -86,7 +86,7 @@ def challenge(
     digits: float | None = None,
     report: Callable[[str], None] = lambda line: None,
 ) -> Outcome:
-    """Ask a program new cases, and say what it does wrong.
+    """Ask a program new cases, and report its mistakes.
 
     Parameters
     ----------
@@ -184,7 +184,7 @@ def _asked(
     record: Json,
     digits: float | None,
 ) -> Failure | None:
-    """Ask one case, count what came of it, and return what is wrong."""
+    """Ask one case, count the outcome, and return the failure if there is one."""
     if layer not in player.layers:
         return None
     reply = player.ask(id, layer, case)

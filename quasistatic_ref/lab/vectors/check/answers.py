@@ -41,7 +41,7 @@ class Answers:
 
 
 def answers_read(folder: str | Path, layer: str) -> Answers:
-    """The answers of a layer; what is wrong with their file is in them, not raised."""
+    """The answers of a layer; a fault of their file is stored in them, not raised."""
     path = Path(folder) / f"{layer}.json"
     if not path.exists():
         return Answers(present=False)

@@ -117,7 +117,7 @@ def _field_verdict(layer: str, case: Json, record: Json, expected: Json, answer:
 def verdict_to_digits(
     layer: str, case: Json, record: Json, answer: Json, digits: float | None = None
 ) -> Verdict:
-    """The same, an answer that is right to so many digits being acceptable [-]."""
+    """The verdict on an answer that needs to be right to a number of digits [-] only."""
     verdict = case_verdict(layer, case, record, answer)
     if digits is None or verdict.verdict != FAILED:
         return verdict
@@ -139,7 +139,7 @@ def omissions(expected: Json, answer: Json) -> tuple[str, ...]:
 
 
 def _expected_without(expected: Json, missing: tuple[str, ...]) -> Json:
-    """What is expected without some of its fields."""
+    """The expected output without some of its fields."""
     kept = {name: value for name, value in expected.items() if name not in missing}
     if "contacts" in kept:
         names = {key for key in CONTACT if f"contacts.{key}" not in missing}
@@ -159,7 +159,7 @@ def _verdict_with_certificate(case: Json, record: Json, answer: Json) -> Verdict
 
 
 def _unseen(case: Json, record: Json, answer: Json) -> Verdict:
-    """A delta_q for rows that contradict each other by less than their own rounding."""
+    """The verdict on a delta_q of rows whose contradiction is below their own rounding."""
     missing = failure("farkas", "the case has no solution; farkas is missing")
     rows = case if "A" in case else record["output"]
     try:
@@ -174,7 +174,7 @@ def _unseen(case: Json, record: Json, answer: Json) -> Verdict:
 
 
 def _verdict_on_proof(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
-    """A proof that a case has no solution; of a whole step, after what led to it."""
+    """The verdict on a proof that a case has no solution."""
     if layer == "step":
         proved = ("farkas", "certificate")
         before = {name: v for name, v in record["output"].items() if name not in proved}

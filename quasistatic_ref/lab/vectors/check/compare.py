@@ -115,13 +115,13 @@ def parts(output: Json) -> dict[str, Json]:
 
 
 def _place(field: str) -> tuple[bool, int]:
-    """Contacts come before what is made of them."""
+    """Sort key by which fields of contacts come before fields computed from contacts."""
     name = field.rpartition(".")[2]
     return "." not in field, ORDER.index(name) if name in ORDER else len(ORDER)
 
 
 def tolerance_of(tolerance: Mapping[str, Json], field: str) -> float:
-    """How far a field may be off [its unit]; 0 where nothing is said: integers, names.
+    """The allowed error of a field [its unit]; 0 for fields without one, such as integers.
 
     ``contacts.phi`` is looked for under its whole name, its last part and its first part.
     """
@@ -179,7 +179,7 @@ def difference(
 def differences(
     expected: Json, answer: Json, tolerance: Mapping[str, Json]
 ) -> dict[str, Difference]:
-    """Of every field that is answered, in the order of the layer's output."""
+    """The difference of every answered field, in the order of the layer's output."""
     ours = parts(expected)
     theirs = parts(answer)
     return {

@@ -34,7 +34,7 @@ def existence_verdict(record: Json, answer: Json) -> Verdict | None:
 
 
 def _kink(expected: Sequence[Json], answer: Json) -> Verdict:
-    """At a kink numbers are not looked at, but reasons are."""
+    """The verdict at a kink, which compares the reasons and no numbers."""
     why = "; ".join(_words(reason) for reason in expected)
     if answer["differentiable"]:
         return failure("differentiable", f"q+ has no derivative here: {why}")

@@ -84,7 +84,7 @@ def other_choice(case: Json, record: Json, answer: Json, failing: Failing) -> Ve
 
 
 def _index_problem(i: Json, last: int, every: list[int], before: list[Json]) -> str:
-    """Why an index is none of those that may be chosen; empty if it is."""
+    """Why a chosen index is not allowed; empty if it is."""
     if not isinstance(i, int) or not 0 <= i <= last:
         return f"indices must be whole numbers from 0 to {last}"
     if i in before:
@@ -93,7 +93,7 @@ def _index_problem(i: Json, last: int, every: list[int], before: list[Json]) -> 
 
 
 def aligned(layer: str, case: Json, expected: Json, answer: Json) -> Json:
-    """An answer whose quaternions have the signs of the expected ones, where q or -q is given."""
+    """The answer with each quaternion's sign turned to that of the expected one."""
     field = {"integrate": "q", "step": "q_next"}.get(layer)
     if field is None or field not in expected:
         return answer

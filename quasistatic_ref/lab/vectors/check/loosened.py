@@ -12,7 +12,7 @@ on; a challenge allows four times as much, 1e-9."""
 
 
 def loosened(record: Json, digits: float) -> Json:
-    """What is expected of a program that rounds to `digits` [-], or stops there.
+    """The expected output for a program that works to `digits` decimal digits [-].
 
     Every tolerance is what float64's would be with that unit of rounding, 10^-digits in the place
     of 1e-16 (of derivatives: of 1e-9; of what was agreed on: of AGREED), and at least 10^-digits of

@@ -94,7 +94,7 @@ def _rank_problem(sides: Sides, k: int, indices: list[int], rounding: float) -> 
 
 @dataclass(frozen=True)
 class Candidate:
-    """One that may be a contact.
+    """A possible contact of a pair.
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ def _tangent_along_axis(axis: int, n: Array) -> Array:
 
 
 def record_from(case: Json, record: Json, contacts: Json) -> Json:
-    """What is expected of a step with these contacts: H, g and all tolerances stay."""
+    """The expected output of a step with these contacts; H, g and tolerances stay the same."""
     at = kinematics(case["mechanism"], np.array(case["q"]))
     pairs = {pair["name"]: pair for pair in case["pairs"]}
     entries = [{**entry_of(case, pairs[contact["pair"]]), **contact} for contact in contacts]

@@ -53,7 +53,7 @@ class LayerReport:
 
     @property
     def words(self) -> str:
-        """Why it is not right, e.g. ``not answered``, ``12 wrong, 3 missing``."""
+        """Why a layer is not right, e.g. ``not answered``, ``12 wrong, 3 missing``."""
         if not self.present:
             return "not answered"
         if self.problem:
@@ -98,7 +98,7 @@ class LayerReport:
 
     @property
     def trouble(self) -> str:
-        """One sentence on what is wrong first; empty if nothing is."""
+        """A sentence on the first fault of the answers; empty if there is none."""
         if not self.present:
             return f"no {self.layer}.json"
         if self.problem:
@@ -107,7 +107,7 @@ class LayerReport:
 
     @property
     def partial(self) -> str:
-        """One sentence on what the answers leave out; empty if they do not."""
+        """A sentence on the outputs that the answers omit; empty if they omit none."""
         partial = [v for v in self.verdicts if v.without]
         names = ", ".join(dict.fromkeys(name for v in partial for name in v.without))
         count = f"{len(partial)} of {len(self.verdicts)} answers are partial"
@@ -115,7 +115,7 @@ class LayerReport:
 
     @property
     def unasked(self) -> str:
-        """One sentence on fields that the layer does not ask for; empty if there are none."""
+        """A sentence on fields that the layer does not ask for; empty if there are none."""
         extra = [v for v in self.verdicts if v.extra]
         names = ", ".join(dict.fromkeys(name for v in extra for name in v.extra))
         count = f"{len(extra)} of {len(self.verdicts)} answers have fields"
@@ -131,7 +131,7 @@ class LayerReport:
 
     @property
     def record(self) -> dict[str, Json]:
-        """As it stands in a JSON report."""
+        """The report on a layer as a JSON object."""
         return {
             "layer": self.layer,
             "implementation": self.implementation,
@@ -212,7 +212,7 @@ class Report:
 
     @property
     def record(self) -> dict[str, Json]:
-        """The JSON report."""
+        """The report as a JSON object."""
         return {
             "format": "quasistatic-ref/vectors-report",
             "version": 2,

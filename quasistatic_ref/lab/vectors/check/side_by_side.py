@@ -25,7 +25,7 @@ def _place(path: str) -> str:
 
 
 def _change(expected: Json, answer: Json) -> str:
-    """The given number less the expected one; nothing of what are no two numbers."""
+    """The answered number less the expected one; empty unless both are numbers."""
     if any(isinstance(v, bool) or not isinstance(v, int | float) for v in (expected, answer)):
         return ""
     return f"{float(answer) - float(expected):.3g}"

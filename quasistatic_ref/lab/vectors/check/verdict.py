@@ -91,7 +91,7 @@ class Verdict:
 
     @property
     def record(self) -> dict[str, Json]:
-        """The verdict as a JSON report holds it."""
+        """The verdict as a JSON object."""
         return asdict(self) | {"digits": None if self.digits is None else round(self.digits, 2)}
 
     def named(self, id: str) -> "Verdict":

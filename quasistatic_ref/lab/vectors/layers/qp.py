@@ -85,12 +85,12 @@ def exact_optimum(H: Array, g: Array, A: Array, b: Array) -> tuple[Array | None,
 
 
 def step_of(case_input: Json) -> StepData:
-    """The same program as a step, in which form `verify` of the package re-verifies it."""
+    """The program of a case as a step, which the package's `verify` takes."""
     return program_step(*matrices(case_input))
 
 
 def cone_step(case_input: Json) -> StepData:
-    """The same for second-order cones, each a contact with mu_v = mu_omega = 1; or InputError."""
+    """A case's program with second-order cones as a step, or InputError: cones are contacts."""
     blocks = case_input["second_order"]
     H, g = (np.array(case_input[key], dtype=np.float64) for key in ("H", "g"))
     F = np.array([block["F"] for block in blocks]).reshape(len(blocks), 4, len(g))

@@ -35,6 +35,6 @@ def own(case_input: Json) -> Json:
 
 
 def contacts_of(entries: Json) -> Contacts:
-    """Contacts of the package from those of a case, of which there is at least one."""
+    """The package's `Contacts` made from the contacts of a case, of which it needs one."""
     columns = {key: np.array([entry[key] for entry in entries]) for key in NUMBERS}
     return Contacts(name=tuple(f"c{j}" for j in range(len(entries))), **columns)

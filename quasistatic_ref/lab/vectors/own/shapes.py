@@ -15,7 +15,7 @@ from quasistatic_ref.shapes.placed_shape import PointCloud, Shape
 
 
 def own_shape(shape: dict[str, Any]) -> Shape:
-    """The package's shape; InputError if it has none such."""
+    """The package's shape for a shape of a case; InputError if the package has none."""
     match shape["kind"]:
         case "sphere":
             return shapes.Sphere(shape["radius"])

@@ -22,7 +22,7 @@ _BASES = ("floating", "planar")
 
 @dataclass(frozen=True, eq=False)
 class OwnSystem:
-    """A System, and where the mechanism's coordinates and bodies are in it.
+    """A System, with the places of a mechanism's coordinates and bodies in it.
 
     Parameters
     ----------
