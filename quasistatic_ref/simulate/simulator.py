@@ -329,8 +329,15 @@ class Simulator(Settings, Shown):
             If the force has another shape.
         """
         here = self.system.at(q)
+        return self.step_at(here, q_bar_a, self.generalised_force(here, force), points)
+
+    def step_at(
+        self, q: ArrayLike | State, q_bar_a: ArrayLike, tau: Array, points: ClosestPoints
+    ) -> StepData:
+        """The problem of one step from its closest points and all forces, (n_v,) [N, N m]."""
+        here = self.system.at(q)
         contacts = self.geometry.contacts(points, here.kinematics)  # Eqs. (2)-(3)
-        return self.step_under(here, q_bar_a, self.generalised_force(here, force), contacts)
+        return self.step_under(here, q_bar_a, tau, contacts)
 
     def step_under(
         self, q: ArrayLike | State, q_bar_a: ArrayLike, tau: Array, contacts: Contacts

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -126,16 +126,18 @@ class Contacts(Plain, Shown):
 
     def some(self, contacts: Indices, coordinates: Indices) -> Contacts:
         """Some of the contacts, (k,), with the columns of some coordinates, (n,), of J."""
+        J = read_only(self.columns(contacts, coordinates))
+        return Contacts.unchecked(**self.without_J(contacts), J=J)
+
+    def without_J(self, contacts: Indices) -> dict[str, Any]:
+        """The other fields of some of the contacts, (k,), by their names."""
         keys = ("phi", "n", "d1", "d2", "mu_v", "mu_omega", "rows")
-        return Contacts.unchecked(
-            name=tuple(self.name[j] for j in contacts.tolist()),
-            J=read_only(self.columns(contacts, coordinates)),
-            **{key: read_only(getattr(self, key)[contacts]) for key in keys},
-        )
+        fields = {key: read_only(getattr(self, key)[contacts]) for key in keys}
+        return {"name": tuple(self.name[j] for j in contacts.tolist()), **fields}
 
     def columns(self, contacts: Indices, coordinates: Indices) -> Array:
         """J of some contacts, (k,), and some coordinates, (n,): shape (k, 4, n)."""
-        return self.J[contacts][:, :, coordinates]
+        return self.J[contacts[:, None, None], np.arange(4)[:, None], coordinates]
 
     @cached_property
     def n_c(self) -> int:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.groups import labels
+from quasistatic_ref.certify.groups import linked
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
@@ -106,9 +106,9 @@ class Body:
         per = np.linalg.solve(M, r[..., None])[..., 0]
         return np.asarray(np.sqrt(self.mass * np.maximum(np.vecdot(r, per), 0.0)))
 
-    def inertia(self, M_u: Array, n_a: int) -> Array:
-        """Its block of M_u, shape (n_u, n_u); n_a coordinates come before."""
-        return np.asarray(M_u[np.ix_(self.coordinates - n_a, self.coordinates - n_a)])
+    def inertia(self, masses: Callable[[Indices], Array], n_a: int) -> Array:
+        """Its block (n, n) of the M_u that `masses` gives; n_a coordinates come before."""
+        return masses(self.coordinates - n_a)
 
     def missing(self, r: Array, M: Array) -> Missing:
         """The missing force of the body, from residual forces r [N, N m] and inertia M (n, n)."""
@@ -153,14 +153,19 @@ def bodies(start: Start) -> Iterator[Body]:
     n_a = system.n_a
     coordinates = system.coordinates[n_a:]
     joints = [joint for joint in system.joints if not joint.actuated]
-    of_joint = [[c.joint == joint.name for c in coordinates] for joint in joints]
-    of_joints = np.reshape(of_joint, (len(joints), len(coordinates))).astype(bool)
-    label, _ = labels(np.vstack([of_joints, start.M_u != 0]))
+    n_u = len(coordinates)
+    counts = [joint.v.stop - joint.v.start for joint in joints]
+    i, j = start.coupled
+    coupling = np.concatenate([np.repeat(np.arange(len(joints)), counts), len(joints) + i])
+    coordinate = np.concatenate([np.arange(n_u), j])
+    label, _ = linked(coupling, coordinate, (len(joints) + n_u, n_u))
+    together: dict[int, list[Joint]] = {}
+    for joint in joints:
+        together.setdefault(int(label[joint.v.start - n_a]), []).append(joint)
     of = np.array([side.link for side in start.sides], dtype=np.int64)
     extents = np.array([side.shape.extent for side in start.sides])
-    for first in np.unique(label):
+    for first, of_body in together.items():
         at = n_a + np.flatnonzero(label == first)
-        of_body = tuple(joint for joint in joints if joint.v.start in at)
         free = len(of_body) == 1 and of_body[0].free
         links: Mask = np.asarray(np.any(start.moves[:, at], axis=1), dtype=np.bool_)
         of_sides = links[of]
@@ -174,5 +179,5 @@ def bodies(start: Start) -> Iterator[Body]:
             np.asarray(of_pairs[start.pair_of]),
             float(size),
             np.array([coordinates[i - n_a].unit == "m" for i in at]),
-            of_body,
+            tuple(of_body),
         )

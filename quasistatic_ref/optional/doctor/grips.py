@@ -71,7 +71,7 @@ def _agreement(run: Run, body: Body, k: int, on: Mask, lacks: Missing) -> float:
     rows = np.concatenate([J[on] for J in J_t])[:, body.coordinates]
     seen = np.concatenate([*run.slips[k, on, :2].T, run.noted("moved")[k, on, 3]])
     v = np.linalg.lstsq(rows, seen, rcond=1e-9)[0]
-    M = body.inertia(run.at(k).step.M_u, run.system.n_a)
+    M = body.inertia(run.at(k).step.masses, run.system.n_a)
     starts = np.linalg.solve(M, -lacks.r)
     sizes = float(np.sqrt((starts @ M @ starts) * (v @ M @ v)))
     return float(starts @ M @ v) / sizes if sizes > 0 else 0.0

@@ -159,7 +159,7 @@ class Run(Start):
         of_bodies = {}
         for body in self.bodies_of:
             momentum = self.noted("momentum")[:, body.coordinates - n_a]
-            amount = body.amount(body.inertia(self.M_u, n_a), momentum)
+            amount = body.amount(body.inertia(self.masses, n_a), momentum)
             of_bodies[body] = quotient(quotient(amount, self.h), self.h)
         return of_bodies
 
@@ -172,7 +172,7 @@ class Run(Start):
         """
         of_bodies = {}
         for body in self.bodies_of:
-            M = body.inertia(self.M_u, self.system.n_a)
+            M = body.inertia(self.masses, self.system.n_a)
             tau = body.amount(M, self.noted("tau")[:, body.coordinates])
             pairs = np.unique(self.pair_of[body.contacts]).tolist()
             forces = [self["wrench"][:, self.pair_of == i, 2].sum(axis=1) for i in pairs]
@@ -246,11 +246,10 @@ class RunStep:
         self.run = run
         self.k = k
 
-    @cached_property
+    @property
     def contacts(self) -> Contacts:
         """Its contacts."""
-        kinematics = self.run.system.kinematics(self.run["q"][self.k])
-        return self.run.simulator.geometry.contacts(self.run.points_of(self.k), kinematics)
+        return self.step.contacts
 
     @cached_property
     def step(self) -> StepData:
@@ -258,7 +257,7 @@ class RunStep:
         run = self.run
         k = self.k
         load = run.noted("tau")[k]
-        return run.simulator.step_under(run["q"][k], run["q_bar_a"][k], load, self.contacts)
+        return run.simulator.step_at(run["q"][k], run["q_bar_a"][k], load, run.points_of(k))
 
     @cached_property
     def compliant(self) -> ContactForces | None:

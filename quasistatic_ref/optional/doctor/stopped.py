@@ -103,28 +103,27 @@ class Scene:
         contacts: Mask | bool = True,
     ) -> None:
         simulator = run.simulator
-        kinematics = run.system.kinematics(q)
-        points = points or simulator.closest_points(kinematics)
-        every = simulator.geometry.contacts(points, kinematics)
-        step = simulator.step_under(q, run["q_bar_a"][k], run.noted("tau")[k], every)
+        points = points or simulator.closest_points(run.system.kinematics(q))
+        step = simulator.step_at(q, run["q_bar_a"][k], run.noted("tau")[k], points)
         if simulator.extension is not None:
             step = posed(step, simulator.extension(q))[0]
-        self.phi = every.phi
+        self.phi = points.phi
         self.every = step.contacts
         highest = np.zeros(len(run.pairs))
         np.maximum.at(highest, run.pair_of, np.where(run.touches[k], 1.01 * gap, 0.0))
         reach = np.maximum(STRAIGHT * run.sizes, highest[run.pair_of])
-        near = np.flatnonzero(contacts & (every.phi <= reach))
+        near = np.flatnonzero(contacts & (points.phi <= reach))
         lengths = np.ones(step.n_v, dtype=bool)  # so are private rises
         lengths[: run.system.n_v] = [c.unit == "m" for c in run.system.coordinates]
         slides = (step.extra.A[:, lengths] != 0).any(axis=1)
         stops = np.where(slides, STRAIGHT * run.sizes.min(initial=1.0), STRAIGHT)
         coordinates = np.arange(step.n_v)
         self.step = step.with_fields(
-            contacts=step.contacts.some(near, coordinates),
-            extra=step.extra.of(np.flatnonzero(-step.extra.b <= stops), coordinates),
-            cone=cone or step.cone,
+            contacts=step.contacts.some(near, coordinates), cone=cone or step.cone
         )
+        if not step.extra.empty:
+            extra = step.extra.of(np.flatnonzero(-step.extra.b <= stops), coordinates)
+            self.step = self.step.with_fields(extra=extra)
         self._near = near
         self._sizes = run.sizes[near]
         self._turns = ~lengths & (coordinates >= step.n_a)
@@ -153,7 +152,7 @@ class Member:
     def __init__(self, body: Body, step: StepData, part: Part, load: float) -> None:
         of_u = part.group.coordinates[part.group.coordinates >= step.n_a]
         self.body = body
-        self.M = body.inertia(step.M_u, step.n_a)
+        self.M = body.inertia(step.masses, step.n_a)
         self.least = LITTLE * load
         self._slow = part.slow
         self._here = np.isin(body.coordinates, of_u)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.formats.plain import Late
-from quasistatic_ref.model.mass import whole
+from quasistatic_ref.model.mass import entries_of, whole
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, hessian
@@ -44,6 +45,13 @@ class JoinedContacts(Late, Contacts):
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
         moved = np.concatenate([delta_q, [0.0]])[self.column]
         return np.asarray(np.add.accumulate(self.own_J * moved[:, None], axis=-1)[..., -1]) + 0.0
+
+    def some(self, contacts: Indices, coordinates: Indices) -> Contacts:
+        """Some of the contacts, (k,), with the columns of some coordinates, (n,), of J."""
+        if len(coordinates) < self.n_v:
+            return super().some(contacts, coordinates)
+        own = {"own_J": self.own_J[contacts], "column": self.column[contacts], "n_v": self.n_v}
+        return type(self).unchecked(**self.without_J(contacts), **own)
 
     def columns(self, contacts: Indices, coordinates: Indices) -> Array:
         """J of some contacts, (k,), and some coordinates, (n,): shape (k, 4, n)."""
@@ -83,10 +91,7 @@ class Masses:
 
     def some(self, u: Indices) -> Array:
         """M_u of some un-actuated coordinates, counted from the first, shape (k, k)."""
-        if self.blocks.ndim == 2:
-            return np.asarray(self.blocks[np.ix_(u, u)])
-        body, i = np.divmod(u, self.blocks.shape[-1])
-        return np.where(body[:, None] == body, self.blocks[body[:, None], i[:, None], i], 0.0)
+        return entries_of(self.blocks, u)
 
     @cached_property
     def entries(self) -> tuple[Indices, Indices]:
@@ -118,6 +123,12 @@ class JoinedStep(Late, StepData):
     kept_instead = ("of_masses",)
     contacts: JoinedContacts
     of_masses: Masses
+
+    def with_fields(self, **changes: Any) -> Any:
+        """A copy with some valid fields replaced: as late, unless H is another then."""
+        if changes.keys() & {"h", "K_q", "M_u", "extra"}:
+            return super().with_fields(**changes)
+        return type(self).unchecked(**{name: getattr(self, name) for name in self.kept()} | changes)
 
     @cached_property
     def M_u(self) -> Array:

@@ -304,6 +304,20 @@ class FastSimulator(Simulator):
         """The data of one step by the plain simulator."""
         return self.simulator.step_data(q, q_bar_a, force, points)
 
+    def step_at(
+        self, q: ArrayLike | State, q_bar_a: ArrayLike, tau: Array, points: ClosestPoints
+    ) -> StepData:
+        """The problem of one step from its closest points and all forces, (n_v,) [N, N m].
+
+        After a first step it is formed in C: J by the columns of each contact, and M_u by bodies.
+        """
+        if not (self.by_c and self._compared):
+            return self.simulator.step_at(q, q_bar_a, tau, points)
+        here = self.system.at(q)
+        with by_one_thread(self.system):
+            self._poses.move(here.q)
+            return self._steps.at(points, here.change_to(q_bar_a), tau)
+
     def fitting_solver(self, step: StepData) -> Solver:
         """The solver of the last step if it fits this step, else a new one."""
         if not self._natively:

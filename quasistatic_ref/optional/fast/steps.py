@@ -147,7 +147,7 @@ class Steps:
             ]
         )
         self._bytes = np.zeros(self._dtype.itemsize, np.uint8)
-        written = np.ndarray((), self._dtype, self._bytes)
+        self._written = written = np.ndarray((), self._dtype, self._bytes)
         self._closest = Closest(
             simulator.pairs,
             poses,
@@ -218,6 +218,30 @@ class Steps:
         points = ClosestPoints(*CLOSEST(written))
         names = self._names_of(points.point.tolist())
         return self._step(names, written, read_only(change), written["J"]), points
+
+    def at(self, points: ClosestPoints, change: Array, tau: Array) -> JoinedStep:
+        """The step from the poses, closest points at them, and all forces.
+
+        Parameters
+        ----------
+        points : ClosestPoints
+        change : ndarray, shape (n_a,)
+            delta_q_bar_a [m, rad].
+        tau : ndarray, shape (n_v,)
+            With gravity, without springs [N, N m].
+
+        Raises
+        ------
+        StepDataError
+            As of :meth:`form`.
+        """
+        for name, values in points._asdict().items():
+            self._written[name][...] = values
+        step, _ = self.form(change, np.zeros_like(tau))
+        n_a = len(change)
+        loads = {"tau_a": read_only(tau[:n_a] + 0.0), "tau_u": read_only(tau[n_a:] + 0.0)}
+        under: JoinedStep = step.with_fields(**loads)
+        return under
 
     def _names_of(self, point: list[int]) -> tuple[str, ...]:
         names = self._names

@@ -26,7 +26,7 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.joints.axis_joint import Revolute
 from quasistatic_ref.optional.fast import library
 from quasistatic_ref.optional.fast import simulator as of_fast
-from quasistatic_ref.optional.fast.joined import spread
+from quasistatic_ref.optional.fast.joined import JoinedStep, spread
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.contact.solids_of_tests import SHAPES as SOLIDS
 from tests.contact.still import placed_shape
@@ -185,6 +185,17 @@ def test_the_data_of_a_step_are_those_of_the_plain_path_wherever_it_is(cone):
         form = StandardForm(in_c.H, rows["g"], A, rows["b"])
         plain_form = standard_form(step)
         assert bits((in_c, form, points_in_c)) == bits((step, plain_form, points))
+        tau = plain.generalised_force(q, force)
+        given = fast._steps.at(points, system.actuated_difference(q, goal) + 0.0, tau)
+        some = np.arange(k % 3, step.contacts.n_c, 2)
+        every = np.arange(system.n_v)
+        fewer, fewer_in_c = (
+            one.with_fields(contacts=one.contacts.some(some, every), cone="product")
+            for one in (step, given)
+        )
+        assert type(fewer_in_c) is JoinedStep
+        assert bits((given, fewer_in_c)) == bits((step, fewer))
+        assert bits(given.with_fields(h=0.02)) == bits(step.with_fields(h=0.02))
         assert bits(in_c.contacts.motion(move)) == bits(step.contacts.motion(move))
         for group in fast._steps.groups:
             assert group_step(in_c, group) == group_step(step, group)
