@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from quasistatic_ref.contact.pairs import ContactPair
     from quasistatic_ref.files.mesh import Mesh
     from quasistatic_ref.files.scenario.bodies import BodyEntry
-    from quasistatic_ref.files.urdf.file import UrdfFile
     from quasistatic_ref.model.system import System
+    from quasistatic_ref.model.tree import Tree
     from quasistatic_ref.numbers.arrays import Array
     from quasistatic_ref.optional.extensions.extension import Extension, OfBodies
     from quasistatic_ref.simulate.finding import Finding
@@ -93,6 +93,20 @@ def needed_package(package: str, extra: str, what: str) -> ModuleType:
         raise InputError(problem) from None
 
 
+def urdf_tree(source: str | Path, package_dirs: Sequence[str | Path]) -> Tree:
+    """A body's URDF: the tree in a file, or in a text that begins with ``<``.
+
+    Parameters
+    ----------
+    source : str or Path
+    package_dirs : sequence of str or Path
+        Where ``package://`` URIs are looked for.
+    """
+    from quasistatic_ref.files.urdf.file import urdf_tree as tree
+
+    return tree(source, package_dirs)
+
+
 def coulomb_solution(step: StepData, solver: Solver, accuracy: float) -> StepSolution:
     """``law = "coulomb"``: the step of a simulator under Coulomb's law."""
     with needing('law = "coulomb"'):
@@ -144,8 +158,8 @@ def findings_of_time(trajectory: Trajectory) -> list[Finding]:
     return checks.looked(checks.OF_TIME, trajectory)[0]
 
 
-def described_model(model: pin.Model, geometry: pin.GeometryModel | None) -> tuple[UrdfFile, str]:
-    """``Body.of_pinocchio``: what a URDF file of a Model would say, and the kind of its base."""
+def described_model(model: pin.Model, geometry: pin.GeometryModel | None) -> tuple[Tree, str]:
+    """``Body.of_pinocchio``: the tree of a Model, and the kind of its base."""
     with needing("Body.of_pinocchio"):
         from quasistatic_ref.optional.models.described import described_model as described
     return described(model, geometry)

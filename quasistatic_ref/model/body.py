@@ -1,4 +1,4 @@
-"""A body: one URDF, where it stands, and which of its joints are actuated."""
+"""A body: one mechanism, where it stands, and which of its joints are actuated."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.files.urdf.file import UrdfFile
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import BASES
-from quasistatic_ref.model.urdf.solid import Homogeneous, solid_urdf
-from quasistatic_ref.parts import described_model
+from quasistatic_ref.model.solid import Homogeneous, solid_tree
+from quasistatic_ref.model.tree import Tree
+from quasistatic_ref.parts import described_model, urdf_tree
 from quasistatic_ref.shapes.frozen import finite_number, freeze_array
 
 if TYPE_CHECKING:
@@ -34,14 +34,14 @@ class Body(Plain):
     ----------
     name : str
         Prefix of its links and joints, e.g. ``gripper`` for ``gripper/left_finger``.
-    urdf : str or Path; or UrdfFile
+    urdf : str or Path; or Tree
         Its file; or the URDF itself, a string that begins with ``<``, whose meshes are looked for
-        in the working folder; or what a URDF file would say, which :meth:`of_pinocchio` makes.
+        in the working folder; or a mechanism, which :meth:`of_shape` and :meth:`of_pinocchio` make.
     base : str
         ``"fixed"``, ``"floating"``, ``"planar"`` (moving in the horizontal plane at the height of
         xyz, turning about the vertical) or ``"ball"`` (turning about xyz).
     actuated : tuple of str, or "all"
-        Names of joints in this URDF, without the prefix; ``"base"`` is the base.
+        Names of its joints, without the prefix; ``"base"`` is the base.
     xyz : array_like, shape (3,)
         Where the root link is (fixed) or starts (otherwise), in the world [m].
     rpy : array_like, shape (3,)
@@ -65,7 +65,7 @@ class Body(Plain):
     """
 
     name: str
-    urdf: str | Path | UrdfFile
+    urdf: str | Path | Tree
     base: str = "fixed"
     actuated: Sequence[str] = ()
     xyz: ArrayLike = (0.0, 0.0, 0.0)
@@ -97,7 +97,7 @@ class Body(Plain):
         obstacle = None if self.base == FIXED else BASES[self.base].obstacle(xyz, rpy, xyz)
         if obstacle is not None:
             raise ModelError(obstacle, field=f"{self.name}.rpy", value=rpy.tolist())
-        if not isinstance(self.urdf, str | Path | UrdfFile):
+        if not isinstance(self.urdf, str | Path | Tree):
             problem = "must be a path, or a URDF as text"
             raise ModelError(problem, field=f"{self.name}.urdf", value=type(self.urdf).__name__)
         if not isinstance(self.positions, Mapping):
@@ -112,6 +112,10 @@ class Body(Plain):
         }
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "package_dirs", tuple(self.package_dirs))
+
+    def tree(self) -> Tree:
+        """Its links and joints; a file is read again. ModelError if the URDF is not usable."""
+        return self.urdf if isinstance(self.urdf, Tree) else urdf_tree(self.urdf, self.package_dirs)
 
     @classmethod
     def of_shape(cls, name: str, shape: Homogeneous, mass: float, **more: Any) -> Body:
@@ -136,7 +140,7 @@ class Body(Plain):
         ModelError
             If the shape is another one, or the mass not positive.
         """
-        return cls(name, solid_urdf(shape, mass, name), **{"base": "floating", **more})
+        return cls(name, solid_tree(shape, mass, name), **{"base": "floating", **more})
 
     @classmethod
     def of_pinocchio(
@@ -182,8 +186,8 @@ class Body(Plain):
         >>> qr.System([arm]).n_a
         6
         """
-        file, base = described_model(model, geometry)
+        tree, base = described_model(model, geometry)
         if base not in (FIXED, more.setdefault("base", base)):
             problem = f"must be {base!r}, as the root joint of the Model; leave it out"
             raise ModelError(problem, field=f"{name}.base", value=more["base"])
-        return cls(name, file, **more)
+        return cls(name, tree, **more)

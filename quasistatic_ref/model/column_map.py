@@ -4,9 +4,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 import numpy as np
-import pinocchio as pin
 
 from quasistatic_ref.model.coordinates import Order
+from quasistatic_ref.model.world import Part
 from quasistatic_ref.numbers.arrays import Array, Indices
 
 
@@ -41,29 +41,31 @@ class JointColumns(ColumnMap):
 
     Parameters
     ----------
-    model : pinocchio.Model
-    frames : sequence of int
-        The frame of each link but the world.
+    parts : sequence of Part
     order : Order
     """
 
-    def __init__(self, model: pin.Model, frames: Sequence[int], order: Order) -> None:
-        columns = [
-            slice(start, start + size)
-            for start, size in zip(model.idx_vExtendeds, model.nvExtendeds, strict=True)
-        ]
-        moves = np.zeros((1 + len(frames), 1, model.nvExtended))
-        for link, frame in enumerate(frames, start=1):
-            for joint in model.supports[model.frames[frame].parentJoint]:
-                moves[link, 0, columns[joint]] = 1.0
-        owner = np.zeros(model.nvExtended, dtype=np.int64)
-        for of_joint, v in zip(columns, model.idx_vs, strict=True):
-            owner[of_joint] = v + np.arange(of_joint.stop - of_joint.start)
-        super().__init__(moves, np.argsort(order.v)[owner], int(model.nv))
+    def __init__(self, parts: Sequence[Part], order: Order) -> None:
+        n_x = sum(part.model.nvExtended for part in parts)
+        moves = np.zeros((1 + sum(len(part.frames) for part in parts), 1, n_x))
+        owner = np.zeros(n_x, dtype=np.int64)
+        link, x, v = 1, 0, 0  # where the next part begins
+        for model, frames in parts:
+            sizes = zip(model.idx_vExtendeds, model.nvExtendeds, strict=True)
+            columns = [slice(x + start, x + start + size) for start, size in sizes]
+            for frame in frames:
+                for joint in model.supports[model.frames[frame].parentJoint]:
+                    moves[link, 0, columns[joint]] = 1.0
+                link += 1
+            for of_joint, of_model in zip(columns, model.idx_vs, strict=True):
+                owner[of_joint] = v + of_model + np.arange(of_joint.stop - of_joint.start)
+            x += model.nvExtended
+            v += model.nv
+        super().__init__(moves, np.argsort(order.v)[owner], v)
         self.order = order
         # A mimic joint comes after the one that it mimics.
         self.owned = np.unique(self.owner, return_index=True)[1]
-        copies = np.setdiff1d(np.arange(model.nvExtended), self.owned)
+        copies = np.setdiff1d(np.arange(n_x), self.owned)
         self.copies = list(zip(copies.tolist(), self.owner[copies].tolist(), strict=True))
 
     def of_coordinates(self, columns: Array) -> Array:

@@ -4,19 +4,21 @@ M is the sum over the links of J' I J. pinocchio's crba is not used: where a joi
 it adds to what its last call left behind, and misses products of the mimic's branches.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.column_map import ColumnMap
-from quasistatic_ref.model.coordinates import joint_key
 from quasistatic_ref.model.joints.joint import Coordinate, Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.numbers.ordered import crossed, dot, rotated
 from quasistatic_ref.numbers.pivots import positive_pivots
+
+JointPlaces = Mapping[str, tuple[pin.Model, int]]
+"""The pinocchio model that each joint stands in, and its number there."""
 
 
 class MassMatrix:
@@ -91,17 +93,17 @@ class MassMatrix:
 
 
 def mass_matrix(
-    model: pin.Model,
+    places: JointPlaces,
     unactuated: Sequence[Joint],
     kinematics: Kinematics,
     n_a: int,
     inertias: tuple[Array, Array, Array],
 ) -> MassMatrix:
-    """The M_u of a model with un-actuated joints `unactuated`.
+    """The M_u of un-actuated joints.
 
     Parameters
     ----------
-    model : pinocchio.Model
+    places : mapping of str to (pinocchio.Model, int)
     unactuated : sequence of Joint
     kinematics : Kinematics
         Of any configuration, with their columns.
@@ -120,17 +122,20 @@ def mass_matrix(
         moved = (column_map.moves[:, 0, of_joint] > 0).any(axis=1)
         shared = (column_map.moves[moved][:, 0, (column_map.owner >= n_a) & ~of_joint] > 0).any()
         mimicked = np.count_nonzero(of_joint) > joint.v.stop - joint.v.start
-        if shared or mimicked or not moves_alone(model, joint):
+        if shared or mimicked or not moves_alone(places, joint):
             continue
         constant[joint.v] = True
         block = (slice(joint.v.start - n_a, joint.v.stop - n_a),) * 2
-        known[block] = rigid_masses(model, [joint])[0] if joint.free else full_matrix[block]
+        known[block] = rigid_masses(places, [joint])[0] if joint.free else full_matrix[block]
     return MassMatrix(column_map, n_a, *inertias, known, constant)
 
 
-def rigid_masses(model: pin.Model, joints: Sequence[Joint]) -> Array:
+def rigid_masses(places: JointPlaces, joints: Sequence[Joint]) -> Array:
     """Mass matrices (k, 6, 6) of the floating bases of k lone rigid bodies, in their frames."""
-    masses = [model.inertias[model.getJointId(joint_key(joint.name))].matrix() for joint in joints]
+    masses = []
+    for joint in joints:
+        model, number = places[joint.name]
+        masses.append(model.inertias[number].matrix())
     return np.array(masses).reshape(-1, 6, 6) + 0.0  # never -0.0
 
 
@@ -163,18 +168,19 @@ def entries_of(M: Array, some: Indices) -> Array:
     return np.where(block[:, None] == block, M[block[:, None], i[:, None], i], 0.0)
 
 
-def constant_mass(model: pin.Model, unactuated: Sequence[Joint]) -> bool:
+def constant_mass(places: JointPlaces, unactuated: Sequence[Joint]) -> bool:
     """Whether M_u is the same at every q: every un-actuated joint is a lone rigid body's base.
 
     The mass matrix of a free rigid body is constant in the body's own frame, unless a moving joint
     connects another link to the body.
     """
-    return all(joint.free and moves_alone(model, joint) for joint in unactuated)
+    return all(joint.free and moves_alone(places, joint) for joint in unactuated)
 
 
-def moves_alone(model: pin.Model, joint: Joint) -> bool:
+def moves_alone(places: JointPlaces, joint: Joint) -> bool:
     """Whether no other joint is below a joint."""
-    return model.getJointId(joint_key(joint.name)) not in list(model.parents)
+    model, number = places[joint.name]
+    return number not in list(model.parents)
 
 
 def check_mass(M_u: Array, coordinates: Sequence[Coordinate], bodies: Iterable[str]) -> None:

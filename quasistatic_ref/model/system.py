@@ -12,7 +12,6 @@ from collections.abc import Iterable, Sequence
 from functools import cached_property
 
 import numpy as np
-import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import check_kind
@@ -31,9 +30,9 @@ from quasistatic_ref.model.mass import (
 )
 from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.state import State
-from quasistatic_ref.model.urdf.urdf import body_frame
+from quasistatic_ref.model.tree import Tree
 from quasistatic_ref.model.workspace import Workspace
-from quasistatic_ref.model.world import World, world_of
+from quasistatic_ref.model.world import trees_of, world_of
 from quasistatic_ref.numbers.arrays import (
     Array,
     read_only,
@@ -49,8 +48,8 @@ class System(Mechanism):
     What takes q refuses quaternions, and pairs (cos, sin), that are not of length one;
     :meth:`normalised` mends them, and :meth:`checked` checks the rest of q, too. :meth:`at` checks
     a q once for all that is asked there. States share a workspace: a System is for one thread (who
-    takes a step holds `lock`), a copy for another. Copies and pickles hold the URDFs' texts, and
-    read no file. Equal systems have equal bodies and files.
+    takes a step holds `lock`), a copy for another. Copies and pickles read no
+    file. Equal systems have equal bodies and trees.
 
     Parameters
     ----------
@@ -85,7 +84,7 @@ class System(Mechanism):
     mass_blocks : ndarray, shape (n_u / 6, 6, 6)
         The diagonal blocks of M_u [kg, kg m, kg m^2]; no blocks unless M_u is constant.
     texts : tuple of str
-        The URDF of each body.
+        The URDF of each body; of one that has none, words that only an equal one has.
     shapes : tuple of PlacedShape
         Every collision shape of every URDF, e.g. ``gripper/left_finger#0``.
     q_start : ndarray, shape (n_q,)
@@ -114,32 +113,31 @@ class System(Mechanism):
         every = tuple(bodies)
         for body in every:
             check_kind(body, Body, "bodies", "a list of bodies, each as Body makes it")
-        self._make(world_of(every))
+        self._make(every, trees_of(every))
 
-    def __getstate__(self) -> tuple[World]:
-        return (self._world,)
+    def __getstate__(self) -> tuple[tuple[Body, ...], tuple[Tree, ...]]:
+        return self.bodies, self._trees
 
-    def __setstate__(self, state: tuple[World]) -> None:
+    def __setstate__(self, state: tuple[tuple[Body, ...], tuple[Tree, ...]]) -> None:
         self._make(*state)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, System):
             return NotImplemented
-        return self._world == other._world
+        return self.bodies == other.bodies and self._trees == other._trees
 
     def __hash__(self) -> int:
         return hash(self.bodies)
 
-    def _make(self, world: World) -> None:
-        self._world = world
-        self._model = world.model
+    def _make(self, bodies: tuple[Body, ...], trees: tuple[Tree, ...]) -> None:
+        self._trees = trees
+        self._world = world = world_of(bodies, trees)
         self._order = paper_order(world.joints)
         self._workspace = self.workspace()
-        self._frames = [body_frame(world.model, link) for link in world.links[1:]]
         self.mimics = world.mimics
-        self.texts = world.texts
+        self.texts = tuple(tree.text for tree in trees)
         super().__init__(
-            bodies=world.bodies,
+            bodies=bodies,
             joints=self._order.joints,
             links=world.links,
             roots=world.roots,
@@ -151,18 +149,19 @@ class System(Mechanism):
             ignored=world.ignored,
             notes=world.notes,
         )
-        self.column_map: JointColumns = JointColumns(self._model, self._frames, self._order)
+        self.column_map: JointColumns = JointColumns(world.parts, self._order)
         unactuated = [joint for joint in self.joints if not joint.actuated]
-        self.constant_mass_matrix = constant_mass(self._model, unactuated)
+        places = world.places
+        self.constant_mass_matrix = constant_mass(places, unactuated)
         self.varying_mass: MassMatrix | None = None
         if not self.constant_mass_matrix:
             inertias = (self.masses, self.centres, self.inertias)
             neutral = self.kinematics(self.neutral())
-            mass = mass_matrix(self._model, unactuated, neutral, self.n_a, inertias)
+            mass = mass_matrix(places, unactuated, neutral, self.n_a, inertias)
             self.varying_mass = mass if len(mass.link) else None
             self.constant_M_u = mass.known
             unactuated = []
-        self.mass_blocks = read_only(rigid_masses(self._model, unactuated))
+        self.mass_blocks = read_only(rigid_masses(places, unactuated))
         if not (self.constant_mass_matrix and positive_pivots(self.mass_blocks)):
             check_mass(self.M_u(self.q_start), self.coordinates[self.n_a :], self._roots)
 
@@ -177,7 +176,10 @@ class System(Mechanism):
 
     def neutral(self) -> Array:
         """Configuration with every position zero and bases at the origin, shape (n_q,)."""
-        return self._order.paper_q(pin.neutral(self._model))
+        entries: list[float] = []
+        for joint in self.joints:
+            entries += joint.neutral()
+        return np.array(entries)
 
     def at(self, q: ArrayLike | State) -> SystemState:
         """The system at a configuration, shape (n_q,), or at a state of its own.
@@ -204,8 +206,8 @@ class System(Mechanism):
         if name not in self._roots:
             return np.asarray(self.centres[link])
         # The root link's frame is that of the base's joint.
-        joint = self._model.frames[self._frames[link - 1]].parentJoint
-        return np.asarray(self._model.inertias[joint].lever)
+        model, frame = self._world.frame(link)
+        return np.asarray(model.inertias[model.frames[frame].parentJoint].lever)
 
 
 class SystemState(State):

@@ -1,8 +1,7 @@
 """Pinocchio's workspaces of a world, in parts: a workspace grows with the cube of n_v.
 
-Bodies move on their own (all of them hang from the world), so what pinocchio says about several
-of them at once is what it says about each. It gets the cosine and the sine of revolute joints, and
-not their angles: its own sines are those of the C library.
+Pinocchio gets the cosine and the sine of revolute joints, and not their angles: its own sines are
+those of the C library.
 """
 
 from collections.abc import Iterator, Sequence
@@ -11,16 +10,11 @@ from typing import NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.coordinates import Order
-from quasistatic_ref.model.urdf.urdf import body_frame, urdf_model
-from quasistatic_ref.model.world import World, joined
+from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.model.world import World
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array, Indices
-
-PART = 24
-"""Most coordinates of a part, unless one body alone has more: of 48, a workspace takes several
-times as long to make."""
 
 WORLD_POSE = np.eye(3), np.zeros(3)
 
@@ -66,16 +60,16 @@ class Workspace:
 
     def __init__(self, world: World, order: Order) -> None:
         self.parts: list[WorkspacePart] = []
-        before = 0
         of_paper = np.argsort(order.q)
-        for model, links in _part_models(world):
+        joints = iter(world.joints)
+        for part in world.parts:
+            model = pin.Model(part.model)  # its gravity is written
             data = pin.Data(model)
-            placements = [data.oMf[body_frame(model, link)] for link in links]
+            placements = [data.oMf[frame] for frame in part.frames]
             R = [p.rotation for p in placements]
             t = [p.translation for p in placements]
-            entries, turns = _sources(world.model, model, before)
+            entries, turns = _sources(model, joints)
             self.parts.append(WorkspacePart(model, data, R, t, of_paper[entries], turns))
-            before += model.njoints - 1
         self._none = np.zeros((6, 0))
         self._gravity: tuple[float, ...] | None = None
 
@@ -137,38 +131,16 @@ class Workspace:
         return torques[0] if len(torques) == 1 else np.concatenate([self._none[0], *torques])
 
 
-def _part_models(world: World) -> Iterator[tuple[pin.Model, list[str]]]:
-    """Models of bodies that follow one another, and the links of each.
-
-    A model has PART coordinates at most, or one body that has more; its revolute joints have
-    cosine and sine in place of an angle, as
-    :func:`~quasistatic_ref.model.urdf.urdf.urdf_model` says.
-    """
-    links: dict[str, list[str]] = {}
-    for link in world.links[1:]:
-        links.setdefault(link.partition("/")[0], []).append(link)
-    bodies: list[Body] = []
-    models: list[pin.Model] = []
-    for body, file in zip(world.bodies, world.files, strict=True):
-        model = urdf_model(file, body.base, turns=True)
-        if models and sum(m.nv for m in models) + model.nv > PART:
-            yield joined(bodies, models), [link for b in bodies for link in links[b.name]]
-            bodies, models = [], []
-        bodies.append(body)
-        models.append(model)
-    if models:
-        yield joined(bodies, models), [link for b in bodies for link in links[b.name]]
-
-
-def _sources(all_bodies: pin.Model, model: pin.Model, before: int) -> tuple[Indices, list[int]]:
-    """Entries of the model's q of a part after `before` other joints, and its `turns`."""
+def _sources(model: pin.Model, joints: Iterator[Joint]) -> tuple[Indices, list[int]]:
+    """Entries of pinocchio's q of all bodies that make a model's q, and its `turns`."""
     entries = np.zeros(model.nq, dtype=np.int64)
     turns = []
-    for joint in range(1, model.njoints):
-        start = model.idx_qs[joint]
-        size = model.nqs[joint]
-        sources = all_bodies.idx_qs[joint + before] + np.arange(size)
-        if size > all_bodies.nqs[joint + before]:
+    for start, size in zip(model.idx_qs, model.nqs, strict=True):
+        if not size:  # the world, or a joint that mimics another
+            continue
+        q = next(joints).q
+        sources = q.start + np.arange(size)
+        if size > q.stop - q.start:
             turns.append(start)
             sources[1] = sources[0]
         entries[start : start + size] = sources

@@ -1,15 +1,17 @@
-"""All URDFs in one pinocchio model, named, placed and numbered; what `System` is made from."""
+"""All bodies in pinocchio models, named, placed and numbered; what `System` is made from.
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+Bodies move on their own (all of them hang from the world), so what pinocchio says about several
+of them at once is what it says about each: a model holds some of them.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.files.urdf.file import UrdfFile
-from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.body import FIXED, Body
@@ -19,32 +21,44 @@ from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import QUATERNION, Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.model.urdf.urdf import BASE, Urdf, loaded_urdf, urdf_model
+from quasistatic_ref.model.tree import Tree
+from quasistatic_ref.model.tree_model import BASE, TreeModel, body_frame, tree_model
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
+PART = 24
+"""Most coordinates of a part, unless one body alone has more: of 48, a workspace takes several
+times as long to make."""
 
-@dataclass(frozen=True, eq=False)
-class World(Plain):
-    """Several bodies in one pinocchio model.
 
-    It holds the files, of which :attr:`model` is made: pinocchio 4.1's own pickles
-    lose which joint a mimic follows, and a model that is read from one may end the process.
+class Part(NamedTuple):
+    """Bodies that follow one another.
 
     Parameters
     ----------
-    bodies : tuple of Body
-    texts : tuple of str
-        The URDF of each.
-    files : tuple of UrdfFile
-        What they say.
+    model : pinocchio.Model
+    frames : list of int
+        The frame of each of their links.
+    """
+
+    model: pin.Model
+    frames: list[int]
+
+
+@dataclass(frozen=True, eq=False)
+class World:
+    """Several bodies.
+
+    Parameters
+    ----------
+    parts : tuple of Part
     joints : tuple of Joint
         Those with coordinates of their own, numbered as pinocchio does.
     mimics : tuple of MimicJoint
     links : tuple of str
         Number 0 is ``"world"``.
     masses : ndarray, shape (L,)
-        Mass of each link as its file says; the world has none [kg].
+        Mass of each link as its tree says; the world has none [kg].
     centres : ndarray, shape (L, 3)
         Each link's centre of mass, in its frame [m].
     inertias : ndarray, shape (L, 3, 3)
@@ -55,14 +69,12 @@ class World(Plain):
     start : ndarray, shape (n_q,)
         Initial configuration in pinocchio's order [m, rad, -].
     ignored : tuple of str
-        What the URDFs say and the model does not use.
+        What the trees' sources say and the model does not use.
     notes : tuple of str
-        What was taken otherwise than the URDFs say.
+        What was taken otherwise than they say.
     """
 
-    bodies: tuple[Body, ...]
-    texts: tuple[str, ...]
-    files: tuple[UrdfFile, ...] = field(compare=False)
+    parts: tuple[Part, ...]
     joints: tuple[Joint, ...]
     mimics: tuple[MimicJoint, ...]
     links: tuple[str, ...]
@@ -75,70 +87,104 @@ class World(Plain):
     ignored: tuple[str, ...]
     notes: tuple[str, ...]
 
-    @cached_property
-    def model(self) -> pin.Model:
-        """All bodies in one pinocchio model."""
-        models = [urdf_model(file, b.base) for b, file in zip(self.bodies, self.files, strict=True)]
-        return joined(self.bodies, models)
+    @property
+    def places(self) -> dict[str, tuple[pin.Model, int]]:
+        """The model that each joint stands in, and its number there."""
+        return {
+            joint.name: (part.model, part.model.getJointId(joint_key(joint.name)))
+            for joint in self.joints
+            for part in self.parts
+            if part.model.existJointName(joint_key(joint.name))
+        }
+
+    def frame(self, link: int) -> tuple[pin.Model, int]:
+        """The model that a link stands in, and its frame there."""
+        every = [(part.model, frame) for part in self.parts for frame in part.frames]
+        return every[link - 1]
 
 
 @together()
-def world_of(bodies: tuple[Body, ...]) -> World:
-    """Load every body's URDF and append it to one model.
+def trees_of(bodies: Iterable[Body]) -> tuple[Tree, ...]:
+    """The tree of each body: files are read here.
 
     Raises
     ------
     ModelError
-        If a URDF is not usable, two bodies share a name, or a body names a joint that it
+        If a URDF is not usable.
+    """
+    return tuple(body.tree() for body in bodies)
+
+
+def world_of(bodies: Sequence[Body], trees: Sequence[Tree]) -> World:
+    """Bodies, of the trees that they have, in pinocchio models.
+
+    Raises
+    ------
+    ModelError
+        If an inertia is not usable, two bodies share a name, or a body names a joint that it
         does not have.
     """
-    urdfs: dict[str, Urdf] = {}
-    for body in bodies:
-        if body.name in urdfs:
-            problem = "is the name of two bodies; rename one"
-            raise ModelError(problem, field="body.name", value=body.name)
-        urdf = loaded_urdf(
-            body.urdf, base=body.base, actuated=body.actuated, package_dirs=body.package_dirs
-        )
-        _check_joint_names(body, urdf)
-        urdfs[body.name] = urdf
-    written = [urdf.file.links[link] for urdf in urdfs.values() for link in urdf.links]
+    models: dict[str, TreeModel] = {}
     links = ["world"]
     roots = {}
     shapes = []
-    for name, urdf in urdfs.items():
-        first = roots[name] = len(links)
-        links += [f"{name}/{link}" for link in urdf.links]
-        for shape in urdf.shapes:
-            shapes.append(replace(shape, name=f"{name}/{shape.name}", link=first + shape.link))
     joints: list[Joint] = []
     start: list[float] = []
-    for body in bodies:
-        _add_joints(body, urdfs[body.name].file, joints, start)
+    for body, tree in zip(bodies, trees, strict=True):
+        if body.name in models:
+            problem = "is the name of two bodies; rename one"
+            raise ModelError(problem, field="body.name", value=body.name)
+        made = models[body.name] = tree_model(tree, body.base, body.actuated)
+        _check_joint_names(body, tree)
+        _add_joints(body, tree, joints, start)
+        first = roots[body.name] = len(links)
+        links += [f"{body.name}/{link}" for link in tree.links]
+        for shape in made.shapes:
+            shapes.append(replace(shape, name=f"{body.name}/{shape.name}", link=first + shape.link))
+    every = [link for tree in trees for link in tree.links.values()]
     return World(
-        bodies=bodies,
-        texts=tuple(urdf.file.text for urdf in urdfs.values()),
-        files=tuple(urdf.file for urdf in urdfs.values()),
+        parts=tuple(_parts(bodies, list(models.values()))),
         joints=tuple(joints),
-        mimics=tuple(m for name, urdf in urdfs.items() for m in _mimics(name, urdf)),
+        mimics=tuple(mimic for name, made in models.items() for mimic in _mimics(name, made.tree)),
         links=tuple(links),
-        masses=np.array([0.0, *(link.mass for link in written)]),
-        centres=np.array([np.zeros(3), *(link.com for link in written)]),
-        inertias=np.array([np.zeros((3, 3)), *(link.inertia for link in written)]),
+        masses=np.array([0.0, *(link.mass for link in every)]),
+        centres=np.array([np.zeros(3), *(link.com for link in every)]),
+        inertias=np.array([np.zeros((3, 3)), *(link.inertia for link in every)]),
         shapes=tuple(shapes),
         roots=roots,
         start=np.array(start),
-        ignored=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.file.ignored),
-        notes=tuple(f"{name}: {x}" for name, urdf in urdfs.items() for x in urdf.notes),
+        ignored=tuple(f"{name}: {x}" for name, made in models.items() for x in made.tree.ignored),
+        notes=tuple(f"{name}: {x}" for name, made in models.items() for x in made.notes),
     )
 
 
-def joined(bodies: Sequence[Body], models: Sequence[pin.Model]) -> pin.Model:
+def _parts(bodies: Sequence[Body], models: Sequence[TreeModel]) -> Iterator[Part]:
+    """Bodies that follow one another, of PART coordinates at most, or one that has more."""
+    first = 0
+    size = 0
+    for last, made in enumerate(models):
+        if last > first and size + made.model.nv > PART:
+            yield _part(bodies[first:last], models[first:last])
+            first = last
+            size = 0
+        size += made.model.nv
+    if models:
+        yield _part(bodies[first:], models[first:])
+
+
+def _part(bodies: Sequence[Body], models: Sequence[TreeModel]) -> Part:
+    model = _joined(bodies, [made.model for made in models])
+    of_bodies = zip(bodies, models, strict=True)
+    links = [f"{body.name}/{link}" for body, made in of_bodies for link in made.tree.links]
+    return Part(model, [body_frame(model, link) for link in links])
+
+
+def _joined(bodies: Sequence[Body], models: Sequence[pin.Model]) -> pin.Model:
     """All bodies in one pinocchio model, joined in halves, since appending takes long."""
     if len(bodies) > 1:
         half = len(bodies) // 2
-        first = joined(bodies[:half], models[:half])
-        rest = joined(bodies[half:], models[half:])
+        first = _joined(bodies[:half], models[:half])
+        rest = _joined(bodies[half:], models[half:])
         return pin.appendModel(first, rest, 0, pin.SE3.Identity())
     model = pin.Model()
     for body, alone in zip(bodies, models, strict=True):
@@ -165,8 +211,8 @@ def _anchor(body: Body) -> pin.SE3:
     return pin.SE3(np.eye(3), xyz)
 
 
-def _check_joint_names(body: Body, urdf: Urdf) -> None:
-    kinds = {joint.name: joint for joint in urdf.file.joints if joint.kind != FIXED}
+def _check_joint_names(body: Body, tree: Tree) -> None:
+    kinds = {joint.name: joint for joint in tree.joints if joint.kind != FIXED}
     free = {name for name, joint in kinds.items() if joint.mimic is None}
     scalar = {name for name in free if issubclass(JOINTS[kinds[name].kind], AxisJoint)}
     moves = body.base != FIXED
@@ -194,7 +240,7 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
             raise ModelError("names a joint twice", field=f"{body.name}.{key}", value=names)
 
 
-def _add_joints(body: Body, file: UrdfFile, joints: list[Joint], start: list[float]) -> None:
+def _add_joints(body: Body, tree: Tree, joints: list[Joint], start: list[float]) -> None:
     """Append a body's joints with coordinates, numbered as pinocchio does, and their start."""
 
     def add(kind: type[Joint], name: str, entries: Sequence[float]) -> None:
@@ -212,21 +258,19 @@ def _add_joints(body: Body, file: UrdfFile, joints: list[Joint], start: list[flo
         if base.unit_vector == QUATERNION:  # with the last bits of runs that are recorded
             entries[base.lengths :] = pin.Quaternion(rotation(rpy)).normalized().coeffs()
         add(base, BASE, entries)
-    for written in file.in_order():
+    for written in tree.joints:
         if written.kind == FIXED or written.mimic is not None:
             continue  # it has no coordinate: its column is added to its leader's (column_map.py)
         kind = JOINTS[written.kind]
         if issubclass(kind, TwistJoint):
-            add(kind, written.name, kind.at(np.zeros(3), np.zeros(3)))
+            add(kind, written.name, kind.neutral())
             continue
         add(kind, written.name, kind.at(body.positions.get(written.name, 0.0)))
         limits = written.limits if kind.unit_vector is None else None
         joints[-1] = replace(joints[-1], effort=written.effort, limits=limits)
 
 
-def _mimics(body: str, urdf: Urdf) -> list[MimicJoint]:
-    return [
-        MimicJoint(f"{body}/{joint.name}", f"{body}/{m.of}", m.multiplier, m.offset)
-        for joint in urdf.file.joints
-        if (m := joint.mimic)
-    ]
+def _mimics(body: str, tree: Tree) -> Iterator[MimicJoint]:
+    for joint, mimic in tree.mimics:
+        leader = f"{body}/{mimic.of}"
+        yield MimicJoint(f"{body}/{joint.name}", leader, mimic.multiplier, mimic.offset)

@@ -14,8 +14,8 @@ from quasistatic_ref import InputError, load_trajectory
 from quasistatic_ref.files.content import json_read, text_of, text_written, toml_read
 from quasistatic_ref.files.content import written_whole as whole
 from quasistatic_ref.formats.json_text import json_text
-from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from tests.cases import cases, refusal
+from tests.files.urdf.urdf_texts import loaded_urdf
 
 
 def test_a_text_is_written_in_utf_8_and_folders_are_made(tmp_path):

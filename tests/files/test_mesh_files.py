@@ -12,13 +12,12 @@ from quasistatic_ref import Body, ModelError, System, load_scenario
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.files.mesh_files import loaded_mesh, mesh_hull, mesh_path
-from quasistatic_ref.model.urdf import shapes as urdf_shapes
-from quasistatic_ref.model.urdf.urdf import loaded_urdf
+from quasistatic_ref.files.urdf import shapes as urdf_shapes
 from quasistatic_ref.optional.readers import files, placed_meshes
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from tests.cases import cases
 from tests.closeness import assert_within
-from tests.files.urdf.urdf_texts import collision, link, robot, urdf_of_text
+from tests.files.urdf.urdf_texts import collision, link, loaded_urdf, robot, urdf_of_text
 from tests.oracles.shape_files import COLLADA, TETRAHEDRON, bytes_of, exported, plain_gltf
 from tests.tolerances import CLOSED_FORM
 

@@ -17,7 +17,7 @@ CONES = {"FrictionCone", "PolyhedralCone", "CurvedCone", "EllipsoidCone"}
 OF_CONES = ("step/cones.py", "certify/curved_cone.py", "optional/ellipsoid/cone.py")
 OF_JOINTS = {FIXED, *BASES, *JOINTS}
 READERS = (
-    *("model/joints/", "model/body.py", "model/urdf/", "optional/models/"),
+    *("model/joints/", "model/body.py", "model/tree", "model/inertia.py", "optional/models/"),
     *("files/", "cli/", "lab/"),
 )
 

@@ -4,9 +4,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Body, Sphere, System
+from quasistatic_ref.model import tree_model
 from tests.cases import cases
 from tests.closeness import assert_within
 from tests.files.urdf.urdf_texts import joint, link, robot
+from tests.processes import printed_text
 from tests.tolerances import ROUNDING
 
 GRAVITY = np.array([1.0, -2.0, -9.81])
@@ -58,3 +60,25 @@ def test_a_joint_has_the_limits_that_its_file_gives_it(kind, said, limits):
     assert written != hinge
     found = System([Body("one", robot(link("a"), link("b"), written))]).joint("one/j")
     assert (found.limits, found.effort) == (limits, 3.0)
+
+
+def test_a_body_becomes_a_model_once(monkeypatch):
+    made = []
+    append = tree_model._pinocchio_model
+    monkeypatch.setattr(
+        tree_model, "_pinocchio_model", lambda *of: [made.append(of), append(*of)][1]
+    )
+    system = balls(9)
+    system.kinematics(system.q_start)
+    assert len(made) == 9
+
+
+def test_a_body_of_a_shape_reads_no_file():
+    said = printed_text(
+        "import sys",
+        "import quasistatic_ref as qr",
+        "ball = qr.Body.of_shape('ball', qr.Sphere(0.1), 1.0)",
+        "print(qr.System([ball]).n_u)",
+        "print([name for name in sys.modules if name.startswith('quasistatic_ref.files')])",
+    )
+    assert said.split("\n") == ["6", "[]"]

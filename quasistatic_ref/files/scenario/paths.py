@@ -16,7 +16,7 @@ from pathlib import Path
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.mesh_files import PACKAGE
 from quasistatic_ref.files.table_reader import TableReader
-from quasistatic_ref.files.urdf.file import UrdfFile
+from quasistatic_ref.model.tree import Tree
 
 SHARED = Path("cmeel.prefix", "share")
 """Where installed packages keep robots, next to the modules of Python."""
@@ -87,15 +87,15 @@ def lies_in(path: Path, folders: Sequence[Path]) -> bool:
     return any(resolved.is_relative_to(folder.resolve()) for folder in folders)
 
 
-def inline_urdf(table: TableReader, field: str) -> str | UrdfFile | None:
-    """The URDF that stands in the field itself, a text from ``<`` on or what a file would say.
+def inline_urdf(table: TableReader, field: str) -> str | Tree | None:
+    """The URDF that stands in the field itself, a text from ``<`` on or a mechanism.
 
     None of anything else.
 
     Only of the user's own words: the meshes of a text are looked for in the working folder.
     """
     text = table.peek(field)
-    if isinstance(text, UrdfFile):
+    if isinstance(text, Tree):
         table.take(field)
         return text
     is_text = isinstance(text, OwnWord) and text.lstrip().startswith("<")

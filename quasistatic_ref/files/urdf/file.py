@@ -1,7 +1,7 @@
-"""What a URDF file says, checked on its own, before any library has read it."""
+"""What a URDF file says, checked on its own: a tree of links and joints."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Final, NamedTuple
 
@@ -10,23 +10,28 @@ import numpy as np
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.files.content import text_read
 from quasistatic_ref.files.mesh_files import mesh_path
+from quasistatic_ref.files.urdf.geometry import GEOMETRIES, written_shape
+from quasistatic_ref.files.urdf.order import visiting_order
+from quasistatic_ref.files.urdf.shapes import Collision, link_shapes
 from quasistatic_ref.files.urdf.xml import Tag
 from quasistatic_ref.files.xml_text import xml_root
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.quoting import counted, suggestion
+from quasistatic_ref.model.inertia import inertia_defect
 from quasistatic_ref.model.joints import JOINTS
-from quasistatic_ref.model.urdf.tree import FileJoint, Mimic, checked_tree, visiting_order
+from quasistatic_ref.model.tree import (
+    MOST_COORDINATES,
+    NO_INERTIA,
+    Defect,
+    Mimic,
+    Tree,
+    TreeJoint,
+    TreeLink,
+    checked_tree,
+)
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import length, product
-from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
 
 TEXT: Final = Path("<robot>")
 """In the place of its path, of a text."""
-INERTIA_TRIANGLE: Final = 1e-6
-"""How far the largest principal moment of inertia may exceed the sum of the other two, relative.
-
-A flat plate has equality; six printed digits break it by up to 1e-6."""
-
 SAME_MOMENT = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
 """Attributes that some exporters write beside URDF's own."""
 _MOVING = tuple(JOINTS)
@@ -34,142 +39,58 @@ MOST_LINKS = 1000
 """Most links in a file: a model of them takes time with the square of their number."""
 MOST_SHAPES = 1000
 """Most shapes that touch."""
-MOST_COORDINATES = 250
-"""Most coordinates of the joints of a file: pinocchio takes memory with the cube of their number,
-1 GiB for these; a humanoid has 60."""
 LARGEST_FILE = 16 * 2**20
 """Largest URDF [bytes]; those of humanoids have 0.2 MiB."""
 _ROBOT = ("name", "version")
 _TURNING = ("revolute", "prismatic")
 _VERSIONS = ("1.0", "1.1", "1.2")
-_GEOMETRIES = {
-    "box": ("size",),
-    "sphere": ("radius",),
-    "cylinder": ("radius", "length"),
-    "capsule": ("radius", "length"),
-    "mesh": ("filename", "scale"),
-}
-"""Shape -> its attributes."""
-_SOLIDS: dict[str, Callable[..., Shape]] = {
-    "box": Box,
-    "sphere": Sphere,
-    "cylinder": Cylinder,
-    "capsule": Capsule,
-}
-
-
-Defect = tuple[str, str, object]
-"""What is wrong with an inertia: ``"mass"`` or ``"inertia"``, the problem, the value."""
-
-
 MOMENTS: Final = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
-NO_INERTIA: Final[Defect] = ("inertia", "is missing", None)
-"""Of a link with a mass alone."""
 
 
-@dataclass(frozen=True, eq=False)
-class FileMesh:
-    """A mesh as written: its URI, and the `scale` of each coordinate, shape (3,) [-]."""
-
-    uri: str
-    scale: Array
-
-
-FileShape = Shape | FileMesh
-"""A shape as written."""
-
-
-class FileCollision(NamedTuple):
-    """A collision shape as written.
-
-    Parameters
-    ----------
-    name : str or None
-    shape : FileShape
-    R, t : ndarray, shapes (3, 3) and (3,)
-        Its frame in the link's [-, m].
-    """
-
-    name: str | None
-    shape: FileShape
-    R: Array
-    t: Array
-
-
-@dataclass(frozen=True, eq=False)
-class FileLink(Plain):
-    """A link as written.
-
-    Parameters
-    ----------
-    name : str
-    mass : float
-        [kg]; 0 without an ``inertial``.
-    com : ndarray, shape (3,)
-        Centre of mass in the link's frame [m].
-    inertia : ndarray, shape (3, 3)
-        About the centre of mass, along the link's axes [kg m^2].
-    collisions : tuple of FileCollision
-    defect : Defect or None
-        Why no rigid body has this inertia; an error where an un-actuated joint moves the link.
-    digit : float
-        A unit of the last digit of its moments, as printed [kg m^2].
-    """
-
-    name: str
-    mass: float
-    com: Array
-    inertia: Array
-    collisions: tuple[FileCollision, ...]
-    defect: Defect | None
-    digit: float
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class UrdfFile(Plain):
-    """A URDF file as written, or what one would say.
+class UrdfText(NamedTuple):
+    """The text of a URDF.
 
     Parameters
     ----------
     path : Path
-        ``<robot>``, in the working folder, of a text that was given in place of a file.
+        Its file; ``<robot>``, in the working folder, of a text that was given in place of a file.
     text : str
-        The whole file; of what is no file a digest.
-    root : str
-        Name of the root link.
-    links : dict of str to FileLink, in file order
-    joints : tuple of FileJoint
-        Parents before children.
-    ignored : tuple of str
-        Elements and attributes that the model does not use, e.g. ``link[base].visual``.
-    notes : tuple of str
-        What was left out or taken in another way than it is written.
     """
 
     path: Path
     text: str
-    root: str
-    links: dict[str, FileLink]
-    joints: tuple[FileJoint, ...]
-    ignored: tuple[str, ...]
-    notes: tuple[str, ...] = ()
-
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__} {self.path}: {counted(len(self.links), 'link')}>"
-
-    def in_order(self) -> Sequence[FileJoint]:
-        """All joints, those that move in the order in which q has them."""
-        return visiting_order(self.root, self.joints)
 
     def mesh_path(self, uri: str, package_dirs: Sequence[str | Path]) -> Path:
         """The file that a mesh's URI means; ModelError as of :func:`.mesh_files.mesh_path`."""
         return mesh_path(uri, self.path.parent, package_dirs, is_of_file=self.path != TEXT)
 
 
-def urdf_file(source: str | Path | UrdfFile) -> UrdfFile:
-    """Content of a URDF file, or of a string that is a URDF: one that begins with ``<``.
+def urdf_text(source: str | Path) -> UrdfText:
+    """The text of a URDF file, or a string that is a URDF: one that begins with ``<``.
 
-    What is content already is returned.
+    Raises
+    ------
+    ModelError
+        If the file is missing, or no text.
+    """
+    if isinstance(source, str) and source.lstrip().startswith("<"):
+        return UrdfText(TEXT, source)
+    path = Path(source)
+    return UrdfText(path, text_read(path, ModelError, LARGEST_FILE))
+
+
+def urdf_tree(source: str | Path, package_dirs: Sequence[str | Path] = ()) -> Tree:
+    """The tree of a URDF file, or of a string that is a URDF.
+
+    pinocchio's own reader reports trouble to standard error and carries on without the collision
+    shape, the inertia or the joint that it could not read.
+
+    Parameters
+    ----------
+    source : str or Path
+        As of :func:`urdf_text`.
+    package_dirs : sequence of str or Path
+        Where ``package://`` URIs are looked for.
 
     Raises
     ------
@@ -177,20 +98,13 @@ def urdf_file(source: str | Path | UrdfFile) -> UrdfFile:
         If it is missing or malformed, contradicts itself, or says something that the model
         has no place for; the message names the file, the element and the value.
     """
-    if isinstance(source, UrdfFile):
-        return source
-    if isinstance(source, str) and source.lstrip().startswith("<"):
-        path = TEXT
-        text = source
-    else:
-        path = Path(source)
-        text = text_read(path, ModelError, LARGEST_FILE)
-    with about_file(path):
-        return _content(path, text)
+    urdf = urdf_text(source)
+    with about_file(urdf.path):
+        return _tree(urdf, package_dirs)
 
 
-def _content(path: Path, text: str) -> UrdfFile:
-    robot = xml_root(text)
+def _tree(urdf: UrdfText, package_dirs: Sequence[str | Path]) -> Tree:
+    robot = xml_root(urdf.text)
     if robot.tag != "robot":
         is_mujoco = robot.tag == "mujoco"
         remedy = "; a MuJoCo scene is run whole: quasistatic-ref run FILE.xml" if is_mujoco else ""
@@ -204,7 +118,8 @@ def _content(path: Path, text: str) -> UrdfFile:
     if "xmlns" in robot.attrib:
         top.notes.append(f"its elements are read without their namespace, {robot.attrib['xmlns']}")
     top.pass_over("link", "joint", attributes=_ROBOT)
-    links: dict[str, FileLink] = {}
+    links: dict[str, TreeLink] = {}
+    collisions: dict[str, list[Collision]] = {}
     _check_count(len(robot.findall("link")), MOST_LINKS, "links")
     _check_count(len(robot.findall("link/collision")), MOST_SHAPES, "collisions")
     for tag in top.named("link"):
@@ -212,6 +127,7 @@ def _content(path: Path, text: str) -> UrdfFile:
         if link.name in links:
             raise ModelError("is the name of two links; rename one", field=f"link[{link.name}]")
         links[link.name] = link
+        collisions[link.name] = _collisions(tag)
     if not links:
         raise ModelError("has no <link>", field="robot")
     needed = version != "1.2"  # which made limits optional
@@ -221,8 +137,22 @@ def _content(path: Path, text: str) -> UrdfFile:
     if coordinates > MOST_COORDINATES:
         problem = f"has joints of more than {MOST_COORDINATES} coordinates; fix some of them"
         raise ModelError(problem, field="robot", value=coordinates)
-    root, ordered = checked_tree(links, joints)
-    return UrdfFile(path, text, root, links, ordered, tuple(top.unread), tuple(top.notes))
+    root, from_root = checked_tree(links, joints)
+    order = [root, *(joint.child for joint in from_root)]
+    in_q = visiting_order(root, from_root)
+    shapes = link_shapes(
+        {link: collisions[link] for link in order},
+        lambda uri: urdf.mesh_path(uri, package_dirs),
+        top.notes,
+    )
+    return Tree(
+        path=urdf.path,
+        text=urdf.text,
+        links={link: replace(links[link], shapes=shapes[link]) for link in order},
+        joints=tuple(in_q),
+        ignored=tuple(top.unread),
+        notes=tuple(top.notes),
+    )
 
 
 def _check_count(count: int, most: int, what: str) -> None:
@@ -230,21 +160,26 @@ def _check_count(count: int, most: int, what: str) -> None:
         raise ModelError(f"holds more than {most} {what}", field="robot", value=count)
 
 
-def _link(link: Tag) -> FileLink:
+def _link(link: Tag) -> TreeLink:
+    """A link, but for its shapes."""
     link.pass_over("inertial", "collision", attributes=("name",))
     mass, com, inertia, defect, digit = _inertial(link)
+    return TreeLink(link.text("name"), mass, com, inertia, (), defect, digit)
+
+
+def _collisions(link: Tag) -> list[Collision]:
     collisions = []
     for number, each in enumerate(link.element.findall("collision")):
         collision = link.inner(each, f"{link.where}.collision[{number}]")
         collision.pass_over("origin", "geometry", attributes=("name",))
         R, t = collision.frame()
         shape = written_shape(collision)
-        collision.child("geometry").pass_over(*_GEOMETRIES)
+        collision.child("geometry").pass_over(*GEOMETRIES)
         if shape is None:
             link.notes.append(f"{collision.where}: left out, since its shape has no size")
             continue
-        collisions.append(FileCollision(each.get("name"), shape, R, t))
-    return FileLink(link.text("name"), mass, com, inertia, tuple(collisions), defect, digit)
+        collisions.append(Collision(each.get("name"), collision.where, shape, R, t))
+    return collisions
 
 
 def _inertial(link: Tag) -> tuple[float, Array, Array, Defect | None, float]:
@@ -284,76 +219,7 @@ def _last_digit(number: str) -> float:
     return float(f"1e{int(exponent or 0) - decimals}")
 
 
-def inertia_defect(inertia: Array, digit: float = 0.0) -> Defect | None:
-    """What makes an inertia (3, 3) about a centre of mass that of no body, or None.
-
-    The largest moment may exceed the sum of the others by rounding: by a unit of the last printed
-    digit [kg m^2], up to a tenth of it.
-    """
-    principal = np.linalg.eigvalsh(inertia)
-    written = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]].tolist()
-    order = "(ixx iyy izz ixy ixz iyz)"
-    if not principal[0] > 0:
-        problem = f"must be positive definite {order}"
-        if principal[0] >= -INERTIA_TRIANGLE * abs(principal[2]):
-            problem += (
-                "; with a radius r write m r^2/2 about the axis of a rod or disk, m r^2/4 about "
-                "the diameters of a disk, 2 m r^2/5 for a point mass"
-            )
-        return "inertia", problem, written
-    rounding = min(digit, principal[2] / 10) * (1 + INERTIA_TRIANGLE)
-    if principal[2] > (principal[0] + principal[1]) * (1 + INERTIA_TRIANGLE) + rounding:
-        problem = "is impossible: the largest principal moment exceeds the sum of the others"
-        return "inertia", f"{problem} {order}", written
-    return None
-
-
-def written_shape(collision: Tag) -> FileShape | None:
-    """The shape of a collision or visual element; None if one of its sizes is 0.
-
-    Of a mesh's scale the first three numbers count; the others are taken away, and noted.
-
-    Raises
-    ------
-    ModelError
-        If it has none, more than one, or one that is not known.
-    """
-    geometry = collision.child("geometry")
-    tags = [child.tag for child in geometry.element]
-    if len(tags) != 1:
-        raise ModelError("must contain exactly one shape", field=geometry.where, value=tags)
-    kind = tags[0]
-    shape = geometry.inner(geometry.element[0], f"{collision.where}.{kind}")
-    if kind not in _GEOMETRIES:
-        raise ModelError(f"is not a shape{suggestion(kind, _GEOMETRIES)}", field=shape.where)
-    shape.only(*_GEOMETRIES[kind])
-    if kind == "mesh":
-        scales = shape.element.get("scale", "").split()
-        if len(scales) > 3:
-            shape.notes.append(
-                f"{shape.where}.scale: of its {len(scales)} numbers the first three count"
-            )
-            shape.element.set("scale", " ".join(scales[:3]))
-        scale = shape.numbers("scale", 3, default=1.0)
-        if not (scale != 0).all():
-            return None
-        return FileMesh(shape.expanded("filename").strip(), scale)
-    sizes = {
-        name: shape.numbers(name, 3) if name == "size" else shape.number(name)
-        for name in _GEOMETRIES[kind]
-    }
-    if np.min([*sizes.values()]) == 0 and not (kind == "capsule" and sizes["radius"] > 0):
-        return None
-    try:
-        return _SOLIDS[kind](**sizes)
-    except ModelError as error:  # about a size
-        name = str(error.field)
-        error.field = f"{shape.where}.{name}"
-        error.value = shape.text(name)
-        raise
-
-
-def _joint(joint: Tag, limits_needed: bool) -> FileJoint:
+def _joint(joint: Tag, limits_needed: bool) -> TreeJoint:
     kind = joint.text("type")
     if kind != "fixed" and kind not in _MOVING:
         problem = f"this type is not supported; use {', '.join(_MOVING)} or fixed"
@@ -386,10 +252,10 @@ def _joint(joint: Tag, limits_needed: bool) -> FileJoint:
     if kind == "fixed" and mimic is not None:
         joint.unread.append(f"{joint.where}.mimic")
         mimic = None
-    return FileJoint(joint.text("name"), kind, parent, child, R, t, axis, mimic, limits, effort)
+    return TreeJoint(joint.text("name"), kind, parent, child, R, t, axis, mimic, limits, effort)
 
 
-def _followers(joints: list[FileJoint], notes: list[str]) -> list[FileJoint]:
+def _followers(joints: list[TreeJoint], notes: list[str]) -> list[TreeJoint]:
     """The joints: one that would follow a joint that is not there moves by itself.
 
     A continuous one that follows one that is not is a revolute one.

@@ -53,6 +53,11 @@ class AxisJoint(Joint):
         """The joint's entries of q at a position [m, rad]."""
         return [position]
 
+    @classmethod
+    def neutral(cls) -> list[float]:
+        """Its entries of q at position zero."""
+        return cls.at(0.0)
+
     def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
         """The joint's entries of q (+) delta_q."""
         return [q[0] + delta_q[0]]

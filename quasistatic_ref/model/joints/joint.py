@@ -114,6 +114,11 @@ class Joint(Plain, ABC):
         """Where in q the entries stand whose length is one."""
         return slice(self.q.start + self.lengths, self.q.stop)
 
+    @classmethod
+    @abstractmethod
+    def neutral(cls) -> list[float]:
+        """The joint's entries of q at position zero [m, rad, -]."""
+
     @abstractmethod
     def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
         """The joint's entries of q (+) delta_q, from its entries of both [m, rad, -]."""

@@ -3,6 +3,8 @@
 from abc import abstractmethod
 from typing import Any, ClassVar
 
+import numpy as np
+
 from quasistatic_ref.model.joints.joint import Coordinate, Joint, Position
 from quasistatic_ref.numbers.arrays import Array
 
@@ -52,6 +54,11 @@ class TwistJoint(Joint):
     @abstractmethod
     def at(cls, xyz: Array, rpy: Array) -> list[float]:
         """The joint's entries of q at an origin [m] and roll, pitch, yaw [rad], shapes (3,)."""
+
+    @classmethod
+    def neutral(cls) -> list[float]:
+        """Its entries of q at the origin, without a turn."""
+        return cls.at(np.zeros(3), np.zeros(3))
 
     @classmethod
     def obstacle(cls, xyz: Array, rpy: Array, start: Array) -> str | None:

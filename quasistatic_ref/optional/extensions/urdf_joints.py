@@ -4,10 +4,10 @@ from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.urdf.file import UrdfFile
 from quasistatic_ref.files.urdf.xml import Tag
 from quasistatic_ref.files.xml_text import xml_root
 from quasistatic_ref.model.system import System
+from quasistatic_ref.model.tree import Tree
 
 
 class UrdfJoint(NamedTuple):
@@ -41,8 +41,9 @@ def urdf_joints(system: System, bodies: Collection[str]) -> Iterator[UrdfJoint]:
     moves = {coordinate.name: (coordinate.name, 1.0, 0.0) for coordinate in system.coordinates}
     moves |= {mimic.name: (mimic.of, mimic.multiplier, mimic.offset) for mimic in system.mimics}
     for body, text in zip(system.bodies, system.texts, strict=True):
-        if body.name in bodies and isinstance(body.urdf, UrdfFile):
-            problem = 'is made of a pinocchio Model, which has no URDF: give numbers, not "urdf"'
+        if body.name in bodies and isinstance(body.urdf, Tree):
+            source = str(body.urdf.path).strip("<>")
+            problem = f'is made of a {source}, which has no URDF: give numbers, not "urdf"'
             raise InputError(problem, field=f"bodies.{body.name}")
         for joint in xml_root(text).findall("joint") if body.name in bodies else ():
             name = f"{body.name}/{joint.get('name')}"

@@ -1,4 +1,4 @@
-"""A pinocchio Model with its GeometryModel, described as a URDF file would describe it.
+"""A pinocchio Model with its GeometryModel as a tree.
 
 Links are the Model's BODY frames. In pinocchio a joint moves one rigid body, to which fixed joints
 have welded others: the first BODY frame at the joint's origin gets the inertia of all of them, the
@@ -8,8 +8,7 @@ the joint's name is. Shapes belong to the BODY frame that is their ``parentFrame
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, Final
@@ -20,17 +19,20 @@ import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_field, check_kind
 from quasistatic_ref.files.mesh_files import hull_words
-from quasistatic_ref.files.urdf.file import (
-    MOST_COORDINATES,
-    Defect,
-    FileCollision,
-    FileLink,
-    UrdfFile,
-    inertia_defect,
-)
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.body import FIXED
-from quasistatic_ref.model.urdf.tree import FileJoint, Mimic, checked_tree
+from quasistatic_ref.model.inertia import inertia_defect
+from quasistatic_ref.model.tree import (
+    MOST_COORDINATES,
+    Defect,
+    LinkShape,
+    Mimic,
+    Tree,
+    TreeJoint,
+    TreeLink,
+    checked_tree,
+    is_own_name,
+)
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.convex_mesh import convex_hull, hull_of_mesh
 from quasistatic_ref.shapes.placed_shape import (
@@ -86,17 +88,8 @@ UNUSED: Final = ("armature", "rotorInertia", "damping", "friction")
 """Fields of a Model that this model has no place for."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class ModelFile(UrdfFile):
-    """What a URDF file of a Model would say; its joints stand in the Model's order."""
-
-    def in_order(self) -> tuple[FileJoint, ...]:
-        """All joints; in q they stand as in the Model."""
-        return self.joints
-
-
-def described_model(model: pin.Model, geometry: pin.GeometryModel | None) -> tuple[UrdfFile, str]:
-    """What a URDF file of a Model would say, and the kind of its base.
+def described_model(model: pin.Model, geometry: pin.GeometryModel | None) -> tuple[Tree, str]:
+    """The tree of a Model, and the kind of its base.
 
     Parameters
     ----------
@@ -121,22 +114,23 @@ def described_model(model: pin.Model, geometry: pin.GeometryModel | None) -> tup
     root, base = _root(model)
     carriers, welded = _links_of_joints(model, root)
     notes: list[str] = []
-    collisions = _collisions(model, carriers, geometry, notes)
-    inertias = {name: model.inertias[joint] for joint, name in carriers.items()}
-    inertias |= {name: pin.Inertia.Zero() for frames in welded.values() for name in frames}
-    links = {name: _link(name, inertia, collisions) for name, inertia in inertias.items()}
-    joints: list[FileJoint] = []
+    joints: list[TreeJoint] = []
+    inertias: dict[str, pin.Inertia] = {}
     for joint, link in carriers.items():
+        inertias[link] = model.inertias[joint]
         if joint != root:
             joints.append(_joint(model, joint, carriers))
-        joints += [_weld(link, name, placement) for name, placement in welded[joint].items()]
+        for name, placement in welded[joint].items():
+            inertias[name] = pin.Inertia.Zero()
+            joints.append(_weld(link, name, placement))
+    shapes = _shapes(model, carriers, list(inertias), geometry, notes)
+    links = {name: _link(name, inertia, shapes[name]) for name, inertia in inertias.items()}
     checked_tree(links, joints)
     content = sha256(repr(bits((tuple(links.values()), tuple(joints)))).encode()).hexdigest()
     text = f"pinocchio Model {model.name!r}, sha256 {content}"
     notes.insert(0, NO_URDF)
     ignored = tuple(f"model.{field}" for field in UNUSED if np.any(getattr(model, field)))
-    top = carriers[root]
-    return ModelFile(MODEL, text, top, links, tuple(joints), ignored, tuple(notes)), base
+    return Tree(MODEL, text, links, tuple(joints), ignored, tuple(notes)), base
 
 
 def _root(model: pin.Model) -> tuple[int, str]:
@@ -178,7 +172,7 @@ def _links_of_joints(
     return carriers, welded
 
 
-def _link(name: str, inertia: pin.Inertia, collisions: dict[str, list[FileCollision]]) -> FileLink:
+def _link(name: str, inertia: pin.Inertia, shapes: Sequence[LinkShape]) -> TreeLink:
     """A link with its own inertia and the shapes that are its."""
     where = f"link[{name}].inertia"
     _check_finite(where, inertia.mass, inertia.lever, inertia.inertia)
@@ -189,18 +183,17 @@ def _link(name: str, inertia: pin.Inertia, collisions: dict[str, list[FileCollis
         defect = inertia_defect(inertia.inertia)
     elif inertia.inertia.any():
         defect = ("mass", "must be greater than 0", inertia.mass)
-    return FileLink(
+    return TreeLink(
         name=name,
         mass=inertia.mass,
         com=np.array(inertia.lever),
         inertia=np.array(inertia.inertia),
-        collisions=tuple(collisions.get(name, ())),
+        shapes=tuple(shapes),
         defect=defect,
-        digit=0.0,
     )
 
 
-def _joint(model: pin.Model, joint: int, carriers: dict[int, str]) -> FileJoint:
+def _joint(model: pin.Model, joint: int, carriers: dict[int, str]) -> TreeJoint:
     """A joint that moves."""
     name = model.names[joint]
     where = f"joint[{name}]"
@@ -216,7 +209,7 @@ def _joint(model: pin.Model, joint: int, carriers: dict[int, str]) -> FileJoint:
         limits = None if unbounded or bounds[0] > bounds[1] else bounds
         effort = float(model.upperEffortLimit[model.idx_vs[joint]]) or np.inf
     parent = carriers[model.parents[joint]]
-    return FileJoint(name, kind, parent, carriers[joint], R, t, axis, mimic, limits, effort)
+    return TreeJoint(name, kind, parent, carriers[joint], R, t, axis, mimic, limits, effort)
 
 
 def _motion(model: pin.Model, joint: int, where: str) -> tuple[str, Array, Mimic | None]:
@@ -251,18 +244,24 @@ def _motion(model: pin.Model, joint: int, where: str) -> tuple[str, Array, Mimic
     return kind, twist[:3] if kind == "prismatic" else twist[3:], mimic
 
 
-def _weld(parent: str, link: str, placement: pin.SE3) -> FileJoint:
+def _weld(parent: str, link: str, placement: pin.SE3) -> TreeJoint:
     """What holds a link that moves with another."""
     R, t = _pose(f"frame[{link}].placement", placement)
-    return FileJoint(f"weld of {link}", FIXED, parent, link, R, t, np.array([1.0, 0.0, 0.0]), None)
+    return TreeJoint(f"weld of {link}", FIXED, parent, link, R, t, np.array([1.0, 0.0, 0.0]), None)
 
 
-def _collisions(
-    model: pin.Model, carriers: dict[int, str], geometry: pin.GeometryModel | None, notes: list[str]
-) -> dict[str, list[FileCollision]]:
+def _shapes(
+    model: pin.Model,
+    carriers: dict[int, str],
+    links: Sequence[str],
+    geometry: pin.GeometryModel | None,
+    notes: list[str],
+) -> dict[str, list[LinkShape]]:
     """The shapes of each link; what becomes of meshes is noted."""
-    collisions: dict[str, list[FileCollision]] = {}
-    for each in geometry.geometryObjects if geometry is not None else ():
+    shapes: dict[str, list[LinkShape]] = {link: [] for link in links}
+    every = [] if geometry is None else list(geometry.geometryObjects)
+    names = [*links, *(each.name for each in every)]
+    for each in every:
         where = f"geometry[{each.name}]"
         if each.parentJoint not in carriers:
             problem = "stands still in the world: give it as a shape of the scene, not of the body"
@@ -275,13 +274,14 @@ def _collisions(
             notes.append(f"{where}: left out, since its collisions are disabled")
             continue
         R, t = _pose(f"{where}.placement", placement)
-        of_link = collisions.setdefault(link, [])
+        number = len(shapes[link])
         with about_field(where):
             shape = _shape(each.name, each.geometry, notes)
         # The names of a GeometryModel that is made of a URDF are not the user's.
-        name = None if each.name == f"{link}_{len(of_link)}" else each.name
-        of_link.append(FileCollision(name, shape, R, t))
-    return collisions
+        is_own = each.name != f"{link}_{number}" and is_own_name(each.name, names)
+        name = each.name if is_own else f"{link}#{number}"
+        shapes[link].append(LinkShape(name, shape, R, t))
+    return shapes
 
 
 def _shape(name: str, geometry: coal.CollisionGeometry, notes: list[str]) -> Shape:

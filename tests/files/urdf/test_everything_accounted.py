@@ -14,8 +14,7 @@ import pytest
 
 from quasistatic_ref import ModelError
 from quasistatic_ref.cli.ignored import ALWAYS
-from quasistatic_ref.model.urdf.urdf import loaded_urdf
-from tests.files.urdf.urdf_texts import OBJ, urdf_of_text
+from tests.files.urdf.urdf_texts import OBJ, loaded_urdf, urdf_of_text
 
 ROBOT = """<robot name="r" version="1.1">
 <material name="red"><color rgba="1 0 0 1"/><texture filename="red.png"/></material>
@@ -104,10 +103,10 @@ def facts(folder, text):
     places = [(f.name, np.array(data.oMf[i])) for i, f in enumerate(model.frames)]
     shapes = [(s.name, s.link, s.R, s.t, s.shape.words(), s.shape) for s in urdf.shapes]
     reach = [s.shape.support_value(np.eye(3)) for s in urdf.shapes]
-    known = [urdf.links, list(model.names), places, shapes, reach]
+    known = [tuple(urdf.tree.links), list(model.names), places, shapes, reach]
     return [repr(each) for each in known] + [
         repr([inertia.matrix() for inertia in model.inertias])
-    ], urdf.file.ignored
+    ], urdf.tree.ignored
 
 
 @pytest.mark.parametrize(("number", "place"), [*enumerate(PLACES)], ids=PLACES)

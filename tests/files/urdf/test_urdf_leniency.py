@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import ModelError
-from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from tests.cases import cases
 from tests.closeness import assert_within
-from tests.files.urdf.urdf_texts import INERTIAL, collision, link, robot, urdf_of_text
+from tests.files.urdf.urdf_texts import INERTIAL, collision, link, loaded_urdf, robot, urdf_of_text
 
 LIMIT = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
 J = f'<joint name="j" type="revolute"><parent link="a"/><child link="b"/>{LIMIT}</joint>'
@@ -54,10 +53,10 @@ def test_a_mass_without_inertia_loads_where_nothing_needs_it_and_is_noted():
 )  # fmt: skip
 def test_prefixes_and_namespaces_are_passed_over(attributes, more, last):
     urdf = loaded(f'<robot {attributes}name="r">{LINKS}{J}{last}{more}</robot>')
-    assert set(urdf.links) >= {"a", "b", "c"}
+    assert set(urdf.tree.links) >= {"a", "b", "c"}
     notes = ["its elements are read without their namespace, urn:mine"]
     assert list(urdf.notes) == (notes if "xmlns=" in attributes else [])
-    assert ("robot.gazebo" in urdf.file.ignored) == (more == CAMERA)
+    assert ("robot.gazebo" in urdf.tree.ignored) == (more == CAMERA)
 
 
 @pytest.mark.parametrize("before", ["\n", "  \n\n", "<!-- licence -->\n"])
@@ -65,13 +64,13 @@ def test_a_declaration_may_stand_after_a_blank_line_or_a_comment(before):
     text = (
         before + '<?xml version="1.0" encoding="utf-8"?>\n<robot name="r"><link name="a"/></robot>'
     )
-    assert loaded(text).links == ("a",)
+    assert tuple(loaded(text).tree.links) == ("a",)
 
 
 def test_moments_that_are_written_twice_are_one():
     twice = INERTIAL.replace('iyz="-0.003"', 'iyz="-0.003" iyx="0.001" izx="0.002" izy="-3e-3"')
     once, again = (
-        loaded(robot(link("a", inertial=text))).file.links["a"].inertia
+        loaded(robot(link("a", inertial=text))).tree.links["a"].inertia
         for text in (INERTIAL, twice)
     )
     assert once.tobytes() == again.tobytes()
@@ -138,7 +137,7 @@ def test_a_mesh_without_volume_is_left_out_and_noted(tmp_path, points):
 def test_an_unknown_attribute_is_listed_and_a_misprint_refused():
     text = f'<robot name="r">{LINKS}{J}{K}</robot>'
     odd = text.replace("<limit", '<axis xyz="0 0 1" rpy="0 0 0"/><limit')
-    assert "joint[j].axis.rpy" in loaded(odd).file.ignored
+    assert "joint[j].axis.rpy" in loaded(odd).tree.ignored
     with pytest.raises(ModelError, match=r"axis.xzy: is unknown; did you mean 'xyz'"):
         loaded(odd.replace('xyz="0 0 1"', 'xzy="0 0 1"'))
 
@@ -153,7 +152,7 @@ def test_urdf_1_2_has_optional_limits_and_quaternions():
     turned = text.replace("<parent", f'<origin xyz="0 0 1" quat_xyzw="0 0 {half} {half}"/><parent')
     urdf = loaded(turned)
     R = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
-    assert_within(urdf.file.joints[0].R, R, 1e-15)
+    assert_within(urdf.tree.joints[0].R, R, 1e-15)
     assert_within(urdf.model.jointPlacements[1].rotation, R, 1e-15)
     with pytest.raises(ModelError, match="quat_xyzw: cannot stand next to rpy"):
         loaded(turned.replace("quat_xyzw", 'rpy="0 0 0" quat_xyzw'))

@@ -3,9 +3,17 @@
 import pytest
 
 from quasistatic_ref import ModelError
-from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from tests.cases import cases, refusal
-from tests.files.urdf.urdf_texts import CHAIN, collision, joint, link, mimic, robot, urdf_of_text
+from tests.files.urdf.urdf_texts import (
+    CHAIN,
+    collision,
+    joint,
+    link,
+    loaded_urdf,
+    mimic,
+    robot,
+    urdf_of_text,
+)
 
 TWO = robot(link("a", collision('<sphere radius="0.5"/>')), link("b"), joint("j", "a", "b"))
 THREE = robot(
@@ -121,11 +129,11 @@ OLDER = CHAIN.replace(' version="1.1"', "")
 
 @pytest.mark.parametrize("text", [TWO, THREE, CHAIN, OLDER])
 def test_the_texts_are_good_before_they_are_spoilt(tmp_path, text):
-    assert loaded_urdf(urdf_of_text(tmp_path, text)).links
+    assert loaded_urdf(urdf_of_text(tmp_path, text)).tree.links
 
 
 def test_a_joint_named_base_cannot_float(tmp_path):
     path = urdf_of_text(tmp_path, TWO.replace('name="j"', 'name="base"'))
-    assert loaded_urdf(path).links == ("a", "b")
+    assert tuple(loaded_urdf(path).tree.links) == ("a", "b")
     with pytest.raises(ModelError, match=r"joint\[base\]: this name is taken by the floating base"):
         loaded_urdf(path, base="floating")

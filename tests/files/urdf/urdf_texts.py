@@ -1,4 +1,13 @@
-"""Small URDF texts that the tests of model/ are written with."""
+"""Small URDF texts, and the models of URDFs."""
+
+from quasistatic_ref.files.urdf.file import urdf_tree
+from quasistatic_ref.model.tree_model import tree_model
+
+
+def loaded_urdf(source, base="fixed", actuated=(), package_dirs=()):
+    """The model of a URDF."""
+    return tree_model(urdf_tree(source, package_dirs), base, actuated)
+
 
 INERTIAL = (
     '<inertial><origin xyz="0.1 -0.2 0.05" rpy="0.3 0.1 -0.4"/><mass value="2"/>'

@@ -10,11 +10,13 @@ from matplotlib.colors import to_hex
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.files.mesh_files import loaded_mesh
-from quasistatic_ref.files.urdf.file import FileMesh, UrdfFile, urdf_file, written_shape
+from quasistatic_ref.files.urdf.file import UrdfText, urdf_text
+from quasistatic_ref.files.urdf.geometry import FileMesh, written_shape
 from quasistatic_ref.files.urdf.xml import Tag
 from quasistatic_ref.files.xml_text import xml_root
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
+from quasistatic_ref.model.tree import Tree
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.looks import body_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points, triangles
@@ -53,10 +55,10 @@ def visuals(scene: Scene) -> list[Visual]:
 
 
 def _of_body(body: Body, system: System, body_colour: str) -> Iterator[Visual]:
-    if isinstance(body.urdf, UrdfFile):  # of a pinocchio Model, which has none
+    if isinstance(body.urdf, Tree):  # it is made of none
         return
-    file = urdf_file(body.urdf)
-    robot = xml_root(file.text)
+    urdf = urdf_text(body.urdf)
+    robot = xml_root(urdf.text)
     named = {material.get("name"): material for material in robot.findall("material")}
     for link in robot.findall("link"):
         for element in link.findall("visual"):
@@ -66,7 +68,7 @@ def _of_body(body: Body, system: System, body_colour: str) -> Iterator[Visual]:
                 if shape is None:
                     continue
                 R, t = visual.frame()
-                corners = _corners(shape, file, body.package_dirs)
+                corners = _corners(shape, urdf, body.package_dirs)
             except ModelError:
                 continue
             colour = _colour(element, named) or body_colour
@@ -74,11 +76,11 @@ def _of_body(body: Body, system: System, body_colour: str) -> Iterator[Visual]:
             yield Visual(number, corners @ R.T + t, colour)
 
 
-def _corners(shape: Shape | FileMesh, file: UrdfFile, package_dirs: Sequence[str | Path]) -> Array:
+def _corners(shape: Shape | FileMesh, urdf: UrdfText, package_dirs: Sequence[str | Path]) -> Array:
     """Triangles as triples of points, shape (3T, 3) [m]."""
     if not isinstance(shape, FileMesh):
         return triangles(surface_points(shape, AROUND, UP))
-    mesh = loaded_mesh(file.mesh_path(shape.uri, package_dirs))
+    mesh = loaded_mesh(urdf.mesh_path(shape.uri, package_dirs))
     return np.asarray((mesh.vertices * shape.scale)[mesh.triangles.ravel()])
 
 

@@ -1,4 +1,4 @@
-"""Inertias of a URDF: an error where M_u needs them and they are no rigid body's, else a note.
+"""Inertias of a tree: an error where M_u needs them and they are no rigid body's, else a note.
 
 M_u is the only mass matrix of the model. A link is part of it where an un-actuated joint moves the
 link; there the inertia of all links that fixed joints weld together must be physically consistent:
@@ -11,14 +11,45 @@ M_u is definite depends on the axes of these joints, and is found from M_u itsel
 
 from collections.abc import Collection, Mapping, Sequence
 
+import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.files.urdf.file import NO_INERTIA, Defect, FileLink, UrdfFile, inertia_defect
+from quasistatic_ref.model.tree import NO_INERTIA, Defect, Tree, TreeLink
+from quasistatic_ref.numbers.arrays import Array
+
+INERTIA_TRIANGLE = 1e-6
+"""How far the largest principal moment of inertia may exceed the sum of the other two, relative.
+
+A flat plate has equality; six printed digits break it by up to 1e-6."""
 
 
-def link_inertia(link: FileLink) -> pin.Inertia:
-    """The inertia of a link as written, in its frame."""
+def inertia_defect(inertia: Array, digit: float = 0.0) -> Defect | None:
+    """What makes an inertia (3, 3) about a centre of mass that of no body, or None.
+
+    The largest moment may exceed the sum of the others by rounding: by a unit of the last printed
+    digit [kg m^2], up to a tenth of it.
+    """
+    principal = np.linalg.eigvalsh(inertia)
+    written = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]].tolist()
+    order = "(ixx iyy izz ixy ixz iyz)"
+    if not principal[0] > 0:
+        problem = f"must be positive definite {order}"
+        if principal[0] >= -INERTIA_TRIANGLE * abs(principal[2]):
+            problem += (
+                "; with a radius r write m r^2/2 about the axis of a rod or disk, m r^2/4 about "
+                "the diameters of a disk, 2 m r^2/5 for a point mass"
+            )
+        return "inertia", problem, written
+    rounding = min(digit, principal[2] / 10) * (1 + INERTIA_TRIANGLE)
+    if principal[2] > (principal[0] + principal[1]) * (1 + INERTIA_TRIANGLE) + rounding:
+        problem = "is impossible: the largest principal moment exceeds the sum of the others"
+        return "inertia", f"{problem} {order}", written
+    return None
+
+
+def link_inertia(link: TreeLink) -> pin.Inertia:
+    """The inertia of a link, in its frame."""
     inertia = pin.Inertia.Zero()  # with numbers, its constructor refuses what no body has
     inertia.mass = link.mass
     inertia.lever = link.com
@@ -27,13 +58,13 @@ def link_inertia(link: FileLink) -> pin.Inertia:
 
 
 def checked_inertias(
-    file: UrdfFile, model: pin.Model, unactuated: Collection[str], base: str
+    tree: Tree, model: pin.Model, unactuated: Collection[str], base: str
 ) -> tuple[str, ...]:
     """Notes on inertias that no rigid body can have and that M_u does not need.
 
     Parameters
     ----------
-    file : UrdfFile
+    tree : Tree
     model : pinocchio.Model
         Made of it.
     unactuated : collection of str
@@ -47,13 +78,13 @@ def checked_inertias(
         If an un-actuated joint moves a group of links whose inertia no rigid body can have.
     """
     poses = _poses(model)
-    mover = _movers(file, unactuated, base)
-    loaded = _loaded(file)
+    mover = _movers(tree, unactuated, base)
+    loaded = _loaded(tree)
     notes = []
-    for first, links in _rigid_groups(file).items():
+    for first, links in _rigid_groups(tree).items():
         defects = [(link.name, link.defect) for link in links if link.defect is not None]
         connects = first in loaded and not any(
-            link.mass or link.defect or link.collisions for link in links
+            link.mass or link.defect or link.shapes for link in links
         )
         if mover[first] is not None and not connects:
             heavy = [link for link in links if link.mass]
@@ -85,18 +116,18 @@ def _poses(model: pin.Model) -> dict[str, pin.SE3]:
     return {frame.name: data.oMf[i].copy() for i, frame in enumerate(model.frames)}
 
 
-def _rigid_groups(file: UrdfFile) -> dict[str, list[FileLink]]:
+def _rigid_groups(tree: Tree) -> dict[str, list[TreeLink]]:
     """The links of each rigid group, by the name of its first."""
-    first = {file.root: file.root}
-    groups = {file.root: [file.links[file.root]]}
-    for joint in file.joints:  # parents before children
+    first = {tree.root: tree.root}
+    groups = {tree.root: [tree.links[tree.root]]}
+    for joint in tree.moved_by.values():  # parents before children
         name = first[joint.parent] if joint.kind == "fixed" else joint.child
         first[joint.child] = name
-        groups.setdefault(name, []).append(file.links[joint.child])
+        groups.setdefault(name, []).append(tree.links[joint.child])
     return groups
 
 
-def _welded(links: Sequence[FileLink], poses: Mapping[str, pin.SE3]) -> pin.Inertia:
+def _welded(links: Sequence[TreeLink], poses: Mapping[str, pin.SE3]) -> pin.Inertia:
     """Links as one body, in the frame of the root link."""
     total = pin.Inertia.Zero()
     for link in links:
@@ -104,11 +135,11 @@ def _welded(links: Sequence[FileLink], poses: Mapping[str, pin.SE3]) -> pin.Iner
     return total
 
 
-def _loaded(file: UrdfFile) -> set[str]:
+def _loaded(tree: Tree) -> set[str]:
     """The links that carry a link with mass."""
     loaded: set[str] = set()
-    for joint in reversed(file.joints):  # children before parents
-        if file.links[joint.child].mass or joint.child in loaded:
+    for joint in reversed(tree.moved_by.values()):  # children before parents
+        if tree.links[joint.child].mass or joint.child in loaded:
             loaded.add(joint.parent)
     return loaded
 
@@ -122,11 +153,12 @@ def _accepted(defect: Defect, mover: str | None) -> str:
     return f"{accepted}; {lost}" if defect[0] == "mass" else accepted
 
 
-def _movers(file: UrdfFile, unactuated: Collection[str], base: str) -> dict[str, str | None]:
+def _movers(tree: Tree, unactuated: Collection[str], base: str) -> dict[str, str | None]:
     """For every link, an un-actuated joint that moves it, in words, or None."""
-    root = next((name for name in unactuated if not any(j.name == name for j in file.joints)), None)
-    mover: dict[str, str | None] = {file.root: f"the {base} base" if root else None}
-    for joint in file.joints:
+    joints = {joint.name for joint in tree.joints}
+    root = next((name for name in unactuated if name not in joints), None)
+    mover: dict[str, str | None] = {tree.root: f"the {base} base" if root else None}
+    for joint in tree.moved_by.values():
         source = joint.mimic.of if joint.mimic else joint.name
         label = f"joint {joint.name!r}" if joint.kind != "fixed" and source in unactuated else None
         mover[joint.child] = label or mover[joint.parent]

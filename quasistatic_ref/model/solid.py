@@ -1,18 +1,26 @@
-"""Homogeneous solids as URDF: their moments of inertia, and a text of one link."""
+"""Homogeneous solids: their moments of inertia, and a tree of one link."""
+
+from pathlib import Path
+from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.inertia import inertia_defect
+from quasistatic_ref.model.tree import LinkShape, Tree, TreeLink
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.frozen import finite_number
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Sphere
 
 Homogeneous = Sphere | Box | Cylinder | Capsule
-"""The shapes that a URDF has a name for, meshes aside."""
+"""The shapes that :func:`solid_inertia` knows."""
+
+SOLID: Final = "solid"
+"""The name of the link."""
 
 
-def solid_urdf(shape: Homogeneous, mass: float, name: str) -> str:
-    """URDF text of one link, ``solid``, about whose origin the shape lies.
+def solid_tree(shape: Homogeneous, mass: float, name: str) -> Tree:
+    """One link, ``solid``, about whose origin the shape lies.
 
     Parameters
     ----------
@@ -33,17 +41,11 @@ def solid_urdf(shape: Homogeneous, mass: float, name: str) -> str:
     m = finite_number(mass, f"{name}.mass")
     if not m > 0:
         raise ModelError("must be greater than 0", field=f"{name}.mass", value=mass)
-    xx, yy, zz = solid_inertia(shape, m).tolist()
-    sizes = " ".join(
-        f'{key}="{" ".join(map(repr, np.atleast_1d(size).tolist()))}"'
-        for key, size in shape.sizes.items()
-    )
-    return (
-        '<robot name="solid" version="1.1"><link name="solid">'
-        f'<inertial><mass value="{m!r}"/>'
-        f'<inertia ixx="{xx!r}" iyy="{yy!r}" izz="{zz!r}" ixy="0" ixz="0" iyz="0"/></inertial>'
-        f"<collision><geometry><{shape.kind} {sizes}/></geometry></collision></link></robot>"
-    )
+    collision = LinkShape(f"{SOLID}#0", shape, np.eye(3), np.zeros(3))
+    inertia = np.diag(solid_inertia(shape, m))
+    link = TreeLink(SOLID, m, np.zeros(3), inertia, (collision,), inertia_defect(inertia))
+    sizes = {size: np.asarray(value).tolist() for size, value in shape.sizes.items()}
+    return Tree(Path(f"<{SOLID}>"), f"{shape.kind} {sizes}, {m!r} kg", {SOLID: link}, ())
 
 
 def solid_inertia(shape: Homogeneous, mass: float) -> Array:

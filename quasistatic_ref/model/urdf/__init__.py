@@ -1,1 +1,0 @@
-"""URDF files: read, compared with what pinocchio loaded, refused in one sentence."""
