@@ -19,6 +19,7 @@ from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import joining, least
 from quasistatic_ref.optional.doctor.telling import amount, length, rounded
 from quasistatic_ref.optional.doctor.tolerances import SLIPPED, SUNK
+from quasistatic_ref.optional.doctor.undecided import Undecided
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Shape
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.friction import frame_jacobian
@@ -120,7 +121,7 @@ def still(run: Run) -> Iterator[Finding]:
         )
 
 
-def through(run: Run) -> Iterator[Finding]:
+def through(run: Run) -> Iterator[Finding | Undecided]:
     """Bodies that come to be in each other and share no table: of each two the deepest."""
     system = run.system
     shapes = {s.name: s for s in (*system.shapes, *run.sides)}
@@ -132,6 +133,7 @@ def through(run: Run) -> Iterator[Finding]:
         moved = (run.driven | run.free)[links].any()
         if one != other and moved and frozenset((_who(a), _who(b))) not in joined:
             if len(apart) == MOST:
+                yield Undecided("bodies that share no table", f"more than {MOST} pairs of shapes")
                 return
             with suppress(ContactError):  # two clouds, or two half-spaces
                 apart.append(ContactPair(f"{a.name}, {b.name}", a, b, 0.0, 0.0, 4, 1, hull=True))
@@ -320,13 +322,13 @@ def _stopping(run: Run, base: Joint, along: Array, way: float, pushes: Array) ->
     """What contacts exert on a base along its error, a unit vector of x, y, z, (n_c,) [N].
 
     What it carries, which has come along by half of its way, does not stop it: only what presses
-    against that does, such as the wall to which a finger has pushed a box.
+    against that does, such as the wall to which a finger has pushed a box, or a palm on springs.
     """
     k = run.steps - 1
     at = run.at(k)
     moved = np.asarray(run.moves[:, base.v].any(axis=1))
     start, end = (run.system.kinematics(run["q"][j]).t[:, : len(along)] for j in (0, -1))
-    carried = ((end - start) @ along > way / 2) & ~moved
+    carried = ((end - start) @ along > way / 2) & ~moved & ~run.driven
     links = np.array([[pair.alpha.link, pair.beta.link] for pair in run.pairs], dtype=int)
     alpha, beta = links.reshape(-1, 2)[run.pair_of].T
     c = at.contacts

@@ -1,0 +1,43 @@
+"""What a check could not decide, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Final, NamedTuple
+
+from quasistatic_ref.formats.quoting import listed, one_line
+
+TOO_MANY: Final = "too many contacts touch"
+NO_ANSWER: Final = "a slow step has no answer"
+
+
+class Undecided(NamedTuple):
+    """What was not looked at.
+
+    Parameters
+    ----------
+    what, why : str
+    """
+
+    what: str
+    why: str
+
+
+def undecided(what: str, reasons: Mapping[str, str]) -> Iterator[Undecided]:
+    """Of each reason the names that it is of, as ``equilibrium of a and b``.
+
+    Parameters
+    ----------
+    what : str
+        That is not known of the names.
+    reasons : mapping of str to str
+        Why, by name.
+    """
+    for why in dict.fromkeys(reasons.values()):
+        names = [name for name, reason in reasons.items() if reason == why]
+        yield Undecided(f"{what} of {listed(names)}", why)
+
+
+def failure(error: Exception) -> str:
+    """The message of an exception, on one line."""
+    return one_line(f"{type(error).__name__} {error}".rstrip())
