@@ -59,8 +59,9 @@ class Chosen:
     def _of_body(self, body: Body, asks: dict[Body, Mask]) -> list[Array]:
         """Scores of each step, (steps,) each; which steps the body is asked in goes into `asks`.
 
-        What inertia bears of its load, by the pairs that touch and by whether targets move; what
-        has slipped so far that inertia may bear it; and what the layer may have added.
+        What inertia bears of its load, by the pairs that touch, by whether targets move, and by
+        which way the body goes, since what lands goes back; what has slipped so far that inertia
+        may bear it; and what the layer may have added.
         """
         run = self._run
         of = body.contacts
@@ -75,7 +76,11 @@ class Chosen:
         near = [run.touches[:, run.pair_of == i].any(axis=1) for i in np.unique(run.pair_of[of])]
         _, of_set = np.unique([*near, run.targets_move], axis=1, return_inverse=True)
         sets = [drag * (of_set.ravel() == i) for i in range(of_set.max() + 1)]
-        return [*sets, slip, layer]
+        M = run.inertia(body)
+        momentum = run.noted("momentum")[:, body.coordinates - run.system.n_a]
+        ways = [momentum @ np.linalg.solve(M, momentum[row.argmax()]) for row in sets]
+        both = [(row * (way >= 0), row * (way < 0)) for row, way in zip(sets, ways, strict=True)]
+        return [*(row for rows in both for row in rows), slip, layer]
 
     def _of_pair(self, i: int) -> list[Array]:
         """Scores of each step in which a pair stays and targets move, (steps,) each.

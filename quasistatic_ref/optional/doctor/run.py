@@ -149,17 +149,20 @@ class Run(Start):
         ways = np.abs(np.diff(self["q_bar_a"], axis=0)).max(axis=1, initial=0.0) > HELD
         return np.concatenate([ways[:1], ways]) if len(ways) else np.zeros(self.steps, dtype=bool)
 
+    def inertia(self, body: Body) -> Array:
+        """The inertia of a body where it starts, shape (n, n) [kg, kg m, kg m^2]."""
+        return body.inertia(self.masses, self.system.n_a)
+
     @cached_property
     def drags(self) -> dict[Body, Array]:
         """What inertia bears of each body's load in each step, shape (steps,) [N].
 
         0 where float64 has no number for it, as with an h of 1e-308 s.
         """
-        n_a = self.system.n_a
         of_bodies = {}
         for body in self.bodies_of:
-            momentum = self.noted("momentum")[:, body.coordinates - n_a]
-            amount = body.amount(body.inertia(self.masses, n_a), momentum)
+            momentum = self.noted("momentum")[:, body.coordinates - self.system.n_a]
+            amount = body.amount(self.inertia(body), momentum)
             of_bodies[body] = quotient(quotient(amount, self.h), self.h)
         return of_bodies
 
@@ -172,8 +175,7 @@ class Run(Start):
         """
         of_bodies = {}
         for body in self.bodies_of:
-            M = body.inertia(self.masses, self.system.n_a)
-            tau = body.amount(M, self.noted("tau")[:, body.coordinates])
+            tau = body.amount(self.inertia(body), self.noted("tau")[:, body.coordinates])
             pairs = np.unique(self.pair_of[body.contacts]).tolist()
             forces = [self["wrench"][:, self.pair_of == i, 2].sum(axis=1) for i in pairs]
             least = ROUNDING * body.mass * self.g
