@@ -197,11 +197,16 @@ class Slow:
 
     @cached_property
     def climbed(self) -> list[Rung]:
-        """Each T that has an answer, on the way to the last."""
+        """Each T that has an answer, on the way to the last.
+
+        Where smaller T lead to none at the last, s = 0 may.
+        """
         T = float(np.sqrt(FIRST * self.sizes.min(initial=1.0) / FALLS))
         kept: list[Rung] = []
         while True:
             one = self.rung(T, _ahead(kept, T) if kept else self.level)
+            if one is None and self.end <= T:
+                one = self.rung(T, self.level)
             kept += [] if one is None else [one]
             if self.end <= T:
                 return kept
