@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
-from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor import (
     contradictions,
@@ -22,6 +21,7 @@ from quasistatic_ref.optional.doctor import (
 )
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.optional.doctor.undecided import Undecided, failure
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -33,14 +33,15 @@ class Check(NamedTuple):
     Parameters
     ----------
     findings : callable
-        A scene at its start, a run at its end or its trajectory -> findings.
+        A scene at its start, a run at its end or its trajectory -> findings, and what it could not
+        decide.
     unless : callable
         The same -> why this check does not look at it; nothing where it does.
     name : str
         What is not looked at then, where that is not plain.
     """
 
-    findings: Callable[[Any], Iterator[Finding]]
+    findings: Callable[[Any], Iterator[Finding | Undecided]]
     unless: Callable[[Any], str] = lambda _: ""
     name: str = ""
 
@@ -129,24 +130,19 @@ def looked(checks: Iterable[Check], of: Start | Trajectory) -> tuple[list[Findin
     of : Start, Run or Trajectory
         The scene at its start, the run at its end, or the trajectory of a run that has steps.
     """
-    found: list[Finding] = []
-    skipped: dict[str, list[str]] = {}
+    every: list[Finding | Undecided] = []
     for check in checks:
-        name = check.name
         try:
-            reason = check.unless(of)
-            found += [] if reason else check.findings(of)
+            why = check.unless(of)
+            every += [Undecided(check.name, why)] if why else check.findings(of)
         except Exception as error:
-            name = name or check.findings.__name__.replace("_", " ")
-            reason = failure(error)
-        if name and reason:
-            skipped.setdefault(reason, []).append(name)
-    return found, "; ".join(f"{', '.join(names)}: {why}" for why, names in skipped.items())
-
-
-def failure(error: Exception) -> str:
-    """The message of an exception, on one line."""
-    return one_line(f"{type(error).__name__} {error}".rstrip())
+            name = check.name or check.findings.__name__.replace("_", " ")
+            every.append(Undecided(name, failure(error)))
+    skipped: dict[str, list[str]] = {}
+    for what, why in (one for one in every if isinstance(one, Undecided) and one.what):
+        skipped.setdefault(why, []).append(what)
+    open_ones = "; ".join(f"{', '.join(names)}: {why}" for why, names in skipped.items())
+    return [one for one in every if isinstance(one, Finding)], open_ones
 
 
 def scene_findings(simulator: Simulator, q: Array, force: Array | None = None) -> list[Finding]:

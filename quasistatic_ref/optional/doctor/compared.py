@@ -7,7 +7,6 @@ law no boundary layer either: drag = run - convex(T), layer = convex(T) - Coulom
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import suppress
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -18,6 +17,7 @@ from quasistatic_ref.optional.doctor.bodies import COUNTS
 from quasistatic_ref.optional.doctor.slow import Slow
 from quasistatic_ref.optional.doctor.start import least
 from quasistatic_ref.optional.doctor.stopped import Part, Scene
+from quasistatic_ref.optional.doctor.undecided import NO_ANSWER, TOO_MANY, Undecided, failure
 from quasistatic_ref.step.friction import frame_jacobian
 
 if TYPE_CHECKING:
@@ -70,26 +70,38 @@ class Change(NamedTuple):
         return round(self.share, 2), max(abs(self.drag), abs(self.layer))
 
 
-def compared(run: Run, k: int) -> Iterator[Change]:
+def compared(run: Run, k: int) -> Iterator[Change | Undecided]:
     """Of each pair that presses in step k, and before, what the model changes most."""
-    scene = Scene(run, k, run["q"][k], run["phi"][k], run.points_of(k))
-    for part in scene.parts():
-        with suppress(QuasistaticError):
-            yield from _changes(run, k, part)
-
-
-def _changes(run: Run, k: int, part: Part) -> Iterator[Change]:
-    """The changes of the pairs of a group, unless something in it falls; QuasistaticError."""
-    at = part.contacts
-    if part.large or not run.touches[k, at].any():
+    slots = run.pair_of == np.arange(len(run.pairs))[:, None]
+    before, now = ((slots & on).any(axis=1) for on in run.touches[[max(k - 1, 0), k]])
+    stays = np.flatnonzero(before & now).tolist()
+    try:
+        parts = [*Scene(run, k, run["q"][k], run["phi"][k], run.points_of(k)).parts()]
+    except QuasistaticError as error:
+        yield from (Undecided(run.pairs[i].name, failure(error)) for i in stays)
         return
+    for part in parts:
+        pairs = np.intersect1d(stays, run.pair_of[part.contacts]).tolist()
+        why = TOO_MANY if part.large else ""
+        try:
+            if pairs and not why:
+                yield from _changes(run, k, part, pairs)
+        except QuasistaticError as error:
+            why = failure(error)
+        yield from (Undecided(run.pairs[i].name, why) for i in pairs if why)
+
+
+def _changes(run: Run, k: int, part: Part, pairs: list[int]) -> Iterator[Change | Undecided]:
+    """The changes of some pairs of a group, unless something in it falls; QuasistaticError."""
+    at = part.contacts
     before = run.touches[max(k - 1, 0)]
     slow = _landed(part.slow, (run.touches[k] & before & (k > 0))[at])
     rungs = [slow.last] if slow.last else slow.climbed
     last = rungs[-1] if rungs else None
-    if last is None or slow.end > last.T:
+    if last and np.abs(last.delta_q[slow.step.n_a :]).max(initial=0.0) > FALLS * last.T**2:
         return
-    if np.abs(last.delta_q[slow.step.n_a :]).max(initial=0.0) > FALLS * last.T**2:
+    if last is None or slow.end > last.T:
+        yield from (Undecided(run.pairs[i].name, NO_ANSWER) for i in pairs)
         return
     contacts = slow.step.contacts
     delta_q, forces = slow.convex(slow.end, slow.level)
@@ -100,14 +112,11 @@ def _changes(run: Run, k: int, part: Part) -> Iterator[Change]:
         (last.forces, motion),
     )
     inner = inner_loads(contacts, last.forces, motion)
-    for i in np.unique(run.pair_of[at]).tolist():
+    for i in pairs:
         of = run.pair_of[at] == i
-        whole = run.pair_of == i
-        if not (before[whole].any() and run.touches[k, whole].any()):
-            continue
         axes = run.axes(k, at[of])
         here, convex, slowly = (_acts(run, axes, f[of], m[of], at[of]) for f, m in laws)
-        force = max(*here[:TORQUE], *slowly[:TORQUE], run.largest(whole))
+        force = max(*here[:TORQUE], *slowly[:TORQUE], run.largest(run.pair_of == i))
         pair = run.pairs[i]
         arm = pair.mu_omega * force if pair.rows == 6 else 0.0
         known = (_sizes(resultants(axes, inner[of])) <= INNER).all(axis=1)

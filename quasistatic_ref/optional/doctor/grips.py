@@ -44,7 +44,8 @@ def lost(run: Run) -> Iterator[Finding]:
         scores = (slips / run.sizes / SLIPPED + turns / TURNED).max(axis=1)
         k = int(scores.argmax())
         alone = body.contacts & driven
-        lacks = missing(run, k, [body], contacts=alone).get(body)
+        answer = missing(run, k, [body], contacts=alone).get(body)
+        lacks = None if isinstance(answer, str) else answer
         agrees = lacks is not None and _agreement(run, body, k, on[k], lacks) > AGREES
         if not agrees and (run.touches[k] & body.contacts & ~driven).any():
             continue  # it is stroked, and others bear it

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.formats.plain import field_values
-from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.artifacts import boundary_layer, gives, quasi_dynamic_number
@@ -18,11 +17,11 @@ from quasistatic_ref.optional.doctor.checks import (
     OF_RUN,
     OF_SCENE,
     Check,
-    failure,
     looked,
 )
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.optional.doctor.undecided import failure
 from quasistatic_ref.simulate.finding import Finding, told
 from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.observer import Observer, Recording
@@ -159,8 +158,4 @@ def _looked_for(at: Start, failed: bool) -> tuple[tuple[Finding, ...], str]:
     elif not failed:
         checks += NO_STEPS
     found, skipped = looked(checks, at)
-    if isinstance(at, Run) and not at.own_terms and "asked" in vars(at) and at.asked.unknown:
-        names = listed(sorted(at.asked.unknown))
-        open_ones = f"equilibrium of {names}: no answer of a slow step, or too many touch"
-        skipped = "; ".join(filter(None, (skipped, open_ones)))
     return tuple(found), skipped

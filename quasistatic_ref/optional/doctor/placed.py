@@ -1,7 +1,6 @@
 """Where bodies are at the start: free ones that nothing bears, and some that are in each other."""
 
 from collections.abc import Iterator
-from contextlib import suppress
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from quasistatic_ref.optional.doctor.start import (
     table,
 )
 from quasistatic_ref.optional.doctor.tolerances import NEAR, SUNK
+from quasistatic_ref.optional.doctor.undecided import Undecided, failure
 from quasistatic_ref.optional.doctor.unsupported import fall, held, sinks
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
@@ -53,7 +53,7 @@ def gravity(start: Start) -> Iterator[Finding]:
             )
 
 
-def in_the_air(start: Start) -> Iterator[Finding]:
+def in_the_air(start: Start) -> Iterator[Finding | Undecided]:
     """A body that touches nothing where it starts: how far it is above what is to bear it.
 
     Its height is the shortest move along gravity until a pair of it touches (``unsupported.fall``).
@@ -65,27 +65,30 @@ def in_the_air(start: Start) -> Iterator[Finding]:
     }
     holds = held(start, loose)
     for name in [x for x in loose if x not in holds and sinks(start, x)]:
-        with suppress(ContactError):  # of a pose that no step has
+        try:
             falls = [(pair, fall(start, pair, name)) for pair, *_ in loose[name]]
-            pair, gap = min(falls, key=lambda x: x[1])
-            if np.isfinite(gap):
-                yield Finding(
-                    "starts-in-the-air",
-                    True,
-                    f"lower {name} by {1e3 * gap:.4g} mm, or check its origin",
-                    f"{name} starts in the air, {1e3 * gap:.4g} mm above what may bear it "
-                    f"({pair.name})",
-                    {"gap_mm": 1e3 * gap},
-                )
-            else:
-                yield Finding(
-                    "unsupported-body",
-                    True,
-                    joining(start, f"{name} and what should bear it"),
-                    f"nothing that may touch {name} is below it: it falls past "
-                    f"{listed(sorted({pair.name for pair, _ in falls}))}",
-                    {"pairs": len(falls)},
-                )
+        except ContactError as error:  # of a pose that no step has
+            yield Undecided(f"the fall of {name}", failure(error))
+            continue
+        pair, gap = min(falls, key=lambda x: x[1])
+        if np.isfinite(gap):
+            yield Finding(
+                "starts-in-the-air",
+                True,
+                f"lower {name} by {1e3 * gap:.4g} mm, or check its origin",
+                f"{name} starts in the air, {1e3 * gap:.4g} mm above what may bear it "
+                f"({pair.name})",
+                {"gap_mm": 1e3 * gap},
+            )
+        else:
+            yield Finding(
+                "unsupported-body",
+                True,
+                joining(start, f"{name} and what should bear it"),
+                f"nothing that may touch {name} is below it: it falls past "
+                f"{listed(sorted({pair.name for pair, _ in falls}))}",
+                {"pairs": len(falls)},
+            )
 
 
 def penetration(start: Start) -> Iterator[Finding]:

@@ -17,6 +17,7 @@ from quasistatic_ref.optional.doctor.start import (
     more_points,
 )
 from quasistatic_ref.optional.doctor.tolerances import SUNK
+from quasistatic_ref.optional.doctor.undecided import Undecided, failure
 from quasistatic_ref.parts import is_there
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
@@ -33,7 +34,7 @@ FEWEST, MANY = 50, 200_000
 SHOWN = 3
 
 
-def few_points(start: Start) -> Iterator[Finding]:
+def few_points(start: Start) -> Iterator[Finding | Undecided]:
     """Bodies whose centre is over the points of their faces, and not over the k that are kept."""
     points = start.points
     if not start.g or points is None:
@@ -49,13 +50,14 @@ def few_points(start: Start) -> Iterator[Finding]:
         if _around(of_kept - middle, start):
             continue
         every = []
-        for pair, _ in of_body:
-            wider = replace(pair, k=max(pair.k, MOST))
-            try:
+        try:
+            for pair, _ in of_body:
+                wider = replace(pair, k=max(pair.k, MOST))
                 all_points = closest_points([wider], start.kinematics)
-            except ContactError:
-                return  # of a point that no step keeps
-            every.append(_bearing(start, pair, name, all_points))
+                every.append(_bearing(start, pair, name, all_points))
+        except ContactError as error:  # of a point that no step keeps
+            yield Undecided(f"points of faces of {name}", failure(error))
+            continue
         of_all = np.concatenate(every)
         if _around(of_all - middle, start):
             more = [len(some) - len(few) for few, some in zip(kept, every, strict=True)]

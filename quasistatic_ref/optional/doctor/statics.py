@@ -10,6 +10,7 @@ from quasistatic_ref.optional.doctor.compared import SLIP, SPIN, TORQUE
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.stopped import SAME
 from quasistatic_ref.optional.doctor.telling import amount, table_of
+from quasistatic_ref.optional.doctor.undecided import Undecided, undecided
 from quasistatic_ref.optional.doctor.unsupported import alone, falls
 from quasistatic_ref.simulate.finding import Finding
 
@@ -17,11 +18,12 @@ UNITS = ("N", "N", "N m", "m", "rad")
 """Of normal force, friction, torque, slip and spin."""
 
 
-def out_of_balance(run: Run) -> Iterator[Finding]:
+def out_of_balance(run: Run) -> Iterator[Finding | Undecided]:
     """Bodies whose loads no forces of Coulomb's law bear, by the run's cone.
 
     A body that falls until the end because its contacts bear nothing is in free fall.
     """
+    yield from undecided("equilibrium", run.asked.unknown)
     falling = falls(run)
     unsupported = alone(run)
     for body, (k, lack) in run.asked.lacks.items():
@@ -49,9 +51,10 @@ def out_of_balance(run: Run) -> Iterator[Finding]:
         )
 
 
-def corners(run: Run) -> Iterator[Finding]:
+def corners(run: Run) -> Iterator[Finding | Undecided]:
     """Bodies that the ellipsoid holds; else the one that lacks most otherwise in it."""
     asked = run.asked
+    yield from undecided("corners", asked.unknown_round)
     here = run.simulator.cone
     remedy = 'set cone = "ellipsoid"'
     held = {body.name: asked.lacks[body][0] for body in asked.round if asked.in_corners(body)}
@@ -78,8 +81,9 @@ def corners(run: Run) -> Iterator[Finding]:
         yield found
 
 
-def artifact(run: Run) -> Iterator[Finding]:
+def artifact(run: Run) -> Iterator[Finding | Undecided]:
     """The pair of which drag and the boundary layer change most."""
+    yield from undecided("artifacts", run.asked.unknown_changes)
     change = run.asked.change
     if change is None or change.share <= COUNTS:
         return

@@ -22,6 +22,7 @@ import numpy as np
 from quasistatic_ref.certify.groups import Group, group_step, groups
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor.slow import SLOWLY, STRAIGHT, Rung, Slow
+from quasistatic_ref.optional.doctor.undecided import NO_ANSWER, TOO_MANY, failure
 from quasistatic_ref.parts import posed
 
 if TYPE_CHECKING:
@@ -200,8 +201,8 @@ def missing(
     bodies: Collection[Body],
     cone: str | None = None,
     contacts: Mask | bool = True,
-) -> dict[Body, Missing | None]:
-    """What some bodies lack if targets and loads stop after step k; None where that is not known.
+) -> dict[Body, Missing | str]:
+    """What some bodies lack if targets and loads stop after step k; where it is not known, why.
 
     Parameters
     ----------
@@ -211,8 +212,8 @@ def missing(
     cone, contacts
         As of :class:`Scene`.
     """
-    lacks: dict[Body, Missing | None] = {}
-    first: dict[Body, Missing | None] = {}
+    lacks: dict[Body, Missing | str] = {}
+    first: dict[Body, Missing] = {}
     left = {*bodies}
     of = {i: body for body in run.bodies_of for i in body.coordinates.tolist()}
     q = run["q"][k + 1]
@@ -221,8 +222,8 @@ def missing(
     for _ in range(ROUNDS):
         try:
             scene = Scene(run, k, q, run.gap[k], None, cone, contacts)
-        except QuasistaticError:  # no normal, or no float64
-            return lacks | dict.fromkeys(left)
+        except QuasistaticError as error:  # no normal, or no float64
+            return lacks | dict.fromkeys(left, failure(error))
         if foreseen is not None:
             as_foreseen = (np.abs(scene.phi - foreseen) <= SAME * run.sizes).all()
             straight = 3 * straight if as_foreseen else 1.0
@@ -238,7 +239,7 @@ def missing(
                 continue
             ends = rungs and (part.slow.end <= rungs[-1].T or rungs[-1].moves > 1)
             if len(rungs) < 2 or not ends:
-                lacks |= dict.fromkeys(here)
+                lacks |= dict.fromkeys(here, TOO_MANY if part.large else NO_ANSWER)
                 continue
             falls = [member for member in members if member.falls(rungs)]
             for member in falls:

@@ -12,7 +12,7 @@ from quasistatic_ref import RunFailed, load_scenario, load_trajectory
 from quasistatic_ref.files.finding import finding_read, finding_table
 from quasistatic_ref.files.npz import json_array
 from quasistatic_ref.files.trajectory import header_table
-from quasistatic_ref.optional.doctor import checks, observer, start, stopped
+from quasistatic_ref.optional.doctor import checks, observer, slow, start, stopped
 from tests.extras import SCENARIOS_TO_RUN
 from tests.optional.doctor.mistake_scenes import scenes_written
 
@@ -75,6 +75,14 @@ def test_a_file_whose_sentences_begin_with_the_remedy_is_read():
     assert finding_read(finding_table(found), "findings[0]") == found
 
 
+def fails(*_):
+    raise ZeroDivisionError("no reason")
+
+
+def refuses(*_):
+    raise qr.QuasistaticError("no normal")
+
+
 OF_RUN = "locked guides, forces of single contacts"
 NOTES = {
     "block_push": "artifact",
@@ -96,12 +104,31 @@ def test_a_scenario_that_comes_along_is_silent_but_for_what_it_shows(name):
     assert not any(one.grave for one in run.findings)
 
 
-@pytest.mark.parametrize(("most", "names"), [(stopped.GROUP, ["equilibrium"]), (0, [])])
-def test_groups_that_are_too_large_are_not_looked_at(most, names, monkeypatch):
-    monkeypatch.setattr(stopped, "GROUP", most)
-    run = load_scenario("block_incline", steps=3, fast=True).run(progress=False)
-    assert [found.name for found in run.findings] == names
-    assert ("equilibrium of smooth: no answer" in run.header.not_looked_at) is (most == 0)
+SLOW_STEPS = {
+    "too many contacts touch": (stopped, "GROUP", 0),
+    "a slow step has no answer": (slow.Slow, "rung", lambda *_: None),
+    "QuasistaticError no normal": (stopped.Scene, "__init__", refuses),
+}
+
+
+@pytest.mark.parametrize("why", SLOW_STEPS)
+def test_what_slow_steps_do_not_answer_is_said_by_name(why, monkeypatch):
+    """A block that slides is asked whether it stays, and one that is pushed for what drag adds."""
+    sliding = load_scenario("block_incline", steps=3, fast=True)
+    pushed = load_scenario("block_push", steps=60, fast=True)
+    assert [[one.name for one in s.run().findings] for s in (sliding, pushed)] == [
+        ["equilibrium"],
+        ["artifact"],
+    ]
+    monkeypatch.setattr(*SLOW_STEPS[why])
+    run = sliding.run(progress=False)
+    assert run.findings == ()
+    assert run.header.not_looked_at == f"equilibrium of smooth: {why}"
+    run = pushed.run(progress=False)
+    assert run.findings == ()
+    pairs = "floor(floor, block/block#0) and push(pusher/plate#0, block/block#0)"
+    line = f"equilibrium of block, artifacts of {pairs}: {why}"
+    assert run.header.not_looked_at == line
 
 
 def test_what_is_not_looked_at_in_a_large_scene_is_said(tmp_path, cli, monkeypatch):
@@ -138,10 +165,6 @@ def test_a_file_from_before_there_were_findings_has_none(tmp_path):
     del header["findings"]
     np.savez(tmp_path / "old.npz", header=json_array(header), **run.arrays)
     assert load_trajectory(tmp_path / "old.npz").findings == ()
-
-
-def fails(*_):
-    raise ZeroDivisionError("no reason")
 
 
 @pytest.mark.parametrize("table", ["OF_SCENE", "OF_RUN"])
