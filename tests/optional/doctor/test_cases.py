@@ -1,4 +1,4 @@
-"""Scenes of statics: each number by hand, and nothing else is said (cases/scenes.toml)."""
+"""Scenes of statics: each number by hand, and nothing else is said (cases/*.toml)."""
 
 import copy
 import tomllib
@@ -9,7 +9,11 @@ import pytest
 from quasistatic_ref import Body, Box, Sphere, load_scenario
 
 HERE = Path(__file__).with_name("cases")
-CASES = tomllib.loads((HERE / "scenes.toml").read_text("utf-8"))["case"]
+CASES = [
+    pytest.param(case, id=case["what"], marks=pytest.mark.long if "long" in case else ())
+    for file in sorted(HERE.glob("*.toml"))
+    for case in tomllib.loads(file.read_text("utf-8"))["case"]
+]
 
 
 def scene_of(case, **more):
@@ -26,7 +30,7 @@ def scene_of(case, **more):
     return load_scenario(table)
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case["what"])
+@pytest.mark.parametrize("case", CASES)
 def test_what_is_said_of_statics_is_right_by_hand(case):
     said = {one.name: one for one in scene_of(case).run(progress=False).findings}
     said.pop("uncertain-forces", None)
