@@ -1,6 +1,9 @@
 """The committed study of clouds: the grasp with other clouds of the same bunny, a row each.
 
-``validation/make/clouds.py`` says how a row is made.
+Its rows were measured once: which cloud, what is not as in the scene, and what became of the grasp
+(largest rotation [deg] and rise [mm] in the lift). Of the closed grip a row has the squeeze of a
+finger [N], the distance of the centre of mass from the line of the loads [m], the loaded points,
+and the mu_omega that these have by mu_v alone (R15), and that is needed (R14) [m].
 """
 
 import json

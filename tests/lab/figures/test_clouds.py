@@ -1,13 +1,16 @@
-"""The committed study of clouds: its rows are whole, and are made again alike."""
+"""The committed study of clouds: its rows are whole; another cloud takes one command."""
 
-import json
 from collections import Counter
 
-import pytest
+import numpy as np
+import trimesh
 
-from quasistatic_ref.lab.figures.clouds import margin, rows
+from quasistatic_ref.files.resources import scenario_path
+from quasistatic_ref.lab.figures.clouds import TURNS, margin, rows
+from quasistatic_ref.lab.sweep import simulate_many
 from tests.closeness import assert_relative
-from validation.make.clouds import SAMPLINGS, row_again
+
+SAMPLINGS = ("random", "farthest", "vertices", "scan")
 
 
 def test_every_cell_of_the_grid_has_its_thirty_seeds():
@@ -34,21 +37,13 @@ def test_a_grip_whose_numbers_are_known_has_the_margin_of_r14():
         assert_relative(margin(one) * needed, one["mu_omega"] + one["spread"], 1e-4)
 
 
-@pytest.mark.parametrize(
-    ("sampling", "change"),
-    [
-        ("random", "none"),
-        pytest.param("farthest", "none", marks=pytest.mark.long),
-        ("scan", "none"),
-        pytest.param("random", "stiffness", marks=pytest.mark.long),
-    ],
-)
-def test_a_row_is_made_again_to_the_last_digit(sampling, change):
-    of = {"sampling": sampling, "change": change, "count": 992, "seed": 3}
-    known = [row for row in rows() if of.items() <= row.items()][-1]
-    assert json.dumps(row_again(known)) == json.dumps(known)
-
-
-def test_vertices_of_a_mesh_that_is_divided_are_drawn_as_they_were():
-    known = next(r for r in rows() if (r["sampling"], r["count"]) == ("vertices", 10_000))
-    assert row_again(known) == known
+def test_a_cloud_of_ones_own_is_grasped_by_a_sweep(tmp_path):
+    """As docs/reality.md says: of random points of the same mesh."""
+    mesh = trimesh.load_mesh(scenario_path("bunny_grasp").with_name("bunny.obj"))
+    points, _ = trimesh.sample.sample_surface(mesh, 992, seed=0)
+    cloud = tmp_path / "cloud.csv"
+    np.savetxt(cloud, points, delimiter=",", header="x,y,z", comments="")
+    varied = {"bodies.bunny.cloud": [str(cloud)], "contacts.grip.mu_omega": [0.0, 0.003]}
+    made = simulate_many("bunny_grasp", varied, tmp_path / "clouds", workers=1)
+    without, torsion = (row["measures"]["bunny.largest_rotation_deg"] for row in made)
+    assert torsion < TURNS < without
