@@ -8,12 +8,13 @@ from jsonschema import Draft202012Validator
 
 from quasistatic_ref import InputError, verify_answer
 from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.lab.vectors.agreed import PROGRAM
 from quasistatic_ref.lab.vectors.files import expected_read
 from quasistatic_ref.lab.vectors.generate import generate_folder, manifest_text, new_record
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, cone_step, step_of
+from quasistatic_ref.lab.vectors.layers.qp import cone_step, step_of
 from quasistatic_ref.lab.vectors.versions import MANIFEST
 from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import (
@@ -99,12 +100,14 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
     refused = {}
     for case in cases("qp"):
         output = expected_of("qp")[case.id]["output"]
-        conic = "second_order" in case.input
-        step = cone_step(case.input) if conic else step_of(case.input)
+        written = output["certificate"]
+        step = cone_step(case.input) if "second_order" in case.input else step_of(case.input)
         if "farkas" in output:
-            refused[case.id] = farkas_refutation(step, output["certificate"]["farkas"])
+            refused[case.id] = farkas_refutation(step, written["farkas"])
             continue
-        claims = claimed_certificate(case.input, output, step)
+        facts = {name: value for name, value in written.items() if name != "working_set"}
+        active = tuple((0, i) for i in written.get("working_set", ()))  # of the step's own rows
+        claims = Certificate(**facts, active=active, step=step)
         lam = np.array(output["lam"])
         delta_q = np.array(output["delta_q"])
         refused[case.id] = verify_answer(step, delta_q, claims.active, lam, claims).reason

@@ -66,8 +66,7 @@ class Failure:
         lines += [f"Seen: {self.reason}. Again:", "", f"    {again}", ""]
         lines += ["The input", "", f"    {json.dumps(self.case)}", ""]
         if self.expected is not None and self.given is not None:
-            wanted = {key: value for key, value in self.expected.items() if key != "certificate"}
-            table = aligned(side_by_side(wanted, self.given))
+            table = aligned(side_by_side(self.expected, self.given))
             lines += ["Expected, and given", "", *(f"    {row}" for row in table), ""]
         return text_written(place / "README.md", "\n".join(lines)).parent
 

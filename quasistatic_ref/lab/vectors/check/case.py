@@ -4,11 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.lab.vectors.check.compare import (
     CONTACT,
-    NO_NUMBERS,
     OPTIONAL,
     differences,
     shape_problem,
@@ -47,6 +45,8 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     Verdict
         Its id is empty. Fields that the layer does not ask for are named, and not looked at.
     """
+    asked = {name: value for name, value in record["output"].items() if name != "certificate"}
+    record = {**record, "output": asked}
     fields, extra = _asked_fields(layer, record, answer)
     return replace(_verdict(layer, case, record, fields), extra=extra)
 
@@ -55,9 +55,8 @@ def _asked_fields(layer: str, record: Json, answer: Json) -> tuple[Json, tuple[s
     """An answer without the fields that its layer never asks for, and their names."""
     if not isinstance(answer, dict):
         return answer, ()
-    claims = CLAIMS if layer in ("qp", "step") else ()
-    numbers = FIELDS.values() if layer == "derivative" else ()
-    known = {*record["output"], *OPTIONAL.get(layer, ()), *NO_NUMBERS, *claims, *numbers}
+    others = {"qp": CLAIMS, "step": CLAIMS, "derivative": ("reasons", *FIELDS.values())}
+    known = {*record["output"], *others.get(layer, ())}
     extra = [name for name in answer if name not in known]
     kept = {name: value for name, value in answer.items() if name in known}
     contacts = kept.get("contacts")
@@ -70,25 +69,19 @@ def _asked_fields(layer: str, record: Json, answer: Json) -> tuple[Json, tuple[s
 
 def _verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     """The verdict on the fields that a layer asks for."""
+    expected = record["output"]
     if layer == "derivative":
         if verdict := existence_verdict(record, answer):
             return verdict
-        empty = {*FIELDS.values()} - {*record["output"]}  # of no target, or of no friction
-        kept = {*answer} - {*NO_NUMBERS} - empty
-        answer = {name: value for name, value in answer.items() if name in kept}
-    expected = record["output"]
+        expected = {name: value for name, value in expected.items() if name in FIELDS.values()}
+        answer = {name: value for name, value in answer.items() if name in expected}
     if layer in ("qp", "step") and isinstance(answer, dict):
-        if "forces" not in expected and "delta_q" in expected:  # as before version 6
-            answer = {name: value for name, value in answer.items() if name != "forces"}
         if "farkas" in answer and "farkas" in expected:
             return _verdict_on_proof(layer, case, record, answer)
         if "farkas" in answer:
             return failure("farkas", "farkas is given, but the case has a solution")
         if "farkas" in expected and (layer == "qp" or "delta_q" in answer):
             return _unseen(case, record, answer)
-    if layer == "qp" and isinstance(answer, dict) and "certificate" in answer:
-        return _verdict_with_certificate(case, record, answer)
-    expected = {name: value for name, value in expected.items() if name not in NO_NUMBERS}
     missing = omissions(expected, answer) if layer in IN_PART and isinstance(answer, dict) else ()
     if missing:
         expected = _expected_without(expected, missing)
@@ -147,17 +140,6 @@ def _expected_without(expected: Json, missing: tuple[str, ...]) -> Json:
     return kept
 
 
-def _verdict_with_certificate(case: Json, record: Json, answer: Json) -> Verdict:
-    """An answer with a certificate, which is the expected one or has to hold by itself."""
-    rest = {name: value for name, value in answer.items() if name != "certificate"}
-    verdict = case_verdict("qp", case, record, rest)
-    if verdict.verdict == FAILED or answer["certificate"] == record["output"].get("certificate"):
-        return verdict
-    if problem := certificate_problem(case, answer):
-        return failure("certificate", f"certificate: {problem}")
-    return acceptance("another certificate that holds", verdict.digits)
-
-
 def _unseen(case: Json, record: Json, answer: Json) -> Verdict:
     """The verdict on a delta_q of rows whose contradiction is below their own rounding."""
     missing = failure("farkas", "the case has no solution; farkas is missing")
@@ -174,44 +156,13 @@ def _unseen(case: Json, record: Json, answer: Json) -> Verdict:
 
 
 def _verdict_on_proof(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
-    """The verdict on a proof that a case has no solution."""
-    if layer == "step":
-        proved = ("farkas", "certificate")
-        before = {name: v for name, v in record["output"].items() if name not in proved}
-        led = {name: v for name, v in answer.items() if name not in proved}
-        verdict = case_verdict(layer, case, {**record, "output": before}, led)
-        if verdict.verdict == FAILED:
-            return verdict
-        rows = record["output"] | answer  # its own, where it has them
-        case = {**case, **{key: rows[key] for key in ("A", "b", "g")}}
-    for name in answer:
-        if name not in record["output"]:
-            return failure(name, f"{name} is no field of a case without solution")
-    if "certificate" in answer and answer["certificate"] != record["output"]["certificate"]:
-        return failure("certificate", "certificate is another one; leave it out, farkas says it")
-    return farkas_verdict(case, record, answer["farkas"])
-
-
-def certificate_problem(case: Json, answer: Json) -> str | None:
-    """Why a certificate does not hold; None if it does.
-
-    Parameters
-    ----------
-    case : dict
-        Input of the layer ``qp``.
-    answer : dict
-        ``delta_q``, ``lam`` and ``certificate``; it claims the correctly rounded optimum.
-    """
-    from quasistatic_ref.certify.verification import verify_answer
-    from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, step_of
-
-    if "second_order" in case:
-        return "in second-order cones only the expected one is known"
-    try:
-        step = step_of(case)
-        certificate = claimed_certificate(case, answer, step)
-        delta_q, lam = (np.array(answer[name], dtype=np.float64) for name in ("delta_q", "lam"))
-        verdict = verify_answer(step, delta_q, certificate.active, lam, certificate)
-    except (InputError, KeyError, TypeError, ValueError, IndexError) as error:
-        return f"it cannot be read: {error}"
-    return None if verdict else str(verdict.reason)
+    """The verdict on a proof that a case has no solution, and on what led to it."""
+    expected, led = (
+        {name: value for name, value in fields.items() if name != "farkas"}
+        for fields in (record["output"], answer)
+    )
+    verdict = _verdict(layer, case, {**record, "output": expected}, led)
+    if verdict.verdict == FAILED:
+        return verdict
+    rows = case | expected | led  # its own, where it has them
+    return farkas_verdict(rows, record, answer["farkas"])

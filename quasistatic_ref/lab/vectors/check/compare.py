@@ -8,12 +8,10 @@ from quasistatic_ref.lab.vectors.check.verdict import Difference, correct_digits
 from quasistatic_ref.lab.vectors.trees import Json
 
 OPTIONAL = {
-    "qp": ("A_lam", "slack", "certificate"),
+    "qp": ("A_lam", "slack"),
     "step": ("A_lam", "forces"),
 }
 """Fields that follow from others, and need not be answered."""
-NO_NUMBERS = ("certificate", "differentiable", "reasons")
-"""Fields that have a verdict of their own."""
 WRENCH = ("f_d1", "f_d2", "f_n", "tau_n")
 """Components of a contact's wrench."""
 

@@ -9,7 +9,6 @@ import numpy as np
 from quasistatic_ref.certify.exact import optimum_by_groups
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.groups import group_steps
-from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
 from quasistatic_ref.lab.vectors.trees import Json
@@ -18,13 +17,6 @@ from quasistatic_ref.step.data import StepData
 
 UNIQUE = 1e-6
 """Largest tolerance of lam, relative to its largest entry, at which its entries are compared."""
-FACTS = (
-    "multipliers_unique",
-    "differentiable",
-    "smallest_inactive_slack",
-    "smallest_active_multiplier",
-)
-"""What a certificate says of an optimum in addition to its working set."""
 
 
 def own(case_input: Json) -> Json:
@@ -99,13 +91,3 @@ def cone_step(case_input: Json) -> StepData:
         problem = "only its first entry may differ from 0: phi of a contact"
         raise InputError(problem, field="second_order.f", value=f.tolist())
     return conic_step(H, g, F, f[:, 0])
-
-
-def claimed_certificate(case_input: Json, output: Json, step: StepData) -> Certificate:
-    """The certificate of an output about a step, as `verify` takes it."""
-    written = output["certificate"]
-    if "second_order" in case_input:
-        return Certificate(kind="enclosure", error_bound=written["error_bound"], step=step)
-    active = tuple((0, i) for i in written["working_set"])  # of the step's own rows
-    facts = {name: written[name] for name in (*FACTS, "error_bound")}
-    return Certificate(kind=written["kind"], active=active, **facts, step=step)

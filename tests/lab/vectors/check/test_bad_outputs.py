@@ -23,8 +23,9 @@ def without_a_beta(contacts):
     return [first, {name: v for name, v in second.items() if name != "beta"}, *rest]
 
 
-def of_another_working_set(certificate):
-    return {**certificate, "working_set": certificate["working_set"][1:]}
+def turned_more(forces):
+    """Forces of which the sixth contact's torque is 1 mN m larger."""
+    return [[*f[:3], f[3] + 1e-3 * (j == 5)] for j, f in enumerate(forces)]
 
 
 ROWS, FLAT, GRASP = "rows/random/3", "qp/ellipsoid/flat", "qp/grasp/0"
@@ -49,13 +50,9 @@ BAD = {
     "a lam beyond float64": (  # sums that overflow are inf or nan, by the order of summation
         GRASP, changed("lam", lambda lam: [1e308] * len(lam)), "A'lam is off by ",
     ),
-    "a certificate of other rows": (
-        GRASP, changed("certificate", of_another_working_set), "certificate: ",
-    ),
-    "a list for a claim": (
-        "qp/random/2",
-        changed("certificate", lambda claims: {**claims, "multipliers_unique": [0.0] * 1000}),
-        "certificate: multipliers_unique is claimed to be [0.0, 0.0",
+    "forces of another spin": (
+        "step/stack/0", changed("forces", turned_more),
+        "forces[5][3], tau_n of contact 5, is off by 0.001 ",
     ),
 }  # fmt: skip
 
