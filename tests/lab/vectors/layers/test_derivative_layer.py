@@ -1,24 +1,7 @@
-"""Layer `derivative`: against float64 differences of the plain program, and its kinks."""
+"""Verdicts on answers of the layer `derivative`: numbers, kinks, and reasons."""
 
-import numpy as np
-import pytest
-
-from quasistatic_ref.lab.program.derivative import EPS, case_with_tau, derivative
-from quasistatic_ref.lab.program.integration import integrate, way
-from quasistatic_ref.lab.program.step import step
 from quasistatic_ref.lab.vectors.check.case import case_verdict
-from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import cases, expected_of, report_on
-
-CHECKED = ("ball/pyramid", "forces/turned", "arm/passive_elbow", "planar/push",
-           "mimic/revolute_actuated", "pair/sphere_ellipsoid_1", "pair/cylinder_box_0")  # fmt: skip
-"""Rolling, sliding, driven, followed; curved surfaces and flat ones."""
-FLOAT64 = 1e-6
-"""Of the largest entry: differences over 1e-5 of numbers of 1e-16, with a condition up to 1e4."""
-
-
-def q_next(case):
-    return np.array(step(case)["q_next"])
 
 
 def case_of(name):
@@ -27,27 +10,6 @@ def case_of(name):
 
 def output_of(name):
     return expected_of("derivative")[f"derivative/{name}"]["output"]
-
-
-@pytest.mark.parametrize("name", CHECKED)
-def test_differences_in_float64_are_the_same(name):
-    wanted = np.array(output_of(name)["dq_dq"])
-    found = derivative(case_of(name).input)["dq_dq"]
-    assert_within(found, wanted, FLOAT64 * np.abs(wanted).max())
-
-
-@pytest.mark.parametrize(
-    "name", ["row/landing_pyramid", "row/beside", "selection/cloud_two_in", "multipliers/bar_1"]
-)
-def test_one_sided_differences_of_another_program_differ_at_kinks(name):
-    case = case_with_tau(case_of(f"kink/{name}").input)
-    start = q_next(case)
-    jumps = []
-    for e in np.eye(len(way(case["mechanism"], start, start))):
-        places = (integrate({**case, "delta_q": s * EPS * e})["q"] for s in (1, -1))
-        up, down = (way(case["mechanism"], start, q_next({**case, "q": q})) for q in places)
-        jumps.append(np.abs(up + down).max() / EPS)
-    assert max(jumps) > 1e-3
 
 
 def verdict(name, answer):
