@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from docs.drawings.which_cone_is_real import measurements
+from docs.drawings.labels import label_axes, legend_below
+from docs.drawings.reality_pushes import measurements
 from quasistatic_ref.files.scenario.scenario import load_scenario
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.grasp import CLOSED
 from quasistatic_ref.lab.reality.measurements import Pair
 from quasistatic_ref.lab.reality.predict import prediction
@@ -38,7 +38,7 @@ WEIGHT = M * GRAVITY
 LOADS = np.linspace(0.0, 3.0, 13)
 """Over what friction bears [-]."""
 PUSH = 4
-"""Of the pushes of ``which_cone_is_real``."""
+"""Of the pushes of ``reality_pushes``."""
 ADVANCE, STEPS = 2e-3, 300
 """Of the finger in a step [m]; of the grasp."""
 STYLES = {CONVEX: "o-", COULOMB: "^--"}

@@ -7,9 +7,9 @@ both lie on edges, at a right angle: the contact takes no energy.
 import numpy as np
 from matplotlib.patches import Polygon
 
+from docs.drawings.labels import label_axes
 from docs.drawings.the_program import MU_V, point
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 

@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
+from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref import Contacts, StepData, solve_step
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.style import scaled
 

@@ -4,9 +4,9 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon, Rectangle
 
+from docs.drawings.labels import label_axes, legend_below
 from docs.drawings.the_program import GRAVITY, MASS, MU_V, point
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.style import scaled
 

@@ -7,8 +7,8 @@ normal force and with it the friction.
 
 import numpy as np
 
+from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref import coulomb_step, solve_step
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.scenes.rigid import point_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 

@@ -7,8 +7,8 @@ surface.
 
 import numpy as np
 
+from docs.drawings.labels import label_axes
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled

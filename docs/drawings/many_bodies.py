@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from quasistatic_ref.lab.figures.labels import label_axes
+from docs.drawings.labels import label_axes
 from quasistatic_ref.lab.figures.line_styles import MARKS
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 

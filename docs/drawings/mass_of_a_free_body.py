@@ -9,7 +9,8 @@ would turn, (R3).
 import numpy as np
 import pinocchio as pin
 
-from quasistatic_ref.lab.figures.labels import caption, label_axes
+from docs.drawings.labels import label_axes
+from quasistatic_ref.lab.figures.labels import caption
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model.system import System

@@ -10,9 +10,9 @@ from functools import cache
 
 import numpy as np
 
+from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.files.scenario.scenario import load_scenario
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.figures.line_styles import MARKS
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 import quasistatic_ref as qr
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
+from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref.optional.show.figures import Figure, panels
 
 SCENE = Path(__file__).parents[1] / "examples" / "opinion" / "mug.xml"

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from docs.drawings.labels import label_axes
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, system_of
 from quasistatic_ref.model.system import System

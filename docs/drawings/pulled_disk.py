@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 

@@ -6,9 +6,9 @@ from functools import cache
 import numpy as np
 from matplotlib.patches import Rectangle
 
+from docs.drawings.labels import label_axes
 from docs.drawings.the_program import H, point
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.style import scaled
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import quasistatic_ref as qr
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
+from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref import Contacts, StepData, solve_step
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.style import scaled
 

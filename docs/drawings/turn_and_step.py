@@ -9,8 +9,8 @@ from functools import cache
 
 import numpy as np
 
+from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref import load_scenario, relative_turn
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.grasp import CLOSED
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 import pinocchio as pin
 
+from docs.drawings.labels import label_axes
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.files.scenario.scenario import load_scenario
-from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of
 from quasistatic_ref.model.system import Kinematics

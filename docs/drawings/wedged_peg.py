@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.patches import Polygon, Rectangle
 
+from docs.drawings.labels import label_axes
 from quasistatic_ref import solve_step
 from quasistatic_ref.lab.claims.jams import pushed_peg
-from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 

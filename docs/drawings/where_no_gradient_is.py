@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.figures.labels import caption, label_axes, legend_below
+from docs.drawings.labels import label_axes, legend_below
+from quasistatic_ref.lab.figures.labels import caption
 from quasistatic_ref.lab.scenes.nudge import MASS, MU_V, RADIUS, H, body_at_rest, points
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.derivatives import derivatives

@@ -6,9 +6,9 @@ adds sigma, the largest slip times its coefficient, to each slack; the convex pr
 
 import numpy as np
 
+from docs.drawings.labels import label_axes, legend_below
 from docs.drawings.the_program import H, point
 from quasistatic_ref import coulomb_step, solve_step
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.step.standard_form import standard_form

@@ -8,8 +8,8 @@ point along the same ray: the farther, the smaller the time step.
 import numpy as np
 from matplotlib.patches import Polygon
 
+from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled

@@ -1,43 +1,15 @@
-"""What stands around axes, in as many lines as there is room for."""
+"""What stands below the axes of a figure, in as many lines as there is room for."""
 
 import re
 from collections.abc import Sequence
 from typing import Any
 
-from quasistatic_ref.optional.show.figures.style import legend_above, room
-
 LETTER = 0.62
 """Width of a letter over the size of its font [-]: most letters are slimmer."""
-LABEL = 0.8
-"""Share of a cell that a label along an axis may take [-]."""
 WORD = re.compile(r"(?:\$[^$]*\$|\[[^\]]*\]|[^\s$\[])+")
 """What a line may not break: a formula, a unit, a word."""
 QUIET = re.compile(r"\\(?:mathrm|[,;!])|[\\${}_^]")
 """Signs of a formula that take no room."""
-
-
-def label_axes(axes: Any, x: str = "", y: str = "", title: str = "", key: bool = True) -> None:
-    """Label axes that have been drawn into, with their title and legend above them.
-
-    Lines are broken where they are full, and the legend never covers what is drawn.
-
-    Parameters
-    ----------
-    axes : Axes
-    x, y, title : str
-        None of it where it is empty.
-    key : bool
-        Whether to write a legend, of all that has a label.
-    """
-    width, height = (LABEL * size * 72 / axes.get_figure(root=True).dpi for size in room(axes))
-    size = axes.xaxis.label.get_fontsize()
-    axes.set(xlabel=wrapped(x, width / size), ylabel=wrapped(y, height / size))
-    handles = axes.get_legend_handles_labels()[0] if key else []
-    title = wrapped(title, width / axes.title.get_fontsize())
-    if handles:
-        legend_above(axes, handles, title)
-    elif title:
-        axes.set_title(title, loc="right")
 
 
 def wrapped(text: str, width: float) -> str:
@@ -57,38 +29,13 @@ def caption(h: float, cone: str = "pyramid") -> str:
     return f"h = {1e3 * h:g} ms, " + (cone if cone == "frictionless" else f"friction {cone}")
 
 
-def legend_below(grid: Sequence[Any], handles: Sequence[Any], title: str = "") -> None:
-    """A legend below all axes of a figure, or of a part of one, in lines that fit it.
-
-    Parameters
-    ----------
-    grid : sequence of Axes
-    handles : sequence of Artist
-        With their labels.
-    title : str
-        Above the entries.
-    """
-    part = grid[0].get_figure(root=False)
-    across = part.bbox.width
-    for columns in range(len(handles), 0, -1):
-        legend = part.legend(
-            handles=handles, ncols=columns, loc="outside lower center", columnspacing=1.0
-        )
-        if columns == 1 or legend.get_window_extent().width <= across:
-            if title:
-                legend.set_title(_fitted(title, part, legend.get_title().get_fontsize()))
-                legend.get_title().set_multialignment("center")
-            return
-        legend.remove()
-
-
 def note_below(grid: Sequence[Any], text: str) -> None:
     """A sentence below all axes of a figure, or of a part of one, in lines that fit it."""
     part = grid[0].get_figure(root=False)
     note = part.supxlabel("", fontsize=grid[0].xaxis.label.get_fontsize())
-    note.set_text(_fitted(text, part, note.get_fontsize()))
+    note.set_text(fitted(text, part, note.get_fontsize()))
 
 
-def _fitted(text: str, part: Any, size: float) -> str:
+def fitted(text: str, part: Any, size: float) -> str:
     """A text in lines that fit a figure or part of one, in a font of a size [pt]."""
     return wrapped(text, part.bbox.width / (size * part.get_figure(root=True).dpi / 72))

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.lab.figures.labels import label_axes, legend_below
+from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref.lab.reality.errors import pose_errors
 from quasistatic_ref.lab.reality.identify import identified_ratio
 from quasistatic_ref.lab.reality.measurements import (
