@@ -16,9 +16,8 @@ from quasistatic_ref.files.scenario.scenario import load_scenario
 from quasistatic_ref.lab.figures.line_styles import MARKS
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
-from quasistatic_ref.solve.problem_data import CANON
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.step_problem import StepProblem
+from quasistatic_ref.solve.step_problem import CANON, StepProblem
 from quasistatic_ref.step.data import StepData
 
 SCENES = ("sphere_spin", "two_finger_pinch", "bunny_grasp")

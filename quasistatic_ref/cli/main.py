@@ -17,7 +17,6 @@ from typing import Any, NoReturn
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError, QuasistaticError
 from quasistatic_ref.formats.quoting import clipped, nearest_name, suggestion
-from quasistatic_ref.solve import greeting as greeting  # before CVXPY is imported
 
 CORE = "quasistatic_ref.cli"
 LAB = "quasistatic_ref.lab.commands"
@@ -209,6 +208,7 @@ def _actions(command: argparse.ArgumentParser) -> list[argparse.ArgumentParser]:
 
 def _module(command: str) -> ModuleType:
     """Import the module of a command: the lab's are imported nowhere else in the core."""
+    import_module("quasistatic_ref.solve.backends")  # hears what CVXPY logs when it is imported
     return import_module(f"{CORE if command in OF_CORE else LAB}.{command}")
 
 

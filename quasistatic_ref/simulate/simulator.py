@@ -20,7 +20,7 @@ from quasistatic_ref.contact.all_pairs import AllPairs
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, checked_pairs, contact_layout
-from quasistatic_ref.errors import BackendError, InputError, StepDataError, check_kind
+from quasistatic_ref.errors import InputError, StepDataError, check_kind
 from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.kinematics import Kinematics
@@ -37,12 +37,11 @@ from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.simulate.user_functions import checked_force
-from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED, Certify
+from quasistatic_ref.solve.backends import DEFAULT, NONE, Certify, spares
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step, solved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import ScaledStep
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, hessian, seconds
 
@@ -424,10 +423,7 @@ class Simulator(Settings, Shown):
         replaced = self.certify == "residual" or self.backend in self.replaceable
         if type(failure) is not StepNotSolved or not replaced:
             raise failure
-        others = [other for other in REQUIRED if other != self.backend]
-        if cone(self.cone).polyhedral:  # where there may be no solution, a proof of it is first
-            others.insert(0 if "infeasible" in failure.status else len(others), NONE)
-        for name in others:
+        for name in spares(self.backend, self.cone, "infeasible" in failure.status):
             certify = "full" if name == NONE else self.certify
             try:
                 spare = self.spares.get(name)
@@ -436,8 +432,6 @@ class Simulator(Settings, Shown):
                     if name != NONE:  # it starts cold
                         self.spares[name] = spare
                 solution = solve_step(step, spare, accuracy=self.accuracy, certify=certify)
-            except BackendError:  # not for this cone
-                continue
             except StepNotSolved as another:
                 if type(another) is not StepNotSolved:  # a proof
                     raise

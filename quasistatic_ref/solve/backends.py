@@ -1,4 +1,4 @@
-"""The table of backends: how an accuracy is said in the options of each, and all else that differs.
+"""Backends: how an accuracy is said in the options of each, and which of them are here.
 
 A backend is a solver of another project. There are three interfaces to it: through CVXPY under its
 name (``"clarabel"``); through qpsolvers (``"qpsolvers:clarabel"``), which hands over the standard
@@ -6,17 +6,22 @@ form, in an optional part; and, for DAQP alone, its own, in ``optional/fast``. A
 :class:`~quasistatic_ref.solve.solver.Solver` in a file of its own, which ``solver_for`` chooses.
 """
 
+import ctypes
+import logging
+import os
+import re
+import sys
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from importlib import import_module
 from importlib.util import find_spec
 from typing import Any, Literal, get_args
 
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import check_there, qpsolvers_names
-from quasistatic_ref.solve.greeting import broken_solvers
 from quasistatic_ref.step.cones import checked_cone
 
 Options = dict[str, Any]
@@ -201,6 +206,41 @@ NONE = "none"
 """No backend: the exact method, in a run from the working set of the step before."""
 
 
+CANNOT_IMPORT = re.compile(r"Encountered unexpected exception importing solver (\w+)")
+broken_solvers: dict[str, None] = {}
+"""Those that CVXPY could not import, once it was imported itself."""
+
+
+def _is_none_of_those(record: logging.LogRecord) -> bool:
+    words = CANNOT_IMPORT.match(record.getMessage())
+    if words is not None:
+        broken_solvers[words[1].lower()] = None
+    return words is None
+
+
+logging.getLogger("__cvxpy__").addFilter(_is_none_of_those)
+
+
+@cache
+def greeting_silenced() -> None:
+    """Discard what HiGHS prints when it starts."""
+    highspy = import_module("highspy")
+    sys.stdout.flush()
+    try:
+        kept = os.dup(1)
+    except OSError:  # closed: there is nothing to disturb
+        return
+    null = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(null, 1)
+        highspy.Highs()
+        ctypes.CDLL(None).fflush(None)
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
+        os.close(null)
+
+
 @cache  # CVXPY tries to import every solver it knows: 2 ms
 def reached(interface: str) -> tuple[str, ...]:
     """Names of all installed solvers that ``"cvxpy"`` or ``"qpsolvers"`` can call."""
@@ -319,6 +359,26 @@ def check_takes_cones(name: str, what: str) -> None:
         able = ", ".join(b.name for b in BACKENDS.values() if b.cones)
         raise BackendError(f"accepts only linear rows; {what} needs one of {able}", field="backend",
                            value=name)  # fmt: skip
+
+
+def spares(name: str, cone_name: str, infeasible: bool) -> list[str]:
+    """Names of what is asked in the place of a backend that failed, in this order.
+
+    Parameters
+    ----------
+    name : str
+        Of the backend.
+    cone_name : str
+    infeasible : bool
+        Whether it said that there is no solution: a proof of that is then sought first.
+    """
+    curved = not checked_cone(cone_name).polyhedral
+    others = [
+        other for other in REQUIRED if other != name and (BACKENDS[other].cones or not curved)
+    ]
+    if curved:
+        return others
+    return [NONE, *others] if infeasible else [*others, NONE]
 
 
 Certify = Literal["full", "residual", "off"]

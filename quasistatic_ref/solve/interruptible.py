@@ -9,7 +9,7 @@ from typing import Any
 from cvxpy.reductions.solvers.conic_solvers.scs_conif import SCS
 from cvxpy.reductions.solvers.qp_solvers.osqp_qpif import OSQP
 
-from quasistatic_ref.solve.reply import check_not_interrupted
+from quasistatic_ref.solve.solver import check_not_interrupted
 
 
 class InterruptibleOsqp(OSQP):  # type: ignore[misc]  # CVXPY has no types

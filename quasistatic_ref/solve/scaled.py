@@ -27,7 +27,7 @@ from scipy.sparse.linalg import norm
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.solve.backends import Options
-from quasistatic_ref.solve.problem_data import ProblemData
+from quasistatic_ref.solve.step_problem import ProblemData
 from quasistatic_ref.solve.units import coordinate_units, powers_of_two
 from quasistatic_ref.tolerances import UNMOVED
 

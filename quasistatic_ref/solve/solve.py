@@ -22,8 +22,7 @@ from quasistatic_ref.parts import extended_step
 from quasistatic_ref.solve.backends import NONE, Certify, check_certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.proved import answer_residuals, exact_certificate, proof_statistics
-from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import FREE, Solver
+from quasistatic_ref.solve.solver import FREE, Reply, Solver
 from quasistatic_ref.solve.units import ScaledStep, in_natural, in_si, out_of_range
 from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT

@@ -6,6 +6,7 @@ of its own, and :func:`~quasistatic_ref.solve.choice.solver_for` chooses among t
 """
 
 from abc import ABC, abstractmethod
+from dataclasses import dataclass
 from typing import ClassVar, Final
 
 import numpy as np
@@ -14,16 +15,15 @@ from quasistatic_ref.certify.exact import Proofs
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import one_line
-from quasistatic_ref.numbers.arrays import Mask, all_finite
+from quasistatic_ref.numbers.arrays import Array, Mask, all_finite
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     QPSOLVERS,
     UNSAFE,
     Options,
     backend,
+    greeting_silenced,
 )
-from quasistatic_ref.solve.greeting import greeting_silenced
-from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, differences
@@ -35,6 +35,56 @@ the scenarios in models/ stay below 3."""
 
 FREE = "not called: the step has no rows"
 """Status of a step that is H delta_q = g."""
+
+
+@dataclass(eq=False)
+class Reply:
+    """The unchecked answer of a solver; that to a step is in natural units.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,), or None
+        The answer to min 1/2 x'Hx - g'x, A x >= b; any shape if the solver is broken.
+    lam : ndarray, shape (m,), or None
+        Multipliers of A x >= b, >= 0 but for the solver's tolerance.
+    solved : bool
+        Whether it claims a full solution.
+    status : str
+        Its own word, or what it raised; of other letters than can be written, their numbers.
+    iterations : int or None
+    seconds, setup : float or None
+        Of solving and of setting up [s], by the solver's own account, where it gives one.
+    call_seconds : float
+        Of the whole call [s], in a study.
+    accuracy : float
+        That the solver was asked for in this call, in natural units [-].
+    """
+
+    x: Array | None
+    lam: Array | None
+    solved: bool
+    status: str
+    iterations: int | None = None
+    seconds: float | None = None
+    call_seconds: float = 0.0
+    setup: float | None = None
+    accuracy: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.status = one_line(self.status)
+
+    @property
+    def answer(self) -> tuple[Array, Array]:
+        """The solver's x (n,) and multipliers lam (m,) [-]; None unless it gave both."""
+        assert self.x is not None
+        assert self.lam is not None
+        return self.x, self.lam
+
+
+def check_not_interrupted(status: str) -> None:
+    """KeyboardInterrupt if a solver says that Ctrl-C, which it took for itself, has ended it."""
+    if status.lower().startswith("interrupted"):
+        raise KeyboardInterrupt
 
 
 class Solver(ABC):

@@ -13,10 +13,8 @@ from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.interruptible import INTERRUPTIBLE
-from quasistatic_ref.solve.problem_data import CANON, is_large
-from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import BackendSolver
-from quasistatic_ref.solve.step_problem import StepProblem
+from quasistatic_ref.solve.solver import BackendSolver, Reply
+from quasistatic_ref.solve.step_problem import CANON, StepProblem, is_large
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.data import KIND, StepData
 from quasistatic_ref.step.problem import set_values

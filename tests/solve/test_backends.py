@@ -2,6 +2,9 @@
 
 import dataclasses
 import functools
+import os
+import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +14,7 @@ from quasistatic_ref.solve import backends, solve
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     backend,
+    greeting_silenced,
     installed_backends,
 )
 from quasistatic_ref.solve.choice import solver_for
@@ -29,6 +33,7 @@ from tests.helpers import (
     point_on_floor,
     random_step,
 )
+from tests.processes import python
 from tests.tolerances import MULTIPLIERS, OPTIMUM
 
 solve_step = functools.partial(solve.solve_step, certify="residual")  # what backends say
@@ -179,3 +184,36 @@ def test_impulses_whose_forces_leave_float64_are_refused():
     """Pushed out by 1 m within h, a force of m / h^2 = 3e309 N."""
     with pytest.raises(StepDataError, match="exceed the range"):
         solve.solve_step(point_on_floor(m=0.3, phi=-1.0, h=1e-155))
+
+
+def test_what_highs_prints_at_its_first_object_is_not_seen(monkeypatch, capfd):
+    greeted = []
+
+    def greeting():
+        greeted.append(True)
+        os.write(1, b"Running HiGHS\n")
+
+    monkeypatch.setitem(sys.modules, "highspy", SimpleNamespace(Highs=greeting))
+    greeting_silenced.cache_clear()
+    for _ in range(2):
+        greeting_silenced()
+    greeting_silenced.cache_clear()
+    print("said by us")
+    assert greeted == [True]
+    assert capfd.readouterr().out == "said by us\n"
+
+
+BROKEN_SCS = """
+import quasistatic_ref.solve.solve
+from quasistatic_ref.solve.backends import installed
+assert "scs" not in installed("cvxpy")
+"""
+
+
+def test_a_solver_that_cannot_be_imported_is_left_out_in_our_words(tmp_path):
+    (tmp_path / "scs.py").write_text("raise RuntimeError('no licence')")
+    environment = os.environ | {"PYTHONPATH": str(tmp_path)}
+    done = python("-c", BROKEN_SCS, env=environment)
+    assert done.stdout == ""
+    assert "UserWarning: scs is installed, but cannot be imported, and is left out" in done.stderr
+    assert "licence" not in done.stderr

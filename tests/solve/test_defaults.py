@@ -11,7 +11,7 @@ from quasistatic_ref.optional.fast import simulator as of_fast
 from quasistatic_ref.optional.fast.program import Workspaces
 from quasistatic_ref.optional.fast.simulator import default_backend
 from quasistatic_ref.simulate.law import CONVEX, COULOMB
-from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.solver import Reply
 from tests.helpers import error
 from tests.tolerances import OPTIMUM
 

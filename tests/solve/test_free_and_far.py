@@ -6,8 +6,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import DEFAULT, installed_backends
-from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import FREE
+from quasistatic_ref.solve.solver import FREE, Reply
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import pinch, random_step, sphere_on_floor

@@ -11,7 +11,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.solve import step_problem
 from quasistatic_ref.solve.backends import installed_backends
-from quasistatic_ref.solve.problem_data import problem_data
+from quasistatic_ref.solve.step_problem import problem_data
 from quasistatic_ref.tolerances import UNMOVED
 from tests.closeness import assert_relative, assert_same, assert_within
 from tests.helpers import pinch, random_step, sphere_on_floor

@@ -5,7 +5,7 @@ import numpy as np
 
 from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.solve.problem_data import CANON
+from quasistatic_ref.solve.step_problem import CANON
 
 
 class CompiledProblem:

@@ -14,7 +14,7 @@ from quasistatic_ref.lab.study.saying import INFEASIBLE, SOLVED, saying
 from quasistatic_ref.lab.study.solvers import CVXPY, FUNCTION, QPSOLVERS, Solver
 from quasistatic_ref.optional.extensions.by_function import real_numbers
 from quasistatic_ref.solve.backends import Options
-from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.solver import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
 Call = Callable[[Program, Options], Reply]

@@ -10,7 +10,7 @@ from quasistatic_ref.lab.study.program import Known, Program
 from quasistatic_ref.lab.study.saying import OTHER, saying
 from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.solver import Reply
 from quasistatic_ref.solve.units import in_natural, in_si
 
 RESIDUALS = ("primal", "dual", "gap")

@@ -21,7 +21,7 @@ from quasistatic_ref.lab.processes import resident
 from quasistatic_ref.lab.study.doors import Call, call_of
 from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.lab.study.solvers import Solver
-from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.solver import Reply
 
 TICK = 0.02
 """How often the limits of a call are looked at [s]."""

@@ -19,8 +19,7 @@ from quasistatic_ref.optional.extensions.own_rows import joined
 from quasistatic_ref.optional.extensions.quadratic import quadratic_program
 from quasistatic_ref.optional.extensions.terms import checked_terms
 from quasistatic_ref.solve.backends import backend, check_takes_cones
-from quasistatic_ref.solve.problem_data import problem_data
-from quasistatic_ref.solve.step_problem import StepProblem
+from quasistatic_ref.solve.step_problem import StepProblem, problem_data
 from quasistatic_ref.solve.units import ScaledStep, in_si
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Extra, StepData

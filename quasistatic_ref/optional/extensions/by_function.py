@@ -16,8 +16,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, Mask, with_warnings
 from quasistatic_ref.solve.backends import Options
-from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import BackendSolver
+from quasistatic_ref.solve.solver import BackendSolver, Reply
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.data import StepData
 

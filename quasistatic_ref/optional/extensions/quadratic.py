@@ -22,7 +22,7 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import nearest_fraction
 from quasistatic_ref.optional.extensions.conic import conic_program
 from quasistatic_ref.optional.gap import rational
-from quasistatic_ref.solve.problem_data import CANON
+from quasistatic_ref.solve.step_problem import CANON
 from quasistatic_ref.step.data import Extra
 
 

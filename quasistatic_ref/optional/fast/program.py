@@ -13,7 +13,7 @@ from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.steps import Steps
 from quasistatic_ref.solve.backends import Options
-from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.solver import Reply
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.step.units import Units

@@ -12,8 +12,7 @@ from quasistatic_ref.numbers.arrays import Array, all_finite
 from quasistatic_ref.optional.fast.program import Program, Workspaces
 from quasistatic_ref.solve.backends import Options, check_backend
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import BackendSolver, Solver
+from quasistatic_ref.solve.solver import BackendSolver, Reply, Solver
 from quasistatic_ref.solve.units import ScaledStep, of_group, out_of_range
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData

@@ -9,8 +9,7 @@ import qpsolvers
 
 from quasistatic_ref.numbers.arrays import Mask
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
-from quasistatic_ref.solve.reply import Reply, check_not_interrupted
-from quasistatic_ref.solve.solver import BackendSolver
+from quasistatic_ref.solve.solver import BackendSolver, Reply, check_not_interrupted
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.standard_form import StandardForm
 

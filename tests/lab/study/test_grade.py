@@ -7,7 +7,7 @@ from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.grade import RESIDUALS, facts_of_reply
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.solvers import Solver
-from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.solver import Reply
 from quasistatic_ref.solve.units import in_natural
 from tests.closeness import assert_relative
 

@@ -11,7 +11,7 @@ from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.optional.fast.program import NaturalProgram, Program, Workspace
 from quasistatic_ref.optional.fast.solver import FastSolver
-from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.solver import Reply
 from quasistatic_ref.solve.units import units_of
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.helpers import changed, error, planted_step
