@@ -10,8 +10,10 @@ of a step (:mod:`~quasistatic_ref.solve.units`), the diagonal of P, the rows of 
 become about one, whatever a user has added to the step.
 """
 
+from __future__ import annotations
+
 import warnings
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import cvxpy as cp
 import cvxpy.settings as words
@@ -27,9 +29,11 @@ from scipy.sparse.linalg import norm
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.solve.backends import Options
-from quasistatic_ref.solve.step_problem import ProblemData
 from quasistatic_ref.solve.units import coordinate_units, powers_of_two
 from quasistatic_ref.tolerances import UNMOVED
+
+if TYPE_CHECKING:
+    from quasistatic_ref.solve.step_problem import ProblemData
 
 
 def solve_scaled(problem: cp.Problem, data: ProblemData, options: Options) -> None:
