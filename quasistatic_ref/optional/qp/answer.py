@@ -199,7 +199,30 @@ class QPInfeasible(QuasistaticError):
         return Verdict(not reason, reason)
 
 
-def objective(form: ExactForm, working: Sequence[int], point: Point) -> list[arb]:
+@dataclass(frozen=True, eq=False)
+class BlockOptimum:
+    """The optimum of a block, each number rounded correctly.
+
+    Parameters
+    ----------
+    working : sequence of int
+        The rows of the block that hold x.
+    x, y : ndarray, shapes (n,) and (k,)
+        Of the block's coordinates, and the multipliers of `working` [any unit].
+    objective : ndarray, shape (1,)
+        Of the block alone.
+    unique : bool
+        Whether the multipliers are the only ones.
+    """
+
+    working: Sequence[int]
+    x: Array
+    y: Array
+    objective: Array
+    unique: bool
+
+
+def double_objective(form: ExactForm, working: Sequence[int], point: Point) -> list[arb]:
     """Twice 1/2 x'Px + q'x at the minimiser on W, times the denominator: q'x - c_W'y.
 
     For x'Px + q'x = x'A_W'y = -c_W'y.
@@ -209,57 +232,68 @@ def objective(form: ExactForm, working: Sequence[int], point: Point) -> list[arb
     return [-sum((u * v for us, vs in terms for u, v in zip(us, vs, strict=True)), arb(0))]
 
 
-def objective_sum(of_blocks: Sequence[float]) -> tuple[float, float]:
-    """The sum of some objectives `of_blocks` [any unit], rounded, and a bound of its error."""
-    total = math.fsum(of_blocks)
-    return total, math.fsum([math.ulp(total), *map(math.ulp, of_blocks)])
+def joined(problem: QuadraticProgram, optima: Sequence[BlockOptimum]) -> dict[str, Any]:
+    """The fields of an answer, but its problem, from the optima of its blocks."""
+    rows = problem.rows
+    x = np.zeros(len(problem.q))
+    of_rows = np.zeros(len(rows.names))
+    active: list[int] = []
+    for block, optimum in zip(problem.blocks, optima, strict=True):
+        held = block.rows[[*optimum.working]]
+        x[block.coordinates] = optimum.x
+        of_rows[held] = optimum.y
+        active += held.tolist()
+    objectives = np.concatenate([optimum.objective for optimum in optima])
+    obj = math.fsum(objectives)
+    return {
+        "x": x,
+        **problem.multipliers(of_rows),
+        "obj": obj,
+        "obj_error": math.fsum(np.spacing(np.abs([obj, *objectives]))),
+        "active": tuple(rows.names[i] for i in sorted(active)),
+        "multipliers_unique": all(optimum.unique for optimum in optima),
+    }
 
 
 def _optimum_verdict(answer: ExactQP) -> Verdict:
     check_arithmetic()
     problem = answer.problem
-    rows = problem.rows
-    place = {name: i for i, name in enumerate(rows.names)}
-    unknown = [name for name in answer.active if name not in place]
+    names = problem.rows.names
+    unknown = [name for name in answer.active if name not in names]
     if unknown:
         return Verdict(False, f"active names {unknown[0]!r}, which is no row of the program")
-    held = {place[name] for name in answer.active}
-    if [rows.names[i] for i in sorted(held)] != [*answer.active]:
-        return Verdict(False, "active does not name rows once each, in order")
-    x = np.zeros(len(problem.q))
-    of_rows = np.zeros(len(place))
-    objectives = []
-    unique = True
+    optima = []
     for block in problem.blocks:
         form = block.form
-        working = [j for j, i in enumerate(block.rows.tolist()) if i in held]
+        working = [j for j, i in enumerate(block.rows) if names[i] in answer.active]
         try:
             point = fraction_point(form, working)
         except ZeroDivisionError:
             return Verdict(False, "the active rows are not independent")
         with working_precision(EXACT):
             slack = form.slacks(range(form.m), point.z)
-            double = objective(form, working, point)
+            double = double_objective(form, working, point)
             twice = point.denominator * 2
         wrong = wrong_sign(form, working, point.y, slack)
         if wrong is not None:
-            name = rows.names[block.rows[wrong[0]]]
+            name = names[block.rows[wrong[0]]]
             if wrong[1] == "violated":
                 return Verdict(False, f"{name} is violated by the minimiser on the active rows")
             return Verdict(False, f"the multiplier of {name} is {wrong[1]}")
         left = sorted({*range(form.equations)} - {*working})
         if Minimiser(form, tuple(working)).implied(left) != left:
             return Verdict(False, "active leaves out an equation that does not follow from it")
-        x[block.coordinates] = rounded_quotients(point.x, point.denominator)
-        of_rows[block.rows[working]] = rounded_quotients(point.y, point.denominator)
-        objectives += rounded_quotients(double, twice).tolist()
-        unique = unique and unique_and_smooth(form, working, slack)[0]
-    for name, numbers in ({"x": x} | problem.multipliers(of_rows)).items():
-        if reason := wrong_bits(name, getattr(answer, name), numbers):
-            return Verdict(False, reason)
-    claims = dict(zip(("obj", "obj_error"), objective_sum(objectives), strict=True))
-    for name, value in (claims | {"multipliers_unique": unique}).items():
-        if reason := wrong_claim(name, getattr(answer, name), value):
+        optimum = BlockOptimum(
+            working,
+            x=rounded_quotients(point.x, point.denominator),
+            y=rounded_quotients(point.y, point.denominator),
+            objective=rounded_quotients(double, twice),
+            unique=unique_and_smooth(form, working, slack)[0],
+        )
+        optima.append(optimum)
+    for name, right in joined(problem, optima).items():
+        fault = wrong_bits if isinstance(right, np.ndarray) else wrong_claim
+        if reason := fault(name, getattr(answer, name), right):
             return Verdict(False, reason)
     return Verdict(True)
 

@@ -11,11 +11,16 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.active_set import Combination, dual_active_set
 from quasistatic_ref.certify.degeneracy import degeneracy
-from quasistatic_ref.certify.exact import ExactOptimum, rounded_optimum
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
+from quasistatic_ref.numbers.arrays import without_warnings
 from quasistatic_ref.numbers.precision import check_arithmetic
-from quasistatic_ref.optional.qp.answer import ExactQP, QPInfeasible, objective, objective_sum
+from quasistatic_ref.optional.qp.answer import (
+    BlockOptimum,
+    ExactQP,
+    QPInfeasible,
+    double_objective,
+    joined,
+)
 from quasistatic_ref.optional.qp.form import Block
 from quasistatic_ref.optional.qp.guess import guessed
 from quasistatic_ref.optional.qp.program import HasProgram, QuadraticProgram, program_of
@@ -92,50 +97,31 @@ def exact_qp(
     """
     program = program_of(P, q, G, h, A, b, lb, ub)
     check_arithmetic()
-    rows = program.rows
-    x = np.zeros(len(program.q))
-    of_rows = np.zeros(len(rows.names))
-    objectives = []
-    active = []
-    unique = True
+    optima = []
     for block in program.blocks:
         guess = guessed(program, block, initvals)
-        optimum, value, is_unique = without_warnings(_of_block, program, block, guess)
-        x[block.coordinates] = optimum.delta_q
-        of_rows[block.rows] = optimum.lam
-        objectives += value.tolist()
-        active += block.rows[[*optimum.working_set]].tolist()
-        unique = unique and is_unique
-    obj, obj_error = objective_sum(objectives)
-    multipliers = program.multipliers(of_rows)
-    for name, values in ({"x": x, "obj": np.array([obj])} | multipliers).items():
-        if not np.isfinite(values).all():
+        optima.append(without_warnings(_of_block, program, block, guess))
+    fields = joined(program, optima)
+    for name in ("x", "obj", "z", "y", "z_box"):
+        if not np.isfinite(fields[name]).all():
             problem = f"{name} of the optimum is beyond the range of float64; choose other units"
             raise InputError(problem)
-    return ExactQP(
-        problem=program,
-        x=read_only(x),
-        z=read_only(multipliers["z"]),
-        y=read_only(multipliers["y"]),
-        z_box=read_only(multipliers["z_box"]),
-        obj=obj,
-        obj_error=obj_error,
-        active=tuple(rows.names[i] for i in sorted(active)),
-        multipliers_unique=unique,
-    )
+    return ExactQP(program, **fields)
 
 
-def _of_block(
-    program: QuadraticProgram, block: Block, guess: list[int]
-) -> tuple[ExactOptimum, Array, bool]:
-    """The optimum of a block, its objective, and whether its multipliers are unique."""
+def _of_block(program: QuadraticProgram, block: Block, guess: list[int]) -> BlockOptimum:
     form = block.form
     end = dual_active_set(form, guess)
     if isinstance(end, Combination):
         raise QPInfeasible(program, _proof(program, block, end))
-    value = end.rounded(lambda point: objective(form, end.working, point), arb(2))
-    unique, _ = degeneracy(form, end.working, end.implied_rows, end.tight_rows)
-    return rounded_optimum(form, end), value, unique
+    working = end.working
+    return BlockOptimum(
+        working,
+        x=end.rounded(lambda point: point.x),
+        y=end.rounded(lambda point: point.y),
+        objective=end.rounded(lambda point: double_objective(form, working, point), arb(2)),
+        unique=degeneracy(form, working, end.implied_rows, end.tight_rows)[0],
+    )
 
 
 def _proof(program: QuadraticProgram, block: Block, end: Combination) -> dict[str, Sequence[str]]:

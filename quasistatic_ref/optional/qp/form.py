@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
@@ -11,11 +11,8 @@ from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.form import (
     EXACT,
-    ExactForm,
-    Row,
+    MatrixForm,
     exact_matrix,
-    inverse,
-    row_sizes,
     whole_numbers,
 )
 from quasistatic_ref.certify.groups import labels
@@ -31,50 +28,6 @@ MOST_TERMS = 6
 """Terms of a direction that a sentence shows."""
 
 
-class ArrayForm(ExactForm):
-    """A program of float64 arrays.
-
-    Parameters
-    ----------
-    P : arb_mat
-        Exact, symmetric and positive definite, shape (n, n).
-    q : ndarray, shape (n,)
-    a, c : ndarray, shapes (m, n) and (m,)
-        Of each row a x + c >= 0 [any unit].
-    equations : int
-        How many of the first rows are equations.
-    """
-
-    def __init__(self, P: arb_mat, q: Array, a: Array, c: Array, equations: int) -> None:
-        self.m, self.n = a.shape
-        self.equations = equations
-        self.H = P
-        self.H_inverse = inverse(P)
-        self.g = exact_matrix(-q[:, None])
-        self.h = arb(1)
-        self._inequalities = a, -c
-        self._numbers = np.column_stack([a, c])
-        self._rows: dict[int, Row] = {}
-
-    def exact_rows(self, some: Iterable[int]) -> list[Row]:
-        """Some rows [a, c]."""
-        chosen = [*some]
-        for i in chosen:
-            if i not in self._rows:
-                self._rows[i] = [*map(arb, self._numbers[i].tolist())]
-        return [self._rows[i] for i in chosen]
-
-    @property
-    def inequalities(self) -> tuple[Array, Array]:
-        """a, shape (m, n), and -c, shape (m,)."""
-        return self._inequalities
-
-    def sizes(self, most: Array) -> Array:
-        """That of a row is `|a|` `most` + `|c|`, shape (m,); `most` is (n,) [any unit]."""
-        a, b = self.inequalities
-        return row_sizes(a, b, most)
-
-
 @dataclass(frozen=True, eq=False)
 class Block:
     """A part of a program that nothing couples to the rest.
@@ -83,12 +36,12 @@ class Block:
     ----------
     coordinates, rows : ndarray of int, shapes (n,) and (m,)
         Which ones of the program these are.
-    form : ArrayForm
+    form : MatrixForm
     """
 
     coordinates: Indices
     rows: Indices
-    form: ArrayForm
+    form: MatrixForm
 
 
 def blocks_of(program: QuadraticProgram) -> list[Block]:
@@ -113,7 +66,9 @@ def blocks_of(program: QuadraticProgram) -> list[Block]:
             symmetric = half * arb(0.5) + half.transpose() * arb(0.5)
         _check_definite(block, symmetric, at)
         equations = int((of < rows.equations).sum())
-        form = ArrayForm(symmetric, program.q[at], rows.a[np.ix_(of, at)], rows.c[of], equations)
+        of_rows = np.column_stack([rows.a[np.ix_(of, at)], rows.c[of]])
+        q = exact_matrix(-program.q[at, None])
+        form = MatrixForm(symmetric, q, exact_matrix(of_rows), equations=equations)
         blocks.append(Block(at, of, form))
     return blocks
 
