@@ -47,7 +47,7 @@ def copied(tmp_path_factory):
 
 def grasp(copied):
     """The bits of all arrays of the first steps of the grasp, by a copy of the package."""
-    python("-m", "quasistatic_ref", "run", GRASP, "--set", "steps=40", cwd=copied)
+    python("-m", "quasistatic_ref", "run", GRASP, "--set", "steps=10", cwd=copied)
     with np.load(copied / "results" / f"{GRASP}.npz") as file:
         return {name: file[name].tobytes() for name in file.files if name != "header"}
 
@@ -135,7 +135,7 @@ def test_what_is_left_is_collected_where_a_part_is_deleted_with_its_tests(checko
             for place in ("quasistatic_ref", "tests"):
                 if (folder := checkout / place / name).is_dir():
                     gone.enter_context(deleted(folder))
-        quiet = "--collect-only", "-qq", "-rs", "-p", "no:cacheprovider"
+        quiet = "--collect-only", "-qq", "-rs", "-p", "no:cacheprovider", "--assert=plain"
         said = python("-m", "pytest", *quiet, "tests", cwd=checkout).stdout
     left_out = set(SKIPPED.findall(said))
     of_core = {name for name in left_out if name.split("/")[0] not in ("lab", "meta", "optional")}

@@ -180,11 +180,17 @@ OF_SHAPES = ("bodies/ball/pose", "shapes", "contacts/far")
 
 
 @pytest.mark.parametrize("fast", [True, pytest.param(False, marks=pytest.mark.long)])
-@pytest.mark.parametrize("field", list(numeric_fields(ROUND)))
-def test_numbers_at_the_ends_of_the_range_run_or_are_refused_in_a_sentence(here, field, fast):
-    """Any warning of NumPy's, as of an overflow, is an error here."""
+@pytest.mark.parametrize(("first", "field"), [*enumerate(numeric_fields(ROUND))])
+def test_numbers_at_the_ends_of_the_range_run_or_are_refused_in_a_sentence(
+    here, first, field, fast
+):
+    """Any warning of NumPy's, as of an overflow, is an error here.
+
+    All of them by the plain path, two of them in turn by the fast one.
+    """
     scene = ROUND if field.startswith(OF_SHAPES) else PLAIN
-    for number in AT_THE_ENDS:
+    some = (AT_THE_ENDS[(first + k) % 4] for k in range(2 if fast else 4))
+    for number in some:
         try:
             load_scenario(changed(scene, (field, number)), steps=1, fast=fast).run()
         except QuasistaticError as error:
