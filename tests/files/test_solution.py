@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, InputError, solve_step, verify
+from quasistatic_ref import Extra, InputError, solve_step
 from quasistatic_ref.files.solution import (
     load_solution,
     rounded_wrenches,
@@ -90,8 +90,3 @@ def test_a_file_with_a_bound_of_an_older_version_is_read_and_proves_nothing(tmp_
     assert load_solution(path, PLAIN).certificate.error_bound is None
     refuted = "refuted: a certificate of kind 'residual' proves nothing; solve with full\n"
     assert cli("verify", step, path, status=1).out == refuted
-
-
-def test_what_is_no_solution_is_not_verified():
-    with pytest.raises(InputError, match="solution: must be what solve_step or load_solution"):
-        verify(PLAIN)

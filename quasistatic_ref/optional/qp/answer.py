@@ -210,7 +210,7 @@ class BlockOptimum:
     x, y : ndarray, shapes (n,) and (k,)
         Of the block's coordinates, and the multipliers of `working` [any unit].
     objective : ndarray, shape (1,)
-        Of the block alone.
+        Of the block alone [any unit].
     unique : bool
         Whether the multipliers are the only ones.
     """
