@@ -23,11 +23,10 @@ if TYPE_CHECKING:
     from quasistatic_ref.certify.solution import ContactForces, StepSolution
     from quasistatic_ref.contact.pairs import ContactPair
     from quasistatic_ref.files.mesh import Mesh
-    from quasistatic_ref.files.scenario.bodies import BodyEntry
+    from quasistatic_ref.files.scenario.bodies import BodyEntry, OfBodies
     from quasistatic_ref.model.system import System
     from quasistatic_ref.model.tree import Tree
     from quasistatic_ref.numbers.arrays import Array
-    from quasistatic_ref.optional.extensions.extension import Extension, OfBodies
     from quasistatic_ref.simulate.finding import Finding
     from quasistatic_ref.simulate.observer import Observer
     from quasistatic_ref.simulate.simulator import Simulator
@@ -35,6 +34,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.solve.backends import Certify
     from quasistatic_ref.solve.solver import Solver
     from quasistatic_ref.step.data import StepData
+    from quasistatic_ref.step.extension import StepExtension
 
 OPTIONAL = "quasistatic_ref.optional"
 
@@ -179,7 +179,9 @@ def ellipsoid_cone() -> CurvedCone:
     return ELLIPSOID_CONE
 
 
-def extended_solution(simulator: Simulator, step: StepData, extension: Extension) -> StepSolution:
+def extended_solution(
+    simulator: Simulator, step: StepData, extension: StepExtension
+) -> StepSolution:
     """``extension``: a step of a simulator, solved with it."""
     with needing("extension"):
         from quasistatic_ref.optional.extensions.extended import simulated_solution
@@ -188,7 +190,7 @@ def extended_solution(simulator: Simulator, step: StepData, extension: Extension
 
 def extended_step(
     step: StepData,
-    extension: Extension,
+    extension: StepExtension,
     solver: str | Callable[..., Any] | Solver | None,
     fast: bool,
     accuracy: float,
@@ -200,7 +202,7 @@ def extended_step(
     return extended(step, extension, solver, fast, accuracy, certify)
 
 
-def posed(step: StepData, extension: Extension) -> tuple[StepData, bool]:
+def posed(step: StepData, extension: StepExtension) -> tuple[StepData, bool]:
     """``extension``: a step with what of it is data, and whether that is all of it."""
     with needing("extension"):
         from quasistatic_ref.optional.extensions import extended

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import FrozenInstanceError, replace
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -44,9 +44,7 @@ from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, hessian, seconds
-
-if TYPE_CHECKING:
-    from quasistatic_ref.optional.extensions.extension import Extension
+from quasistatic_ref.step.extension import ExtensionOfQ
 
 GRAVITY = (0.0, 0.0, -9.81)
 
@@ -182,7 +180,7 @@ class Simulator(Settings, Shown):
         cone: str = Settings.cone,
         law: Law = Settings.law,
         distances: Distances = Settings.distances,
-        extension: Callable[[Array], Extension] | None = None,
+        extension: ExtensionOfQ | None = None,
         limits: Limits | None = None,
     ) -> None:
         check_kind(system, Mechanism, "system", "a System, as System([body]) makes it")

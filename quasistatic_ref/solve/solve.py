@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -25,10 +25,8 @@ from quasistatic_ref.solve.proved import answer_residuals, exact_certificate, pr
 from quasistatic_ref.solve.solver import FREE, Reply, Solver
 from quasistatic_ref.solve.units import ScaledStep, in_natural, in_si, out_of_range
 from quasistatic_ref.step.data import StepData, check_step
+from quasistatic_ref.step.extension import StepExtension
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
-
-if TYPE_CHECKING:
-    from quasistatic_ref.optional.extensions.extension import Extension
 
 FEW = 100
 """Most rows of which a start is chosen from all groups at once, and not from each. Where lam is not
@@ -45,7 +43,7 @@ def solve_step(
     fast: bool = False,
     accuracy: float = ACCURACY,
     certify: Certify = "full",
-    extension: Extension | None = None,
+    extension: StepExtension | None = None,
 ) -> StepSolution:
     """The optimum of Eq. :eq:`eq-13`.
 

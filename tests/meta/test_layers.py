@@ -1,12 +1,14 @@
 """The core imports no optional part and no lab; third-party packages keep to their folders."""
 
 import ast
+import tomllib
 
+import grimp
 import pytest
 
 from quasistatic_ref.model.body import FIXED
 from quasistatic_ref.model.joints import BASES, JOINTS
-from tests.pages import PACKAGE
+from tests.pages import PACKAGE, ROOT
 from tests.processes import printed_text, python
 
 # What import-linter cannot see: the core's files that may name a folder of modules as a string.
@@ -27,6 +29,22 @@ def test_the_contracts_of_imports_in_pyproject_are_kept():
         "from importlinter.cli import lint_imports; raise SystemExit(lint_imports(no_cache=True))"
     )
     python("-c", call)
+
+
+def test_no_import_for_types_goes_up_but_those_of_the_doors():
+    """The contracts leave out imports for types; here they count."""
+    tools = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]
+    folders, parts = tools["importlinter"]["contracts"][:2]
+    graph = grimp.build_graph("quasistatic_ref", exclude_type_checking_imports=False)
+    for door in ("parts", "figures"):
+        graph.remove_module(f"quasistatic_ref.{door}")
+    for allowed in parts["ignore_imports"]:
+        importer, _, imported = allowed.partition(" -> ")
+        if "*" not in allowed:
+            graph.remove_import(importer=importer, imported=imported)
+    layers = [grimp.Layer(*layer.split(" : "), independent=False) for layer in folders["layers"]]
+    found = graph.find_illegal_dependencies_for_layers(layers, containers={"quasistatic_ref"})
+    assert [(one.importer, one.imported) for one in found] == []
 
 
 def named_folders(node, name):

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -30,6 +30,7 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.pivots import positive_definite
 from quasistatic_ref.simulate.stiffness import stiffness_block
 from quasistatic_ref.simulate.target import JointTrack, Wrenches
+from quasistatic_ref.step.extension import ExtensionOfQ, StepExtension
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +83,20 @@ class BodyEntry(Plain):
     def short(self, joint: Joint) -> str:
         """A joint's name without the body's."""
         return joint.name.removeprefix(f"{self.body.name}/")
+
+
+class OfBodies(Protocol):
+    """The extension by the tables of a scenario's bodies, at each q."""
+
+    @property
+    def of_urdf(self) -> tuple[Sequence[str], Sequence[str]]:
+        """Names of the bodies with joint friction, and of those with limits, from their URDF."""
+
+    def __call__(self, q: Array) -> StepExtension:
+        """The extension at q, shape (n_q,)."""
+
+    def beside(self, users: ExtensionOfQ | None) -> ExtensionOfQ:
+        """The extension of the tables, joined with an extension of the user's own."""
 
 
 def body_entry(

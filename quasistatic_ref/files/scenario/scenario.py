@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from quasistatic_ref.errors import (
 )
 from quasistatic_ref.files.content import toml_read
 from quasistatic_ref.files.resources import scenario_path
-from quasistatic_ref.files.scenario.bodies import body_entry, joint_tracks, stiffness
+from quasistatic_ref.files.scenario.bodies import OfBodies, body_entry, joint_tracks, stiffness
 from quasistatic_ref.files.scenario.checks import (
     check_made,
     check_motion,
@@ -52,9 +52,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import Target
 from quasistatic_ref.solve.backends import DEFAULT, is_function
 from quasistatic_ref.step.cones import cone
-
-if TYPE_CHECKING:
-    from quasistatic_ref.optional.extensions.extension import ExtensionOfQ, OfBodies
+from quasistatic_ref.step.extension import ExtensionOfQ
 
 MOST_BODIES = 1000
 

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,9 +21,7 @@ from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Extra, no_rows
-
-if TYPE_CHECKING:
-    from quasistatic_ref.optional.extensions.extension import Extension
+from quasistatic_ref.step.extension import StepExtension
 
 FARTHEST = 1.0
 """Size that stands for that of a half-space [m]."""
@@ -102,7 +99,7 @@ class Start:
         return i, j
 
     @cached_property
-    def extension(self) -> Extension | None:
+    def extension(self) -> StepExtension | None:
         """The extension of the step at the start, or None."""
         extension = self.simulator.extension
         return None if extension is None else extension(self.q_start)

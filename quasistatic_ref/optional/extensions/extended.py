@@ -11,8 +11,8 @@ from collections.abc import Callable
 from typing import Any
 
 from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.errors import BackendError, InputError, StepDataError, check_kind
-from quasistatic_ref.optional.extensions.extension import Extension, none
+from quasistatic_ref.errors import BackendError, InputError, StepDataError
+from quasistatic_ref.optional.extensions.extension import checked_extension, none
 from quasistatic_ref.optional.extensions.own_rows import joined, with_numbers
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.simulator import Simulator
@@ -20,10 +20,12 @@ from quasistatic_ref.solve.backends import DEFAULT, Certify
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.extension import StepExtension
 
 
-def posed(step: StepData, extension: Extension) -> tuple[StepData, bool]:
+def posed(step: StepData, extension: StepExtension) -> tuple[StepData, bool]:
     """A step with the extension's rows and cost as data, and whether nothing is left out."""
+    extension = checked_extension(extension)
     step = with_numbers(step, extension)
     if extension.terms is none:
         return step, not extension.without_stiffness
@@ -42,7 +44,7 @@ def posed(step: StepData, extension: Extension) -> tuple[StepData, bool]:
 
 def extended_step(
     step: StepData,
-    extension: Extension,
+    extension: StepExtension,
     solver: str | Callable[..., Any] | Solver | None,
     fast: bool,
     accuracy: float,
@@ -60,8 +62,8 @@ def extended_step(
     BackendError
         If the extension is more than rows and a quadratic cost, and the solver takes no more.
     """
-    check_kind(extension, Extension, "extension", "an Extension")
-    step, whole = posed(step, extension)
+    own = checked_extension(extension)
+    step, whole = posed(step, own)
     if whole:
         return solve_step(step, solver, fast=fast, accuracy=accuracy, certify=certify)
     if isinstance(solver, Solver) or callable(solver):
@@ -72,10 +74,12 @@ def extended_step(
     from quasistatic_ref.optional.extensions.by_cvxpy import extended_solution
 
     name = DEFAULT if solver is None else solver
-    return extended_solution(step, extension, name, accuracy, certify)
+    return extended_solution(step, own, name, accuracy, certify)
 
 
-def simulated_solution(simulator: Simulator, step: StepData, extension: Extension) -> StepSolution:
+def simulated_solution(
+    simulator: Simulator, step: StepData, extension: StepExtension
+) -> StepSolution:
     """The solution of a step of a simulator, whose solver serves all steps with linear rows.
 
     Raises
@@ -83,8 +87,8 @@ def simulated_solution(simulator: Simulator, step: StepData, extension: Extensio
     InputError
         Under Coulomb's law, if the extension is more than rows and a quadratic cost.
     """
-    check_kind(extension, Extension, "extension", "an Extension")
-    step, whole = posed(step, extension)
+    own = checked_extension(extension)
+    step, whole = posed(step, own)
     if whole:
         return simulator.solution(step)
     if simulator.law != CONVEX:
@@ -98,4 +102,4 @@ def simulated_solution(simulator: Simulator, step: StepData, extension: Extensio
 
     named = simulator.named_backend
     name = DEFAULT if named is None or named in simulator.replaceable else named
-    return extended_solution(step, extension, name, simulator.accuracy, simulator.certify)
+    return extended_solution(step, own, name, simulator.accuracy, simulator.certify)

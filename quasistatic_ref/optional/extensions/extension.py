@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array, Indices, checked_array, freeze_copies
 from quasistatic_ref.step.data import Extra
@@ -137,19 +137,9 @@ class Extension:
     rows: Extra | None = None
 
 
-ExtensionOfQ = Callable[[Array], Extension]
-"""An extension at each q, shape (n_q,)."""
-
-
-class OfBodies(Protocol):
-    """The extension by the tables of a scenario's bodies, at each q."""
-
-    @property
-    def of_urdf(self) -> tuple[Sequence[str], Sequence[str]]:
-        """Names of the bodies with joint friction, and of those with limits, from their URDF."""
-
-    def __call__(self, q: Array) -> Extension:
-        """The extension at q, shape (n_q,)."""
-
-    def beside(self, users: ExtensionOfQ | None) -> ExtensionOfQ:
-        """The extension of the tables, joined with an extension of the user's own."""
+def checked_extension(extension: object) -> Extension:
+    """The extension itself; InputError if it is something else."""
+    if not isinstance(extension, Extension):
+        problem = "must be an Extension"
+        raise InputError(problem, field="extension", value=type(extension).__name__)
+    return extension

@@ -15,9 +15,10 @@ from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.extensions.extension import Extension, ExtensionOfQ, Rises
+from quasistatic_ref.optional.extensions.extension import Extension, Rises, checked_extension
 from quasistatic_ref.optional.extensions.rises import private_rises, urdf_friction
 from quasistatic_ref.optional.extensions.stops import JointLimits, stops_of, urdf_limits
+from quasistatic_ref.step.extension import ExtensionOfQ
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +58,7 @@ class OfScenario(Plain):
 
     def __call__(self, q: Array) -> Extension:
         """The extension at q, shape (n_q,)."""
-        users = Extension() if self.users is None else self.users(q)
+        users = Extension() if self.users is None else checked_extension(self.users(q))
         return replace(users, rises=self.rises, rows=self.limits.rows(q))
 
 

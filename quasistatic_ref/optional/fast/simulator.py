@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Final
 
@@ -40,7 +40,7 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
-    from quasistatic_ref.optional.extensions.extension import Extension
+    from quasistatic_ref.step.extension import ExtensionOfQ
 
 MOST: Final = 1024
 """Most coordinates of a step whose units are compared, which takes the inverse of all of H."""
@@ -159,12 +159,12 @@ class FastSimulator(Simulator):
         self._surely_within = SURELY * self.limits.reach**2
 
     @property
-    def extension(self) -> Callable[[Array], Extension] | None:
+    def extension(self) -> ExtensionOfQ | None:
         """The extension of the simulator: a function of q (n_q,), or None."""
         return self.simulator.extension
 
     @extension.setter
-    def extension(self, extension: Callable[[Array], Extension] | None) -> None:
+    def extension(self, extension: ExtensionOfQ | None) -> None:
         """Replace the extension of the simulator."""
         self.simulator.extension = extension
 

@@ -35,11 +35,11 @@ from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.extension import ExtensionOfQ
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
 
-    from quasistatic_ref.optional.extensions.extension import ExtensionOfQ
 
 MARGIN = 0.05
 """Gap up to which MuJoCo looks for contacts, by default [m]."""
