@@ -106,7 +106,7 @@ sphinx_gallery_conf = {
     "write_computation_times": False,  # its page loads scripts from elsewhere
     "show_signature": False,
     "min_reported_time": 10_000,
-    "reset_modules": (),
+    "reset_modules": ("docs.gallery_order.in_style_of_pages",),
 }
 bibtex_bibfiles = ["references.bib"]
 bibtex_default_style = "plain"
@@ -140,7 +140,39 @@ INCLUDED = {
     "validation/contact_qp/README.md": "included/contact_qp.md",
 }
 """Pages of the repository that are pages of the site too: where they are, and where here."""
+CONTENTS = {
+    "Begin": (
+        "quickstart", "course/one_contact", "course/from_coulomb", "course/springs_and_steps",
+        "course/the_bunny", "course/a_patch_that_slides", "course/exercises", "course/teachers",
+        "scripts/index",
+    ),
+    "The model": (
+        "theory/equations", "theory/errata", "conventions", "derivations", "cones", "coulomb",
+        "artifacts", "theory/references",
+    ),
+    "Proofs and derivatives": ("exactness", "exact_qp", "derivatives"),
+    "Evidence": ("included/claims", "reality"),
+    "Use": (
+        "guides/first_scene", "guides/does_my_contact_hold", "guides/write_a_scenario",
+        "guides/in_python", "findings", "guides/runs", "guides/file_formats", "speed",
+        "extensions", "guides/check_your_implementation", "included/vectors", "studies",
+        "included/contact_qp", "api/index",
+    ),
+    "Work on it": ("contributing", "adding"),
+}  # fmt: skip
+"""The parts of the site and their pages, in the order of its navigation."""
+INDEXED = {
+    "artifacts": ("## The time step", "time step"),
+    "guides/check_your_implementation": ("# Check your implementation", "port"),
+}
+"""Words that readers search for, which stand in many pages: the heading that they should find."""
 CITED_RESULT = re.compile(r"\((R\d+)\)")
+NAMED_EQUATIONS = re.compile(r"\bEqs?\. \(\d+\)(?:(?: to |, | and )\(\d+\))*")
+WORK = re.compile(r"\[[^\]]*\]\([./]*references\.bib#(\w+)\)")
+TABLES = re.compile(r"^\[The tables\]\((\S+)\)$", re.MULTILINE)
+"""A line that leads to committed tables, which stand on the site in its place."""
+OUTSIDE = re.compile(r"\[([^\]]+)\]\(((?:\.\./)+(?:validation|slides)/[^)#]+\.md)\)")
+"""A link to Markdown that is no page of the site: it is downloaded."""
 CITED_EQUATION = re.compile(r":eq:`eq-(\d+)`")
 CITED_NAME = re.compile(r":(?:class|func|meth|attr|mod):`~?(?:\w+\.)*(\w+)`")
 
@@ -165,10 +197,10 @@ def setup(app):
 
 
 def _expanded(app, docname, source):
-    """Links that are right in the repository lead out of docs/; here they lead to their pages.
+    """Pages are plain Markdown, which a code host shows; here links lead to pages of the site.
 
-    ``% fields of a scenario`` and ``% arrays of a trajectory`` are the tables by which these are
-    read.
+    ``<!-- contents -->`` is the navigation, ``% fields of a scenario`` and ``% arrays of a
+    trajectory`` are the tables by which these are read.
     """
     up = "../" * docname.count("/")
     text = source[0]
@@ -180,6 +212,13 @@ def _expanded(app, docname, source):
         return
     for file, page in INCLUDED.items():
         text = text.replace(f"]({up}../{file})", f"]({up}{page})")
+    text = TABLES.sub(r"```{include} \1\n:heading-offset: 1\n```", text)
+    text = OUTSIDE.sub(r"{download}`\1 <\2>`", text)
+    text = WORK.sub(r"{cite:t}`\1`", text)
+    text = text.replace("<!-- contents -->", _contents())
+    if docname in INDEXED:
+        heading, words = INDEXED[docname]
+        text = text.replace(f"{heading}\n", f"{heading}\n\n```{{index}} {words}\n```\n", 1)
     text = text.replace(f"]({up}gallery/README.md)", f"]({up}scripts/index.rst)")
     text = text.replace("\n% fields of a scenario\n", "\n" + reference_page(SCENARIO))
     text = text.replace("\n% arrays of a trajectory\n", "\n" + arrays_page())
@@ -188,11 +227,23 @@ def _expanded(app, docname, source):
     source[0] = _results_linked(text)
 
 
+def _contents():
+    """A table of contents for each part of the site."""
+    return "\n\n".join(
+        "\n".join(["```{toctree}", ":hidden:", f":caption: {caption}", "", *pages, "```"])
+        for caption, pages in CONTENTS.items()
+    )
+
+
 def _results_linked(text):
-    """(R7) in prose leads to where it is derived; fences, literals and formulas stay."""
+    """(R7) and Eq. (9) in prose lead to where they stand; fences, literals and formulas stay."""
     parts = KEPT.split(text)
     parts[::2] = (
-        CITED_RESULT.sub(lambda r: f"[({r[1]})](#{r[1].lower()})", part) for part in parts[::2]
+        NAMED_EQUATIONS.sub(
+            lambda equations: re.sub(r"\((\d+)\)", r"{eq}`eq-\1`", equations[0]),
+            CITED_RESULT.sub(lambda r: f"[({r[1]})](#{r[1].lower()})", part),
+        )
+        for part in parts[::2]
     )
     return "".join(parts)
 

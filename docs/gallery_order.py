@@ -1,7 +1,16 @@
-"""The order of the gallery's scripts on the site: that of their headings in its README."""
+"""The gallery's scripts on the site: in the order of its README, in the style of all figures."""
 
 import re
 from pathlib import Path
+
+from matplotlib import pyplot
+
+from quasistatic_ref.optional.show.figures import style_file
+
+
+def in_style_of_pages(gallery, script):
+    """Set the style of figures before a script runs."""
+    pyplot.style.use(["default", style_file("paper")])
 
 
 class OrderOfReadme:

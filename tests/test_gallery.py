@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 import pytest
 from matplotlib.testing.compare import compare_images
 
+from quasistatic_ref.optional.show.figures import figure_style
 from tests.extras import marked_as_long
 from tests.meta.remedies import assert_alike
 from tests.pages import ROOT
@@ -28,8 +29,8 @@ TOLERANCE = 6
 
 
 def drawn(script, path):
-    """Run a script without a window, and write its figure."""
-    with pytest.MonkeyPatch.context() as patch, plt.style.context("default"):
+    """Run a script without a window, and write its figure in the style of all pages."""
+    with pytest.MonkeyPatch.context() as patch, figure_style():
         patch.setattr(plt, "show", lambda: None)
         runpy.run_path(str(script), run_name="__main__")
         figure = plt.gcf()

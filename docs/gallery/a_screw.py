@@ -34,10 +34,12 @@ axes.plot(*1e3 * path[:, :2].T, color="black", label="path")
 outline = np.array([[-1, -1, 0], [1, -1, 0], [1.6, 0, 0], [1, 1, 0], [-1, 1, 0]]) * 0.008
 for share in np.linspace(0, 1, 6):
     R, t = pose(share)
-    axes.fill(*1e3 * (outline @ R.T + t)[:, :2].T, facecolor="0.85", edgecolor="black")
+    axes.fill(
+        *1e3 * (outline @ R.T + t)[:, :2].T, facecolor="0.85", edgecolor="black", linestyle="-"
+    )
 turned = 1e3 * (outline @ R.T + [ahead, 0, 0])[:, :2].T
 axes.fill(*turned, fill=False, linestyle=":", label="straight, then turned")
 axes.set(xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
-axes.set_title(f"it ends at ({1e3 * end[0]:.1f}, {1e3 * end[1]:.1f}) mm")
+axes.set_title(f"The path is an arc, which ends at ({1e3 * end[0]:.1f}, {1e3 * end[1]:.1f}) mm")
 figure.legend(loc="outside lower center", ncols=2)
 plt.show()

@@ -46,12 +46,12 @@ formula = K_q * (e + mu_v * time_steps * v)
 assert np.abs(convex / formula - 1).max() < 1e-3
 assert np.abs(coulomb / (K_q * e) - 1).max() < 1e-3
 
-figure, ax = plt.subplots(figsize=(4.5, 3.2), layout="constrained")
+figure, ax = plt.subplots(figsize=(4.8, 3.2), layout="constrained")
 ax.semilogx(1e3 * time_steps, formula, color="0.6", linewidth=3, label=r"$K_q (e + \mu_v h v)$")
 ax.semilogx(1e3 * time_steps, convex, "ko", label="the convex model")
 ax.semilogx(1e3 * time_steps, coulomb, "k^", markerfacecolor="none", label="Coulomb's law")
 ax.axvline(1e3 * e / (10 * mu_v * v), color="black", linestyle=":", label="a tenth more")
 ax.set(xlabel="time step h [ms]", ylabel="normal force [N]", ylim=(0, 60))
-ax.set_title(f"pressed with {K_q * e:g} N, at {1e3 * time_steps[4]:g} ms: {convex[4]:.0f} N")
+ax.set_title(f"A spring of {K_q * e:g} N: the larger the step, the harder the finger presses")
 ax.legend()
 plt.show()

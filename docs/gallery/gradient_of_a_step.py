@@ -61,7 +61,10 @@ sides = np.linspace(-0.014, 0.014, 15)
 axes.plot(1e3 * sides, [1e3 * end(one) for one in sides], "k.", label="steps")
 reach = np.array([-0.006, 0.006])
 tangent = end(side) + slope * reach
-axes.plot(1e3 * (side + reach), 1e3 * tangent, label=f"derivative: {slope:.3f}")
+axes.plot(1e3 * (side + reach), 1e3 * tangent, label=f"derivative: {slope:.4f}")
+point = {"fillstyle": "none", "markersize": 9, "label": "its point"}
+axes.plot(1e3 * side, 1e3 * end(side), "ko", **point)
+axes.set_title("The derivative is the slope of the steps")
 axes.set(xlabel="y of the finger [mm]", ylabel="y of the ball after the step [mm]")
 axes.legend()
 plt.show()

@@ -27,12 +27,13 @@ for block in ("rough", "smooth"):
 assert np.abs(paths["rough"]).max() < 1e-12
 assert abs(np.diff(paths["smooth"])[-1] / formula - 1) < 1e-6
 
-figure, (scene, states) = plt.subplots(1, 2, figsize=(8, 3.4), layout="constrained")
-qr.draw_scene(scene, qr.figures.moment(scenario, run, -1), view="xy")  # from above
-moments = [qr.figures.moment(scenario, run, k) for k in range(run.steps)]
-shades = {"apart": 0.0, "sticking": 0.4, "sliding": 1.0}
-shade = np.array([[shades[contact.state] for contact in moment.contacts] for moment in moments]).T
-states.imshow(shade, aspect="auto", cmap="Greys", vmin=0, extent=(0, run.t[-1], len(shade), 0))
-states.set(xlabel="time t [s]", ylabel="contacts: grey sticks, black slides", yticks=[])
-figure.suptitle(f"the smooth block goes {1e6 * formula:.1f} um in each step")
+figure, (scene, curves) = plt.subplots(1, 2, figsize=(8, 3.4), layout="constrained")
+last = qr.figures.moment(scenario, run, -1)
+qr.draw_scene(scene, last, view="xy")  # from above
+for block, side in (("rough", 1), ("smooth", -1)):
+    (state,) = {contact.state for contact in last.contacts if side * contact.beta[1] > 0}
+    curves.plot(np.append(0, run.t), 1e3 * paths[block], label=f"{block}: contacts are {state}")
+curves.set(xlabel="time t [s]", ylabel="way down the slope [mm]")
+curves.set_title(f"The smooth block slides {1e6 * formula:.1f} µm a step")
+curves.legend()
 plt.show()
