@@ -6,6 +6,7 @@ import shlex
 import numpy as np
 import pytest
 from matplotlib import image
+from matplotlib import pyplot as plt
 from PIL import Image
 
 from quasistatic_ref import load_trajectory
@@ -24,7 +25,7 @@ def folder(tmp_path_factory):
     for name, text in named_files(page).items():
         (place / name).write_text(text, "utf-8")
     commands, *_ = fenced(page, "sh")
-    with pytest.MonkeyPatch.context() as patch:
+    with pytest.MonkeyPatch.context() as patch, plt.rc_context():
         patch.chdir(place)
         for line in commands.splitlines():
             program, *words = shlex.split(line)
