@@ -38,21 +38,19 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--targets",
         metavar="FILE.csv|KEY,KEY,...",
-        help="of a MuJoCo scene: a table of t and controls or targets of joints, or keyframes",
+        help="targets of a MuJoCo scene: keyframes, or a table of t and controls or joints",
     )
-    parser.add_argument(
-        "--keyframe", metavar="KEY", help="of a MuJoCo scene: the keyframe in which it starts"
-    )
+    parser.add_argument("--keyframe", metavar="KEY", help="keyframe in which a MuJoCo scene starts")
     parser.add_argument(
         "--sweep",
         action="append",
         dest="sweeps",
         metavar="FIELD=FIRST:LAST:COUNT",
-        help="run it with each of these values, or FIELD=VALUE,VALUE,...; several make a grid, and "
-        "FIELD,FIELD=... sets both to the same",
+        help="run the scenario with each of these values, or FIELD=VALUE,VALUE,...; several make a "
+        "grid, and FIELD,FIELD=... sets both to the same",
     )
     parser.add_argument(
-        "--jobs", type=int, metavar="N", help="with --sweep: runs at once (default: all cores)"
+        "--jobs", type=int, metavar="N", help="runs of a sweep at once (default: all cores)"
     )
     parser.add_argument(
         "--strict", action="store_true", help="end with status 1 if a finding is grave"
@@ -73,7 +71,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--contacts-table",
         type=Path,
         metavar="FILE",
-        help="write a row for each contact and step to such a file",
+        help="write a row for each contact and step to a file like that of --table",
     )
     parser.add_argument(
         "--view",

@@ -16,7 +16,7 @@ from quasistatic_ref.parts import needing
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     shared.add(parser, "step")
-    words = "a solution file (quasistatic-ref/solution); none beside a file of exact_qp"
+    words = "a solution file (quasistatic-ref/solution); leave it out for a file of exact_qp"
     parser.add_argument("solution", type=Path, nargs="?", help=words)
     shared.add(parser, "--cone", "--json")
 

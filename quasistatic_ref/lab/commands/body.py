@@ -12,14 +12,16 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     formats = "a cloud (CSV, XYZ, PTS, PCD, NPY, NPZ) or a mesh (STL, OBJ, PLY, OFF, GLB, DAE)"
     parser.add_argument("scan", type=Path, help=formats)
     weight = parser.add_mutually_exclusive_group(required=True)
-    weight.add_argument("--mass", type=float, metavar="KG", help="of the body [kg]")
-    weight.add_argument("--density", type=float, metavar="RHO", help="in its place [kg/m^3]")
-    parser.add_argument("--unit", metavar="UNIT", help="of the file: m, cm, mm or in")
-    parser.add_argument("--points", type=int, metavar="N", help="most points that are kept (1000)")
-    parser.add_argument("--name", help="of the body; by default that of the file")
+    weight.add_argument("--mass", type=float, metavar="KG", help="mass of the body [kg]")
+    words = "density of the body, in place of its mass [kg/m^3]"
+    weight.add_argument("--density", type=float, metavar="RHO", help=words)
+    words = "unit of the lengths in the file: m (default), cm, mm or in"
+    parser.add_argument("--unit", metavar="UNIT", help=words)
+    parser.add_argument("--points", type=int, metavar="N", help="keep at most N points (1000)")
+    parser.add_argument("--name", help="name of the body (default: the name of the file)")
     parser.add_argument(
         "--out", type=Path, default=Path(), metavar="FOLDER",
-        help="where NAME.csv and NAME.urdf are written; by default the current folder",
+        help="folder for NAME.csv and NAME.urdf (default: the current folder)",
     )  # fmt: skip
 
 

@@ -9,7 +9,8 @@ from quasistatic_ref.formats.quoting import suggestion
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    parser.add_argument("names", nargs="*", metavar="NAME", help="a script; all by default")
+    words = "script of the gallery (default: all scripts)"
+    parser.add_argument("names", nargs="*", metavar="NAME", help=words)
     parser.add_argument(
         "--style",
         default="paper",

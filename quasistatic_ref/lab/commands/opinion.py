@@ -25,10 +25,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--settle", type=float, default=SETTLE, metavar="SECONDS",
         help=f"how long MuJoCo simulates the scene before it is asked (default: {SETTLE:g})",
     )  # fmt: skip
-    parser.add_argument("--keyframe", metavar="NAME", help="begin in a keyframe of the model")
+    parser.add_argument("--keyframe", metavar="NAME", help="keyframe in which the scene begins")
     parser.add_argument(
         "--control", action="append", default=[], metavar="ACTUATOR=VALUE",
-        help="the control of an actuator; others are those of the keyframe, or zero",
+        help="set the control of an actuator; others are those of the keyframe, or zero",
     )  # fmt: skip
     parser.add_argument(
         "--tolerance", type=float, default=CREEP, metavar="M/S",

@@ -20,15 +20,15 @@ OPTIONS = ("sets", "cone", "fraction", "jobs")
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options that are for measured pushes only."""
-    group = parser.add_argument_group("for 'reality', measured pushes, only")
+    group = parser.add_argument_group("for 'reality' only")
+    words = "predict pushes of these pairs of surface and shape only: abs/rect1,..."
+    group.add_argument("--sets", metavar="A/B,...", help=words)
+    group.add_argument("--cone", metavar="NAME", help=f"friction cone (default: {ELLIPSOID})")
+    words = "predict this share of each pair's pushes, e.g. 0.1"
+    group.add_argument("--fraction", type=float, metavar="X", help=words)
     group.add_argument(
-        "--sets", metavar="A/B,...", help="some pairs only, by surface and shape: abs/rect1,..."
+        "--jobs", type=int, metavar="N", help="number of processes (default: all cores)"
     )
-    group.add_argument("--cone", metavar="NAME", help=f"friction cone, {ELLIPSOID} if none")
-    group.add_argument(
-        "--fraction", type=float, metavar="X", help="0.1: every tenth push of each pair"
-    )
-    group.add_argument("--jobs", type=int, metavar="N", help="processes (default: all cores)")
 
 
 def refuse(options: argparse.Namespace) -> None:

@@ -13,7 +13,7 @@ from quasistatic_ref.lab.study.row import Row
 from quasistatic_ref.lab.study.saying import SAYINGS
 
 ACTIONS = {
-    "run": "run the default study; one that was stopped goes on where it was",
+    "run": "run the default study, or go on with one that was stopped",
     "report": "write tables and figures of the rows of studies",
     "problems": "sets of problems with exact answers: list, export, check",
 }
@@ -25,10 +25,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     study_problems.add_options(parsers["problems"])
     run_ = parsers["run"]
     shared.add(run_, "--out", default="study")
-    run_.add_argument("--quick", action="store_true", help="a twentieth of the problems")
+    run_.add_argument("--quick", action="store_true", help="put only a twentieth of the problems")
     shared.add(run_, "--json")
     report = parsers["report"]
-    words = "of a study that was run; of several, their rows together"
+    words = "folder of a study that was run; rows of several are put together"
     report.add_argument("studies", nargs="+", type=Path, metavar="FOLDER", help=words)
     shared.add(report, "--out", default=Path("report"))
 

@@ -23,7 +23,7 @@ IN = {
     "mujoco": "'quasistatic-ref[engines]'",
 }
 """What an engine of a claim comes in."""
-HELP = "all claims by default; 'reality' by itself: measured pushes, predicted"
+HELP = "claim to test (default: all), or 'reality', which predicts measured pushes"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

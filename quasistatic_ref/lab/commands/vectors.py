@@ -13,7 +13,7 @@ ACTIONS = {
     "check": "compare a folder of answers with the vectors, layer by layer",
     "challenge": "ask a program new cases, and show those that it gets wrong",
     "generate": "write the whole folder: expected outputs are copied, those of new cases added",
-    "own": "write this package's own float64 answers, as anybody else's",
+    "own": "write this package's own float64 answers, in the form of yours",
 }
 OUT = {"own": "answers"}
 """Where an action writes; ``vectors`` otherwise."""
@@ -25,7 +25,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         if name == "challenge":
             _add_challenge(action)
             continue
-        words = "folder of vectors; by default those that come along"
+        words = "folder of vectors (default: that of the package)"
         action.add_argument("--vectors", type=Path, metavar="FOLDER", help=words)
         if name == "check":
             action.add_argument("answers", type=Path, metavar="ANSWERS", help="folder of answers")
@@ -33,7 +33,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             _add_digits(action)
             words = "only cases whose ids begin so, e.g. rows/cone; may be given several times"
             action.add_argument("--only", metavar="PREFIX", action="append", default=[], help=words)
-            action.add_argument("--case", metavar="ID", help="one case alone, number by number")
+            action.add_argument("--case", metavar="ID", help="show one case, number by number")
         else:
             shared.add(action, "--out", default=Path(OUT.get(name, "vectors")))
         if name in ("check", "own"):
@@ -41,24 +41,25 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_digits(action: argparse.ArgumentParser) -> None:
-    words = "answers that are right to D digits are acceptable"
+    words = "accept answers that are right to D digits"
     action.add_argument("--digits", type=float, metavar="D", help=words)
 
 
 def _add_layers(action: argparse.ArgumentParser) -> None:
-    words = "this layer only; may be given several times"
+    words = "look at this layer only; may be given several times"
     action.add_argument("--layer", action="append", metavar="NAME", dest="layers", help=words)
 
 
 def _add_challenge(action: argparse.ArgumentParser) -> None:
     """Who is challenged, by what, and for how long."""
     say = action.add_argument
-    say("--command", metavar="COMMAND", dest="program", help="the program, e.g. './my_sim'")
+    say("--command", metavar="COMMAND", dest="program", help="program to ask, e.g. './my_sim'")
     _add_layers(action)
     say("--cases", type=int, metavar="N", help="how many cases (1,000, unless --seconds is given)")
-    say("--seconds", type=float, metavar="S", help="for how long")
-    say("--seed", type=int, default=0, metavar="K", help="of the cases (0)")
-    say("--timeout", type=float, default=10.0, metavar="S", help="for each answer (10 s)")
+    say("--seconds", type=float, metavar="S", help="ask cases for S seconds")
+    say("--seed", type=int, default=0, metavar="K", help="seed of the random cases (default: 0)")
+    words = "time that the program has for an answer (default: 10 s)"
+    say("--timeout", type=float, default=10.0, metavar="S", help=words)
     say("--again", type=Path, metavar="FILE", help="ask the case of a counterexample once more")
     _add_digits(action)
     shared.add(action, "--out", default=Path("counterexamples"))
