@@ -11,11 +11,11 @@ from quasistatic_ref.errors import about_field, about_file, check_kind
 from quasistatic_ref.files.content import written_whole
 from quasistatic_ref.files.finding import finding_read, finding_table
 from quasistatic_ref.files.npz import json_array, npz_record
+from quasistatic_ref.files.record import check_arrays, check_needed, without_steps
 from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.simulate.distances import CLOSED, DISTANCES
 from quasistatic_ref.simulate.header import RECORDS, Header
 from quasistatic_ref.simulate.law import CONVEX, LAWS
-from quasistatic_ref.simulate.record import check_arrays, check_needed, without_steps
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 

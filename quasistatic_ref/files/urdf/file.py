@@ -10,6 +10,7 @@ import numpy as np
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.files.content import text_read
 from quasistatic_ref.files.mesh_files import mesh_path
+from quasistatic_ref.files.trees import checked_tree
 from quasistatic_ref.files.urdf.geometry import GEOMETRIES, written_shape
 from quasistatic_ref.files.urdf.order import visiting_order
 from quasistatic_ref.files.urdf.shapes import Collision, link_shapes
@@ -25,7 +26,6 @@ from quasistatic_ref.model.tree import (
     Tree,
     TreeJoint,
     TreeLink,
-    checked_tree,
 )
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import length, product

@@ -19,6 +19,7 @@ import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_field, check_kind
 from quasistatic_ref.files.mesh_files import hull_words
+from quasistatic_ref.files.trees import checked_tree, is_own_name
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.body import FIXED
 from quasistatic_ref.model.inertia import inertia_defect
@@ -30,8 +31,6 @@ from quasistatic_ref.model.tree import (
     Tree,
     TreeJoint,
     TreeLink,
-    checked_tree,
-    is_own_name,
 )
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.convex_mesh import convex_hull, hull_of_mesh
