@@ -16,7 +16,7 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.solid import Homogeneous, solid_tree
 from quasistatic_ref.model.tree import Tree
-from quasistatic_ref.parts import described_model, urdf_tree
+from quasistatic_ref.parts import described_model
 from quasistatic_ref.shapes.frozen import finite_number, freeze_array
 
 if TYPE_CHECKING:
@@ -112,10 +112,6 @@ class Body(Plain):
         }
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "package_dirs", tuple(self.package_dirs))
-
-    def tree(self) -> Tree:
-        """Its links and joints; a file is read again. ModelError if the URDF is not usable."""
-        return self.urdf if isinstance(self.urdf, Tree) else urdf_tree(self.urdf, self.package_dirs)
 
     @classmethod
     def of_shape(cls, name: str, shape: Homogeneous, mass: float, **more: Any) -> Body:

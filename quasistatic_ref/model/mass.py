@@ -11,6 +11,7 @@ import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.column_map import ColumnMap
+from quasistatic_ref.model.coordinates import joint_key
 from quasistatic_ref.model.joints.joint import Coordinate, Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
@@ -18,7 +19,7 @@ from quasistatic_ref.numbers.ordered import crossed, dot, rotated
 from quasistatic_ref.numbers.pivots import positive_pivots
 
 JointPlaces = Mapping[str, tuple[pin.Model, int]]
-"""The pinocchio model that each joint stands in, and its number there."""
+"""The pinocchio model that each joint stands in, and its number there, by its name in the model."""
 
 
 class MassMatrix:
@@ -134,7 +135,7 @@ def rigid_masses(places: JointPlaces, joints: Sequence[Joint]) -> Array:
     """Mass matrices (k, 6, 6) of the floating bases of k lone rigid bodies, in their frames."""
     masses = []
     for joint in joints:
-        model, number = places[joint.name]
+        model, number = places[joint_key(joint.name)]
         masses.append(model.inertias[number].matrix())
     return np.array(masses).reshape(-1, 6, 6) + 0.0  # never -0.0
 
@@ -179,7 +180,7 @@ def constant_mass(places: JointPlaces, unactuated: Sequence[Joint]) -> bool:
 
 def moves_alone(places: JointPlaces, joint: Joint) -> bool:
     """Whether no other joint is below a joint."""
-    model, number = places[joint.name]
+    model, number = places[joint_key(joint.name)]
     return number not in list(model.parents)
 
 

@@ -206,7 +206,7 @@ class System(Mechanism):
         if name not in self._roots:
             return np.asarray(self.centres[link])
         # The root link's frame is that of the base's joint.
-        model, frame = self._world.frame(link)
+        model, frame = self._world.frames[link - 1]
         return np.asarray(model.inertias[model.frames[frame].parentJoint].lever)
 
 

@@ -6,6 +6,7 @@ of them at once is what it says about each: a model holds some of them.
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +25,7 @@ from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.tree import Tree
 from quasistatic_ref.model.tree_model import BASE, TreeModel, body_frame, tree_model
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.parts import urdf_tree
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 PART = 24
@@ -87,20 +89,19 @@ class World:
     ignored: tuple[str, ...]
     notes: tuple[str, ...]
 
-    @property
+    @cached_property
     def places(self) -> dict[str, tuple[pin.Model, int]]:
-        """The model that each joint stands in, and its number there."""
+        """The model that each joint stands in, and its number there, by its name in the model."""
         return {
-            joint.name: (part.model, part.model.getJointId(joint_key(joint.name)))
-            for joint in self.joints
+            name: (part.model, number)
             for part in self.parts
-            if part.model.existJointName(joint_key(joint.name))
+            for number, name in enumerate(part.model.names)
         }
 
-    def frame(self, link: int) -> tuple[pin.Model, int]:
-        """The model that a link stands in, and its frame there."""
-        every = [(part.model, frame) for part in self.parts for frame in part.frames]
-        return every[link - 1]
+    @cached_property
+    def frames(self) -> list[tuple[pin.Model, int]]:
+        """The model that each link but the world stands in, and its frame there."""
+        return [(part.model, frame) for part in self.parts for frame in part.frames]
 
 
 @together()
@@ -112,7 +113,10 @@ def trees_of(bodies: Iterable[Body]) -> tuple[Tree, ...]:
     ModelError
         If a URDF is not usable.
     """
-    return tuple(body.tree() for body in bodies)
+    return tuple(
+        body.urdf if isinstance(body.urdf, Tree) else urdf_tree(body.urdf, body.package_dirs)
+        for body in bodies
+    )
 
 
 def world_of(bodies: Sequence[Body], trees: Sequence[Tree]) -> World:
