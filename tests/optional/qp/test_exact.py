@@ -9,9 +9,11 @@ import pytest
 import scipy.sparse
 
 import quasistatic_ref as qr
+from quasistatic_ref.optional.qp.files import load_answer
 from tests.oracles.lemke import only_multipliers, optimum
 from tests.oracles.random_programs import random_program
 from tests.oracles.rational_kkt import exact, on_rows
+from validation import check_solution as checker
 
 PARTS = [*range(4), *(pytest.param(part, marks=pytest.mark.long) for part in range(4, 20))]
 
@@ -53,24 +55,16 @@ class InRows:
         answer = optimum(self.P, self.q, np.concatenate([a, -of_equations]), np.append(h, -b))
         return None if answer is None else answer[0]
 
-    def only(self, x, multipliers):
-        """Whether the multipliers, by row, are the only ones at x."""
+    def only(self, x, active):
+        """Whether the multipliers of the active rows are the only ones at x."""
+        a, h = self.of(active)
+        _, lam = on_rows((self.P, -self.q, -a, -h), range(len(h)))
+        by_row = dict(zip(active, lam, strict=True))
         a, h = self.of(self.rows)
         names = [name for name, slack in zip(self.rows, h - a @ x, strict=True) if not slack]
         free = {i for i, name in enumerate(names) if name in self.equations}
-        y = exact([multipliers.get(name, Fraction(0)) for name in names])
+        y = exact([by_row.get(name, Fraction(0)) for name in names])
         return only_multipliers(self.of(names)[0], free, y)
-
-
-def in_words(program, by_row):
-    """Multipliers of rows a_i x <= h_i as z, y and z_box."""
-    z, y, z_box = (exact(np.zeros(len(program[name]))) for name in ("h", "b", "q"))
-    for name, value in by_row.items():
-        field, i = name[:-1].split("[")
-        {"G": z, "A": y, "lb": z_box, "ub": z_box}[field][int(i)] += (
-            -value if field == "lb" else value
-        )
-    return {"z": z, "y": y, "z_box": z_box}
 
 
 def floats(values):
@@ -78,57 +72,38 @@ def floats(values):
     return [float(v) for v in values]
 
 
-def check_optimum(program, rows, x, answer):
-    """Every field of an answer, from an x that is known to be the optimum."""
-    assert floats(x) == answer.x.tolist()
-    a, h = rows.of(answer.active)
-    of_set = rows.P, -rows.q, -a, -h
-    on_active, lam = on_rows(of_set, range(len(h)))
-    assert list(on_active) == list(x)
-    by_row = dict(zip(answer.active, lam, strict=True))
-    assert all(v > 0 for name, v in by_row.items() if name not in rows.equations)
-    for name, values in in_words(program, by_row).items():
-        assert floats(values) == getattr(answer, name).tolist()
-    objective = x @ rows.P @ x / 2 + rows.q @ x
-    assert abs(Fraction(answer.obj) - objective) <= Fraction(answer.obj_error)
-    if len(answer.problem.blocks) == 1:
-        assert answer.obj == float(objective)
-    assert answer.multipliers_unique == rows.only(x, by_row)
-    assert answer.digits(answer.x) == 16
-
-
-def check_proof(rows, program, proof):
-    """The proof that there is no solution, in fractions."""
-    z, y, z_box = ([Fraction(v) for v in proof.exact[name]] for name in ("z", "y", "z_box"))
-    assert min(z, default=0) >= 0
-    by_row = {f"G[{i}]": v for i, v in enumerate(z)} | {f"A[{i}]": v for i, v in enumerate(y)}
-    for i, v in enumerate(z_box):
-        is_upper = v > 0 and f"lb[{i}]" not in rows.equations
-        by_row[f"ub[{i}]" if is_upper else f"lb[{i}]"] = v if is_upper else -v
-    used = {name: v for name, v in by_row.items() if v}
-    assert {*used} == {*proof.rows}
-    force = sum(v * exact(rows.rows[name][0]) for name, v in used.items())
-    assert not any(force)
-    assert sum(v * Fraction(rows.rows[name][1]) for name, v in used.items()) < 0
+def outcome(program, **more):
+    """The optimum, or the proof of none."""
+    try:
+        return qr.exact_qp(**program, **more)
+    except qr.QPInfeasible as proof:
+        return proof
 
 
 @pytest.mark.parametrize("part", PARTS)
-def test_2000_random_programs_have_the_bits_of_another_method_in_fractions(part):
+def test_2000_random_programs_have_the_bits_of_another_method_in_fractions(part, tmp_path):
+    """And a file of each is what was saved, which both checkers take."""
     proofs = 0
     for seed in range(100 * part, 100 * (part + 1)):
         program = random_program(seed)
         rows = InRows(program)
         x = rows.optimum()
-        try:
-            answer = qr.exact_qp(**program)
-        except qr.QPInfeasible as error:
-            assert x is None
+        answer = outcome(program)
+        assert isinstance(answer, qr.QPInfeasible) == (x is None)
+        if x is None:
             proofs += 1
-            answer = error
-            check_proof(rows, program, error)
         else:
-            check_optimum(program, rows, x, answer)
-        assert qr.verify(answer), (seed, qr.verify(answer).reason)
+            assert floats(x) == answer.x.tolist()
+            assert answer.multipliers_unique == rows.only(x, answer.active)
+            assert answer.digits(answer.x) == 16
+            if len(answer.problem.blocks) == 1:
+                assert answer.obj == float(x @ rows.P @ x / 2 + rows.q @ x)
+        path = answer.save(tmp_path / "answer.json")
+        read = load_answer(path)
+        assert getattr(read, "exact", read) == getattr(answer, "exact", answer)
+        assert qr.verify(read), (seed, qr.verify(read).reason)
+        claims = [*checker.program_verdicts(checker.program_read(checker.table(path)))]
+        assert all(holds for _, holds in claims), (seed, claims)
     assert 10 < proofs < 60
 
 
@@ -220,10 +195,9 @@ def test_a_guess_may_be_anything(seed):
     guess = SimpleNamespace(**{name: rng.normal(size=k) for name, k in sizes.items()})
 
     def said(initvals):
-        try:
-            answer = qr.exact_qp(**program, initvals=initvals)
-        except qr.QPInfeasible as proof:
-            return bool(qr.verify(proof))
+        answer = outcome(program, initvals=initvals)
+        if isinstance(answer, qr.QPInfeasible):
+            return bool(qr.verify(answer))
         return answer.x.tolist(), answer.obj, answer.multipliers_unique
 
     assert said(None) == said(guess) == said(guess.x)
