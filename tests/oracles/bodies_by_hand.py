@@ -1,9 +1,8 @@
 """Bodies on each other, by hand.
 
-Columns of cubes and coins, a box in a corner, and boxes over edges. A body is inset or flush, and d
-deep in what it lies on. It goes out of all that it is in, and no farther: up by d more than the one
-below, which is what is compared where faces have four contacts or more. With one contact bodies
-tip; what closes no gap too many, opens none under a force, and obeys Newton's law is the one step
+Columns of cubes and coins, and a box in a corner. A body is inset or flush, and d deep in what it
+lies on. It goes out of all that it is in, and no farther: up by d more than the one below, which
+is what is compared where faces have four contacts or more. With one contact bodies tip; what closes no gap too many, opens none under a force, and obeys Newton's law is the one step
 of least action. Newton's law, which gives the sum of the forces on each body and of their torques,
 is asked of all, and so are the normals written here.
 
@@ -37,7 +36,6 @@ H = 0.01
 MASS = 1.0
 HALF = 0.05
 EDGE = 2 * HALF
-OVERHANG = 0.03
 LENGTHS = (0.0, 1e-9, 1e-6, 1e-3)
 """Insets and depths [m]."""
 CONTACTS = ((1, 0.0), (4, 0.0), (8, 0.0), (12, 0.0), (4, 0.5))
@@ -46,7 +44,6 @@ UP = np.array([0.0, 0.0, 1.0])
 RISE = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
 WEIGHT = -9.81 * MASS * RISE
 STRAIGHT = np.eye(3)
-QUARTER = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 TURNS = Rotation.create_group("O").as_matrix().round()
 INERTIA = MASS * EDGE**2 / 6
 """Of a cube about each axis, whatever the shape [kg m^2]."""
@@ -63,10 +60,6 @@ def hull(half):
 
 
 BOX = Box((HALF, HALF, HALF))
-FROM_BELOW = {
-    "box": (BOX, np.eye(3)),
-    "hull": (hull(HALF), np.diag([1.0, -1.0, -1.0])),  # turned over: it lies on its base only
-}
 
 
 class Scene(NamedTuple):
@@ -168,15 +161,6 @@ def elsewhere(scene, rng):
     )
 
 
-def overhang(low, inset, depth):
-    """A box that overhangs a fixed body along one side and is flush along the other."""
-    bodies = [
-        (BOX, QUARTER, np.array([inset or OVERHANG, 0.0, EDGE - depth])),
-        (*FROM_BELOW[low], np.zeros(3)),
-    ]
-    return Scene(bodies, {(1, 0): UP}, depth * RISE[None])
-
-
 def slab():
     """What the lowest bodies stand on."""
     return Box((1.0, HALF, HALF)), STRAIGHT, -HALF * UP
@@ -214,7 +198,6 @@ FAMILIES = {
     "two coins": partial(column, "coin", 2, EDGE / 10),
     "ten coins": partial(column, "coin", 10, EDGE / 10),
     "a box in a corner": partial(corner, 0.0),
-    **{f"box over the edge of {low}": partial(overhang, low) for low in FROM_BELOW},
 }
 
 
