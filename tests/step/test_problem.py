@@ -7,7 +7,7 @@ from cvxpy.utilities.scopes import quad_form_dpp_scope
 from numpy.testing import assert_array_equal
 
 from quasistatic_ref import Extra, StepDataError, StepProblem, load_scenario, solve_step
-from quasistatic_ref.solve import problem_data
+from quasistatic_ref.solve import step_problem
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.friction import friction_rows
@@ -71,7 +71,7 @@ def test_the_data_of_the_filled_page_are_the_standard_form(name, large, rng, mon
 
     With rows of the user's own; CVXPY's list goes over the rows of a contact first.
     """
-    monkeypatch.setattr(problem_data, "MOST_ENTRIES", 0 if large else problem_data.MOST_ENTRIES)
+    monkeypatch.setattr(step_problem, "MOST_ENTRIES", 0 if large else step_problem.MOST_ENTRIES)
     own = Extra(("a", "b"), rng.normal(size=(2, 13)), rng.normal(size=2))
     steps = [random_step(rng, 7, 6, (6, 4, 6)).replace(cone=name, extra=own) for _ in range(2)]
     steps[1] = with_mu_of(steps[0], steps[1])
@@ -82,7 +82,7 @@ def test_the_data_of_the_filled_page_are_the_standard_form(name, large, rng, mon
         scaled = ScaledStep(step)
         for units, form in ((None, scaled.form), (scaled.units, scaled.near)):
             set_values(page.page, step, units)
-            data = problem_data.problem_data(page.problem, "clarabel", {}).numbers
+            data = step_problem.problem_data(page.problem, "clarabel", {}).numbers
             assert_relative(data["P"].toarray(), form.H)
             assert_close(data["c"], -form.g, ROUNDING)
             assert_close(-data["A"].toarray(), form.A[order], ROUNDING)
@@ -100,7 +100,7 @@ def test_a_plain_step_is_the_page_filled_and_solved_in_public(name):
     accuracy, options = solver.option_sets(1e-12)[0]
     page = StepProblem(step)
     set_values(page.page, step, scaled.units)
-    page.problem.solve(solver="CLARABEL", canon_backend=problem_data.CANON, **options)
+    page.problem.solve(solver="CLARABEL", canon_backend=step_problem.CANON, **options)
     reply = solver.answer(scaled, accuracy)
     assert_array_equal(reply.x, page.primal())
     assert_array_equal(reply.lam, np.where(scaled.out_of_reach, 0.0, page.dual()))
