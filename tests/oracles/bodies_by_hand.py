@@ -2,9 +2,10 @@
 
 Columns of cubes and coins, and a box in a corner. A body is inset or flush, and d deep in what it
 lies on. It goes out of all that it is in, and no farther: up by d more than the one below, which
-is what is compared where faces have four contacts or more. With one contact bodies tip; what closes no gap too many, opens none under a force, and obeys Newton's law is the one step
-of least action. Newton's law, which gives the sum of the forces on each body and of their torques,
-is asked of all, and so are the normals written here.
+is what is compared where faces have four contacts or more. With one contact bodies tip; what
+closes no gap too many, opens none under a force, and obeys Newton's law is the one step of least
+action. Newton's law, which gives the sum of the forces on each body and of their torques, is asked
+of all, and so are the normals written here.
 
 Each scene is tried in some place drawn at random: in a quarter turn of the world, moved by half a
 metre or by 1e-16 m, either body of a pair alpha, free bodies in any order.
