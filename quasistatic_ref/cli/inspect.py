@@ -120,7 +120,7 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
 def steps_by(scenario: Scenario) -> str:
     """The solver and the path, plain or fast, that take a scenario's steps, in words."""
     if not scenario.fast:
-        return "the plain path, which is the definition; --fast takes the same steps sooner"
+        return "the plain path, which defines a step; --fast takes the same steps sooner"
     with needing("fast"):
         from quasistatic_ref.optional.fast.closest import solid_size
         from quasistatic_ref.optional.fast.library import missing
@@ -161,14 +161,15 @@ def _pair(pair: ContactPair, name: str) -> dict[str, Any]:
 
 def _print(record: dict[str, Any]) -> None:
     if "read_as" in record:
-        print(f"read with {record['read_as']}; a free body is checked more strictly, in a scenario")
+        strict = "a scenario checks a free body more strictly"
+        print(f"this URDF was read with {record['read_as']}; {strict}")
     print(f"q = [q_a; q_u]: {record['n_a']} actuated, {record['n_u']} un-actuated coordinates")
     rows: list[tuple[str, ...]] = [("coordinate", "unit", "actuated", "K_q")]
     for c in record["coordinates"]:
         stiffness = f"{c['K_q']:g} {'N/m' if c['unit'] == 'm' else 'N m/rad'}" if "K_q" in c else ""
         rows.append((c["name"], c["unit"], "yes" if c["actuated"] else "no", stiffness))
     shared.print_rows(rows)
-    shared.print_wrapped(f"the entries of q: {', '.join(record['positions'])}")
+    shared.print_wrapped(f"entries of q: {', '.join(record['positions'])}")
     for m in record["mimics"]:
         print(f"{m['name']} = {m['multiplier']:g} * {m['of']} + {m['offset']:g}")
     print()
@@ -206,7 +207,7 @@ def _print(record: dict[str, Any]) -> None:
         shared.print_wrapped(f"not looked at: {record['not_looked_at']}")
     _print_list("the model ignores", record["ignored"])
     if "fields" in record:
-        print("\nthe fields of its file; --set NAME=VALUE changes one:")
+        print("\nfields of this scenario; --set NAME=VALUE changes one:")
         for line in field_lines(record["fields"]):
             print(f"  {line}")
     _print_list("the model differs from its files in", record["notes"])

@@ -45,16 +45,17 @@ def grasp_evidence() -> Evidence:
 GRASP = Claim(
     name="grasp",
     sentence="Without torsional friction the grasped bunny turns about the points at which the "
-    "fingers hold it, however its cloud was drawn. With torsional friction it does not turn, if "
-    "mu_omega of the fingers is at least 1.5 times what the closed grip needs.",
+    "fingers hold it, whichever way its cloud was sampled. With torsional friction the "
+    "bunny does not turn if mu_omega of the fingers is at least 1.5 times what the closed "
+    "grip needs.",
     where="the paper, Fig. 1 and section III-B; docs/derivations.md (R39) for other clouds",
     sweep="bunny_grasp, 300 steps, with and without mu_omega on the fingers; the largest rotation "
     f"from the closed grip, t = {CLOSED:g} s, to the end of the lift, t = {TOP:g} s. Then 480 "
     "other clouds of the same bunny, 200 to 100,000 points drawn in four ways (docs/reality.md): "
     "committed rows",
-    reason="The paper gives no numbers and the scene is ours, its lift too: 1 degree and 30 "
-    "degrees are what an eye would call no rotation and rotation. Of the other clouds without "
-    "torsion 1 in 100 may be held, by points that happen to be far apart.",
+    reason="The paper gives no numbers, and the scene and its lift are ours. We count less than 1 "
+    "degree as no rotation, and more than 30 degrees as rotation. Without torsion 1 in 100 "
+    "of the other clouds may be held, by points that happen to be far apart.",
     measure=grasp_evidence,
 )
 
@@ -86,8 +87,8 @@ STRUCTURE = Claim(
     name="structure",
     sentence="The grasp's quadratic program has 13 variables and 80 rows in every step: 10 "
     "contacts of the gripper with torsion, 5 of the floor without.",
-    where="the paper, section III-B; how 13 and 80 come about is an inference, and that the floor "
-    "goes without torsion departs from its words (docs/theory/errata.md)",
+    where="the paper, section III-B, which does not say how 13 and 80 come about; by its words "
+    "the floor's contacts would have torsion, too (docs/theory/errata.md)",
     sweep="bunny_grasp, 300 steps",
     reason="Whole numbers, and h as it is written.",
     measure=structure_evidence,

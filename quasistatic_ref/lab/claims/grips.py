@@ -129,9 +129,10 @@ def lift_evidence() -> Evidence:
 
 LIFT = Claim(
     name="lift",
-    sentence="Two fingers with square pads of half-width a, which press with N, lift a bar at the "
-    "speed v by the lever e >= a without turning it while m (g + v / h) <= 2 mu_v N a / e: at a "
-    "given speed the time step must not be too small.",
+    sentence="Two fingers with square pads of half-width a press with N each on a bar, at the "
+    "distance e >= a from its centre of mass. They lift the bar at the speed v without "
+    "turning it while m (g + v / h) <= 2 mu_v N a / e: at a given speed the time step must "
+    "not be too small.",
     where="docs/derivations.md (R46)",
     sweep="four speeds, three levers; each threshold by bisection on exact answers",
     reason="CLOSED_FORM, above the 1e-13 at which the bisection stops.",

@@ -77,9 +77,9 @@ def evidence() -> Evidence:
 
 CLAIM = Claim(
     name="measured_pushes",
-    sentence="With one number for each object and surface, mu_omega / mu_v identified from "
-    "measured loads alone, the ellipsoid predicts measured pushes about as well as the published "
-    "simulator made for them; the pyramid does not.",
+    sentence="With one number for each object and surface, mu_omega / mu_v, which measured loads "
+    "alone identify, the ellipsoid predicts measured pushes about as well as the simulator "
+    "that was published for these pushes; the pyramid does not.",
     where="docs/reality.md; data of Yu, Bauza, Fazeli & Rodriguez (2016), as processed by Zhou et "
     "al. (2017)",
     sweep="every hundredth push of 18 pairs of object and surface, steps of 2 mm; all of them: "

@@ -172,8 +172,9 @@ def flat_patch_evidence() -> Evidence:
 
 FLAT_PATCH = Claim(
     name="flat_patch",
-    sentence="When a rigid disk of points turns, with tangents along the slip, its whole load goes "
-    "to the rim: it holds mu m g a, where a uniform load would hold 2/3 of that.",
+    sentence="When a rigid disk of points turns, and tangents are along the slip, the rim "
+    "bears the whole load: the disk holds mu m g a, where an even load would hold 2/3 "
+    "of that.",
     where="docs/derivations.md (R16)",
     sweep="24 points of equal area on a disk; one bisection and three torques beyond the threshold",
     reason="CLOSED_FORM; a torque is held if the turn is below 1e-14 rad, which rounded points "

@@ -84,8 +84,8 @@ def pushed_block_evidence() -> Evidence:
 
 PUSHED_BLOCK = Claim(
     name="pushed_block",
-    sentence="A block pushed at the speed v resists with mu_v m g + m v / h, of which m v / h is "
-    "spurious, and rides on a gap of mu_v v h.",
+    sentence="A block that is pushed at the speed v resists with mu_v m g + m v / h, and floats at "
+    "a gap of mu_v v h. No real block feels the drag m v / h.",
     where="docs/derivations.md (R13)",
     sweep="three speeds, two mu_v, two time steps; the steady state after 40 steps",
     reason="CLOSED_FORM, of the larger of friction and drag, and of the height from which gaps "
