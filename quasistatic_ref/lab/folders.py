@@ -20,19 +20,16 @@ def reality_folder() -> Path:
     return data_folder("validation/reality", "lab/reality/data")
 
 
-def problem_set_folder(source: str) -> Path:
-    """The folder of a set of quadratic programs: one that comes along by its name, or a folder.
+def contact_qp_folder(source: str = CONTACT_QP) -> Path:
+    """The folder of contact-qp, the quadratic programs that come with the package; or another.
 
     Raises
     ------
     InputError
-        If there is neither.
+        If there is no such folder.
     """
     if source == CONTACT_QP:
         return data_folder("validation/contact_qp", "lab/study/problems/contact_qp")
-    if source in ("contact-qp-1", "contact-qp-2"):
-        words = f"was an edition of the set; its problems are in {CONTACT_QP}, under the same names"
-        raise InputError(words, value=source)
     if not Path(source).is_dir():
         hint = suggestion(source, [CONTACT_QP])
         raise InputError(f"is neither a folder nor a set that comes along{hint}", value=source)

@@ -3,7 +3,7 @@
 Then docs/studies.md, which lists them, is out of date, and the workaround may go.
 """
 
-from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
+from quasistatic_ref.lab.folders import contact_qp_folder
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 
@@ -11,7 +11,7 @@ from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 def test_proxqp_still_calls_problems_infeasible_that_have_an_exact_answer():
     names = ("mass_ratio/7.99853/30", "mass_ratio/775.59/96", "limits/0.000769265/8",
              "gaps/0.00152334/19", "bodies/5/33")  # fmt: skip
-    problems = set_read(problem_set_folder(CONTACT_QP), ids=names)
+    problems = [one for one in set_read(contact_qp_folder()) if one.id in names]
     assert all(problem.feasible for problem in problems)
     claims = [qpsolvers_reply(one.natural.form, "proxqp", {}).status for one in problems]
     assert "PROXQP_PRIMAL_INFEASIBLE" in claims

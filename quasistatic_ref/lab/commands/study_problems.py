@@ -7,7 +7,7 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
-from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, contact_qp_folder
 from quasistatic_ref.lab.study.problems.names import NATURAL, RAW, UNITS
 
 ACTIONS = {
@@ -46,7 +46,7 @@ def run_problems(options: argparse.Namespace) -> int:
 def _list(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.problems.folder import manifest
 
-    head = manifest(problem_set_folder(options.set))
+    head = manifest(contact_qp_folder(options.set))
     if options.json:
         shared.print_json(head)
         return 0
@@ -65,10 +65,13 @@ def _export(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 
     shared.check_at_least_one(options, "every")
-    folder = problem_set_folder(options.set)
+    folder = contact_qp_folder(options.set)
     families = options.families.split(",") if options.families else None
-    chosen = set_read(folder, families, [options.id] if options.id else None)
-    chosen = [one for one in chosen if options.tag is None or options.tag in one.facts["tags"]]
+    chosen = [
+        one
+        for one in set_read(folder, families)
+        if options.id in (None, one.id) and options.tag in (None, *one.facts["tags"])
+    ]
     chosen = chosen[:: options.every]
     natural = options.units == NATURAL
     problems = [one.natural for one in chosen] if natural else chosen
@@ -86,7 +89,7 @@ def _check(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.problems.folder import manifest, set_read
     from quasistatic_ref.simulate.progress import progress_bar
 
-    folder = problem_set_folder(options.set)
+    folder = contact_qp_folder(options.set)
     problems = set_read(folder)
     others = manifest(folder)["count"] - len(problems)
     wrong = {}

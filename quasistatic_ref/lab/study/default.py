@@ -3,7 +3,6 @@
 from concurrent.futures import Executor
 from pathlib import Path
 
-from quasistatic_ref.lab.folders import CONTACT_QP
 from quasistatic_ref.lab.study.limits import Limits
 from quasistatic_ref.lab.study.problems.names import NATURAL, RAW
 from quasistatic_ref.lab.study.problems.problem import Problem
@@ -50,7 +49,7 @@ def default_problems(quick: bool = False) -> tuple[list[Problem], list[Problem]]
     """
     divisor = QUICK if quick else 1
     families = {name: -(-count // divisor) for name, count in FAMILIES.items()}
-    problems = problems_taken(CONTACT_QP, families)
+    problems = problems_taken(families)
     return problems, in_random_order(problems)[::EVERY]
 
 

@@ -15,7 +15,6 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.content import json_read, text_written
 from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.lab.fingerprint import fingerprint
-from quasistatic_ref.lab.folders import CONTACT_QP
 from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.machine import machine
 from quasistatic_ref.lab.parallel import results
@@ -144,7 +143,7 @@ def study(
     """
     limits = limits or Limits()
     if isinstance(problems, Mapping):
-        problems = problems_taken(CONTACT_QP, problems)
+        problems = problems_taken(problems)
     chosen = solvers_of(solvers)
     at = settings_of(settings)
     _check(problems, chosen, at)

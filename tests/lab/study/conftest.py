@@ -4,7 +4,7 @@ from functools import partial
 
 import pytest
 
-from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
+from quasistatic_ref.lab.folders import contact_qp_folder
 from quasistatic_ref.lab.study.limits import Limits
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.selection import problems_taken
@@ -18,7 +18,7 @@ from tests.pages import ROOT
 @pytest.fixture(scope="session")
 def three():
     """A problem of few contacts, and two of masses."""
-    return problems_taken(CONTACT_QP, {"contacts": 1, "mass_ratio": 2}, {"contacts": 12})
+    return problems_taken({"contacts": 1, "mass_ratio": 2})
 
 
 @pytest.fixture(scope="session")
@@ -45,11 +45,10 @@ def committed():
 @pytest.fixture(scope="session")
 def members():
     """Every problem of contact-qp."""
-    return set_read(problem_set_folder(CONTACT_QP))
+    return set_read(contact_qp_folder())
 
 
 @pytest.fixture(scope="session")
-def problem():
+def problem(members):
     """One problem of 12 contacts with its exact answer."""
-    (problem,) = set_read(problem_set_folder(CONTACT_QP), ids=["mass_ratio/11.3113/35"])
-    return problem
+    return next(one for one in members if one.id == "mass_ratio/11.3113/35")

@@ -58,7 +58,7 @@ def test_a_mistake_is_one_sentence_before_anything_is_written(argument, says, tm
 
 def test_the_plan_has_each_measurement_once_a_solver_after_the_other():
     """Problems in one random order of all families, the same for each."""
-    problems = problems_taken("contact-qp", {"gaps": 4, "friction": 4})
+    problems = problems_taken({"gaps": 4, "friction": 4})
     solvers = solvers_of(["qpsolvers:daqp", "qpsolvers:osqp"])
     measurements = plan(problems, solvers, settings_of(["default"]), [NATURAL, RAW])
     assert [one.solver.name for one in measurements] == ["daqp"] * 16 + ["osqp"] * 16

@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.grade import RESIDUALS, facts_of_reply
-from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.solve.solver import Reply
 from quasistatic_ref.solve.units import in_natural
@@ -75,8 +73,8 @@ def test_an_accuracy_is_reached_if_no_residual_is_larger(problem):
 
 @pytest.mark.parametrize("name", ["gaps/1e-14/279", "infeasible/1.14868e-11/243"])
 @pytest.mark.parametrize("size", [None, np.nan, 1e308, 1e160])
-def test_success_without_numbers_or_with_such_as_overflow_reaches_nothing(name, size):
-    (one,) = set_read(problem_set_folder(CONTACT_QP), ids=[name])
+def test_success_without_numbers_or_with_such_as_overflow_reaches_nothing(members, name, size):
+    one = next(one for one in members if one.id == name)
     n, m = one.natural.form.A.shape[::-1]
     x = None if size is None else np.full(n, size)
     for lam in (None, np.zeros(m), np.zeros(m + 1)):

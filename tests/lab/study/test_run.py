@@ -9,7 +9,6 @@ import pandas
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.lab.folders import CONTACT_QP
 from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.study import default
 from quasistatic_ref.lab.study.limits import Limits
@@ -149,7 +148,7 @@ def test_a_script_needs_no_guard_against_processes_that_import_it(tmp_path):
 
 def limited(folder, executor=None):
     """Words about one that sleeps, on two problems; those about others are as they are alone."""
-    problems = problems_taken(CONTACT_QP, {"contacts": 2}, {"contacts": 12})
+    problems = problems_taken({"gaps": 2})
     short = Limits(warm_up=3.0, budget=1.0)
     others = Limits(time_limit=30.0, warm_up=30.0, memory=0.3e9, repetitions=1)
     rows = []

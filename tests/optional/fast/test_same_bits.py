@@ -13,7 +13,7 @@ import pytest
 
 from quasistatic_ref import StepIllPosed, StepInfeasible, load_scenario, solve_step
 from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
+from quasistatic_ref.lab.folders import contact_qp_folder
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.problem import EXACT
 from quasistatic_ref.lab.vectors.layers.qp import step_of
@@ -71,7 +71,7 @@ def test_programs_of_the_vectors(count):
 
 def test_answers_of_contact_qp(count):
     """Of those that are proved exactly, of up to 60 coordinates."""
-    members = set_read(problem_set_folder(CONTACT_QP))
+    members = set_read(contact_qp_folder())
     exact_ones = [one for one in members if one.answer.kind == EXACT and len(one.g) <= 60]
     for one in kept_of(exact_ones, count):
         numbers = {"H": one.H.toarray(), "g": one.g, "A": one.A.toarray(), "b": one.b}

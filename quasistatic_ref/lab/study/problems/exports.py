@@ -13,7 +13,7 @@ import numpy as np
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.content import bytes_written, text_written, written_whole
-from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
+from quasistatic_ref.lab.folders import contact_qp_folder
 from quasistatic_ref.lab.study.problems.problem import QP, Problem
 from quasistatic_ref.parts import needed_package
 
@@ -52,8 +52,7 @@ def exported_files(name: str, problems: Sequence[Problem], folder: Path) -> list
     module = (here / "qpbenchmark_script.txt").read_text("utf-8")
     readme = (here / "export.txt").read_text("utf-8")
     words = {"name": name, "stem": stem, "title": title, "count": len(problems)}
-    source = problem_set_folder(CONTACT_QP)
-    carried = [path for part in CARRIED for path in sorted(source.glob(part))]
+    carried = [path for part in CARRIED for path in sorted(contact_qp_folder().glob(part))]
     return [
         parquet_written(folder / f"{stem}.parquet", problems),
         _answers(folder / f"{stem}.npz", problems),

@@ -35,22 +35,19 @@ UNREADABLE = (KeyError, TypeError, ValueError, IndexError, AttributeError, Overf
 """What reading raises of files that agree with their manifest, and are something else."""
 
 
-def set_read(
-    folder: str | Path, families: Sequence[str] | None = None, ids: Sequence[str] | None = None
-) -> list[Problem]:
-    """The problems of a set, or those of some families or names.
+def set_read(folder: Path, families: Sequence[str] | None = None) -> list[Problem]:
+    """The problems of a set, or of some of its families.
 
     Families with answers that are not proved are left out.
 
     Raises
     ------
     InputError
-        If it is no set, a file is not the one that its manifest lists, or a name is unknown.
+        If it is no set, a file is not the one that its manifest lists, or a family is unknown.
     """
-    folder = Path(folder)
-    head = manifest(folder)
+    known = list(manifest(folder)["families"])
     try:
-        return _some_problems(folder, list(head["families"]), families, ids)
+        return _problems_of(folder, known, families)
     except InputError:
         raise
     except UNREADABLE as error:
@@ -58,30 +55,22 @@ def set_read(
         raise InputError(words[:200], file=folder) from None
 
 
-def _some_problems(
-    folder: Path, known: list[str], families: Sequence[str] | None, ids: Sequence[str] | None
+def _problems_of(
+    folder: Path, known: Sequence[str], families: Sequence[str] | None
 ) -> list[Problem]:
-    """The problems of some of the families that a set has, or of some names."""
     lines = _lines(folder / FACTS)
     unproved = {line["family"] for line in lines if line["answer"]["kind"] not in PROVED}
-    known = [family for family in known if family not in unproved]
+    proved = [family for family in known if family not in unproved]
     for name in families or ():
-        if name not in known:
-            words = f"is not a family with proved answers; the set has {', '.join(known)}"
+        if name not in proved:
+            words = f"is not a family with proved answers; the set has {', '.join(proved)}"
             raise InputError(words, value=name)
-    lines = [line for line in lines if line["family"] in known]
-    names = {line["id"] for line in lines}
-    for name in ids or ():
-        if name not in names:
-            raise InputError("is not a problem of the set", field="id", value=name)
-    chosen: list[Problem] = []
-    for family in known:
-        part = [line for line in lines if line["family"] == family]
-        wanted = ids is None or any(line["id"] in ids for line in part)
-        if (families is None or family in families) and wanted:
-            problems = _problems(folder, family, part)
-            chosen += [one for one in problems if ids is None or one.id in ids]
-    return chosen
+    return [
+        one
+        for family in proved
+        if families is None or family in families
+        for one in _problems(folder, family, [x for x in lines if x["family"] == family])
+    ]
 
 
 def manifest(folder: Path) -> dict[str, Any]:

@@ -13,14 +13,14 @@ import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.certify.norm import error_length
-from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
+from quasistatic_ref.lab.folders import contact_qp_folder
 from quasistatic_ref.lab.study.problems.checking import refutation
 from quasistatic_ref.lab.study.problems.folder import FACTS, NUMBERS, manifest, set_read
 from quasistatic_ref.lab.study.problems.problem import EXACT
 from tests.oracles import rational_kkt
 from tests.tolerances import ROUNDING
 
-FOLDER = problem_set_folder(CONTACT_QP)
+FOLDER = contact_qp_folder()
 PROVED = [name for name in manifest(FOLDER)["families"] if name != "sparse"]
 LARGEST = 110
 """Coordinates of a problem that is proved in fractions, at most: a minute."""
@@ -35,16 +35,6 @@ def test_the_numbers_of_the_set_are_those_that_were_published():
     assert digest == "b1d226f79b43c91baffa80fb8083ec4efa8fd1b57e8f3b152d92954f415d7768"
     assert manifest(FOLDER)["count"] == 1510
     assert len(files) == 20
-
-
-def test_names_of_the_editions_that_it_was_made_of_lead_to_it_and_others_are_refused():
-    with pytest.raises(InputError, match="is neither a folder nor a set"):
-        problem_set_folder("contact-qp-3")
-    for name in ("contact-qp-1", "contact-qp-2"):
-        with pytest.raises(
-            InputError, match="its problems are in contact-qp, under the same names"
-        ):
-            problem_set_folder(name)
 
 
 def test_every_problem_has_its_length(members):
@@ -89,11 +79,12 @@ def test_a_set_whose_numbers_were_changed_is_refused(tmp_path):
 def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, cli):
     export = "study problems export --out", tmp_path
     for more, words in (
-        ("--id wedge/9/9", "is not a problem of the set"),
+        ("--id wedge/9/9", "holds no problem"),
         ("--every 0", "must be at least 1"),
         ("--families limits --tag nothing", "holds no problem"),
     ):
         assert words in cli(*export, more, status=2).err
+    assert "is neither a folder" in cli("study problems list contact-qp-3", status=2).err
 
 
 def test_the_family_whose_answers_are_not_proved_is_data_alone(members, cli):
