@@ -15,7 +15,7 @@ from tests.analytic.instances import INSTANCES, instances, log, near
 @pytest.mark.parametrize("name", CLAIMS["Closed forms"])
 def test_a_claim_holds(name):
     claim = claim_result(CLAIMS["Closed forms"][name])
-    assert claim.verdict == HOLDS, [c.what for c in claim.evidence.comparisons if not c.holds]
+    assert claim.verdict == HOLDS, [c.what for c in claim.comparisons if not c.holds]
 
 
 def test_r39_given_equal_loads(rng, both):

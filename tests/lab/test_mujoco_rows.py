@@ -15,6 +15,6 @@ def test_without_the_formula_the_rows_do_not_agree(monkeypatch):
     found = claim_result(mujoco_rows.CLAIM)
     assert found.verdict == FAILS
     # It is the tangential rows that suffer, and the torsional ones that do not.
-    holds = {c.what.split()[0]: c.holds for c in found.evidence.comparisons}
+    holds = {c.what.split()[0]: c.holds for c in found.comparisons}
     assert not holds["tangential"]
     assert holds["torsional"]

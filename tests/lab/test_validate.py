@@ -12,7 +12,6 @@ from quasistatic_ref.lab.claims.claim import (
     HOLDS,
     NOT_RUN,
     Claim,
-    Evidence,
     claim_result,
     comparison,
     sum_of_terms,
@@ -24,8 +23,7 @@ from tests.pages import ROOT
 
 def claim_of(*comparisons, **changes):
     words = {"sentence": "One is one.", "where": "here", "sweep": "none", "reason": "none"}
-    evidence = Evidence.of(*comparisons)
-    return Claim(**{"name": "planted", "measure": lambda: evidence} | words | changes)
+    return Claim(**{"name": "planted", "measure": lambda: comparisons} | words | changes)
 
 
 @pytest.mark.parametrize(

@@ -47,13 +47,6 @@ def script_options(
     return chosen
 
 
-def show_page(text: str, out: Path | None) -> None:
-    """Print a page, and write it to a file where one was asked for."""
-    print(text, end="" if text.endswith("\n") else "\n")
-    if out is not None:
-        text_written(out, text if text.endswith("\n") else f"{text}\n")
-
-
 def record_written(path: Path, record: Any) -> None:
     """Write a record of numbers and arrays as JSON, a field a line; infinite ones as Infinity."""
     text_written(path, json.dumps(plain(record), indent=1) + "\n")

@@ -57,8 +57,3 @@ def least(runs: Iterable[Mapping[str, Array]]) -> dict[str, Array]:
 def microseconds(times: Array) -> float:
     """The median [us] of `times` (n,) [s]."""
     return 1e6 * float(np.median(times))
-
-
-def ratio(one: Array, other: Array) -> float:
-    """The median of the ratios of `one` to `other` (n,) [s], pair by pair [-]."""
-    return float(np.median(one / other))

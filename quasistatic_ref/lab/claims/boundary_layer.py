@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.files.scenario.scenario import load_scenario
-from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, within
 from quasistatic_ref.lab.scenes.spun_sphere import LIMIT, RADIUS, layer_at_rate, layer_at_torque
 from quasistatic_ref.lab.thresholds import slope
 
@@ -21,7 +21,7 @@ NEAR = 1e-9
 """Shares of the limit nearer to it than this are left out: torques are interpolated in floats."""
 
 
-def evidence() -> Evidence:
+def evidence() -> list[Comparison]:
     """The scenario sphere_spin, then both laws."""
     scenario = load_scenario("sphere_spin", ["solver.backend=none"], fast=True)
     run = scenario.run(progress=False, findings=False)
@@ -34,7 +34,7 @@ def evidence() -> Evidence:
     spin = run["delta_q"][:, 5] / scenario.h
     at_torque = np.array([layer_at_torque(h, 2 * LIMIT) for h in STEP_SIZES])
     at_rate = np.array([layer_at_rate(h) for h in STEP_SIZES])
-    return Evidence.of(
+    return [
         comparison("motion up to mu_omega m g [m, rad]", run["delta_q"][stuck], 0.0, 0.0),
         within("least spin beyond it [rad/s]", spin[turning].min(), 1e-3, np.inf),
         within("lift-off at the end [mm]: a fraction of a centimetre", 1e3 * lift[-1], *FRACTION),
@@ -42,7 +42,7 @@ def evidence() -> Evidence:
         comparison(
             "exponent of h at a fixed torque [-]", slope(STEP_SIZES, at_torque), 2.0, FITTED
         ),
-    )
+    ]
 
 
 CLAIM = Claim(

@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.lab.bench.profile import DAQP, STEPS, profiles
 from quasistatic_ref.lab.cached_runs import grasp, lift
-from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, within
 from quasistatic_ref.lab.figures.clouds import is_held, margin, rows
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, rotations
 from quasistatic_ref.optional.doctor.tolerances import BEARS
@@ -19,7 +19,7 @@ FIRM = 1.5
 """mu_omega over the one that the closed grip needs by (R14), from which on a bunny is held [-]."""
 
 
-def grasp_evidence() -> Evidence:
+def grasp_evidence() -> list[Comparison]:
     """Rotation during the lift, height of the lift, and how many steps are exact; other clouds."""
     scenario, _ = grasp("with torsion")
     runs = {case: grasp(case)[1] for case in CASES}
@@ -31,7 +31,7 @@ def grasp_evidence() -> Evidence:
     firm = [one["rotation"] for one in grasps if one["mu_omega"] and margin(one) >= FIRM]
     weak = [is_held(one) for one in grasps if margin(one) < 1.0 and one["mu_omega"]]
     loose = [is_held(one) for one in grasps if not one["mu_omega"]]
-    return Evidence.of(
+    return [
         within("rotation with torsion [deg]", angles["with torsion"].max(), 0.0, HELD),
         within("rotation without torsion [deg]", angles["without torsion"].max(), SWUNG, np.inf),
         within("lift [m]", raised, LIFTED, np.inf),
@@ -39,7 +39,7 @@ def grasp_evidence() -> Evidence:
         within("rotation of any cloud with a firm grip [deg]", max(firm), 0.0, HELD),
         within("share held of clouds with a weak grip [-]", float(np.mean(weak)), 0.0, 0.0),
         within("share held of clouds without torsion [-]", float(np.mean(loose)), 0.0, 0.01),
-    )  # fmt: skip
+    ]  # fmt: skip
 
 
 GRASP = Claim(
@@ -62,7 +62,7 @@ GRASP = Claim(
 # The size of the bunny's quadratic program: 13 x 80.
 
 
-def structure_evidence() -> Evidence:
+def structure_evidence() -> list[Comparison]:
     """Numbers that the paper gives, from the scenario and its run."""
     scenario, run = grasp("with torsion")
     sizes = {
@@ -80,7 +80,7 @@ def structure_evidence() -> Evidence:
         "contacts without": (int((~torsional).sum()), 5),
         "h [s]": (scenario.h, 0.01),
     }
-    return Evidence.of(*(comparison(what, np.array(m), e, 0.0) for what, (m, e) in numbers.items()))
+    return [*(comparison(what, np.array(m), e, 0.0) for what, (m, e) in numbers.items())]
 
 
 STRUCTURE = Claim(
@@ -102,7 +102,7 @@ ALONE = ("clarabel", "qpsolvers:clarabel", "osqp", "qpsolvers:osqp")
 """Backends whose own time alone is a majority of a step without the interface to them."""
 
 
-def step_time_evidence() -> Evidence:
+def step_time_evidence() -> list[Comparison]:
     """The share of the solve in a step, by backend, and that of the solver's own time."""
     taken = {profile.backend: profile for profile in profiles(STEPS)}
     through = [name for name in taken if name != DAQP]
@@ -111,7 +111,7 @@ def step_time_evidence() -> Evidence:
         *(within(f"{name}: solver's own time [-]", taken[name].alone, *MAJORITY) for name in ALONE),
         within("daqp: solver's own time [-]", taken[DAQP].alone, *MINORITY),
     ]
-    return Evidence.of(*comparisons)
+    return [*comparisons]
 
 
 STEP_TIME = Claim(
@@ -140,7 +140,7 @@ STICKS = 1e-18
 has slipped comes to rest by a factor of about three a step, (R6), and passes through all sizes."""
 
 
-def sticking_evidence() -> Evidence:
+def sticking_evidence() -> list[Comparison]:
     """Every loaded contact of both grasps."""
     gaps = []
     layers = []
@@ -169,11 +169,11 @@ def sticking_evidence() -> Evidence:
         use.append(spent[loaded] / force[loaded])
     gap = "gap of a loaded contact after the step [m]"
     after_step, layer, scale, held, share = map(np.concatenate, (gaps, layers, terms, stuck, use))
-    return Evidence.of(
+    return [
         comparison(gap, after_step, layer, CLOSED_FORM, scale),
         comparison("gap of one that sticks [m]", held, 0.0, 2 * STICKS),
         within("friction used, of what the cone allows [-]", share, 0.0, 1 + CLOSED_FORM),
-    )
+    ]
 
 
 STICKING = Claim(

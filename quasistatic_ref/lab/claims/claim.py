@@ -97,23 +97,6 @@ def within(what: str, measured: ArrayLike, low: float, high: float) -> Compariso
     return Comparison(what, m, np.clip(m, low, high), np.ones_like(m), 0.0, words)
 
 
-@dataclass(frozen=True, eq=False)
-class Evidence:
-    """The comparisons that were measured for a claim.
-
-    Parameters
-    ----------
-    comparisons : tuple of Comparison
-    """
-
-    comparisons: tuple[Comparison, ...]
-
-    @classmethod
-    def of(cls, *comparisons: Comparison) -> "Evidence":
-        """Evidence made of the given comparisons."""
-        return cls(comparisons)
-
-
 @dataclass(frozen=True)
 class Claim:
     """A sentence about the model that measurements can refute.
@@ -130,7 +113,7 @@ class Claim:
     reason : str
         Why the tolerances are what they are.
     measure : callable
-        Returns Evidence.
+        Returns the comparisons that were made for it.
     engine : str, optional
         A distribution without which it cannot be measured: its version is a part of the finding.
     setting : str
@@ -142,7 +125,7 @@ class Claim:
     where: str
     sweep: str
     reason: str
-    measure: Callable[[], Evidence]
+    measure: Callable[[], list[Comparison]]
     engine: str | None = None
     setting: str = ""
 
@@ -160,12 +143,12 @@ class Claim:
 
 @dataclass(frozen=True, eq=False)
 class ClaimResult:
-    """A claim with its evidence.
+    """A claim with what was measured for it.
 
     Parameters
     ----------
     claim : Claim
-    evidence : Evidence or None
+    comparisons : list of Comparison or None
         None where nothing could be measured.
     trouble : str
         Why not: an error of the package, which fails the claim; empty where only the engine is
@@ -175,17 +158,16 @@ class ClaimResult:
     """
 
     claim: Claim
-    evidence: Evidence | None
+    comparisons: list[Comparison] | None
     trouble: str = ""
     seconds: float = 0.0
 
     @property
     def verdict(self) -> str:
         """``HOLDS``, ``FAILS`` or ``NOT_RUN``."""
-        if self.evidence is None:
+        if self.comparisons is None:
             return FAILS if self.trouble else NOT_RUN
-        comparisons = self.evidence.comparisons
-        return HOLDS if comparisons and all(c.holds for c in comparisons) else FAILS
+        return HOLDS if self.comparisons and all(c.holds for c in self.comparisons) else FAILS
 
 
 def claim_result(claim: Claim) -> ClaimResult:
@@ -193,10 +175,10 @@ def claim_result(claim: Claim) -> ClaimResult:
     if claim.engine_version is None:
         return ClaimResult(claim, None)
     start = time.perf_counter()
-    evidence = None
+    comparisons = None
     trouble = ""
     try:
-        evidence = claim.measure()
+        comparisons = claim.measure()
     except QuasistaticError as error:  # a wrong formula may well make a step unsolvable
         trouble = str(error)
-    return ClaimResult(claim, evidence, trouble, time.perf_counter() - start)
+    return ClaimResult(claim, comparisons, trouble, time.perf_counter() - start)

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison
 from quasistatic_ref.lab.scenes.free_pair import geometry, pair_system
 from quasistatic_ref.lab.scenes.systems import cloud_on, on_link
 from quasistatic_ref.model.system import System
@@ -31,7 +31,7 @@ DIFFERENCE_TOLERANCE = 1e-6
 """Of derivatives of size 1: curvature over a gap of 1 mm leaves (1e-6 / 1e-3)^2."""
 
 
-def evidence() -> Evidence:
+def evidence() -> list[Comparison]:
     """Four shapes against a cloud of points, near and inside, at random poses."""
     rng = np.random.default_rng(5)
     system = pair_system()
@@ -61,12 +61,12 @@ def evidence() -> Evidence:
     defect = np.concatenate(defects)
     excess = np.concatenate(lengths)
     frame = np.concatenate([f.ravel() for f in frames])
-    return Evidence.of(
+    return [
         comparison("beta - alpha - phi n [m]", defect, 0.0, IDENTITY_TOLERANCE),
         comparison("|beta - alpha| - |phi| [m]", excess, 0.0, IDENTITY_TOLERANCE),
         comparison("{d1, d2, n}, defect of a dextral triad [-]", frame, 0.0, IDENTITY_TOLERANCE),
         comparison("d phi / d q against n'J [-]", measured, expected, DIFFERENCE_TOLERANCE),
-    )
+    ]
 
 
 def _differences(system: System, pair: ContactPair, q: Array, chosen: NDArray[np.int64]) -> Array:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.certify.failures import StepInfeasible
-from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, sum_of_terms
 from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step
@@ -17,7 +17,7 @@ from quasistatic_ref.tolerances import CLOSED_FORM
 FALL_STEPS = 10
 
 
-def fall_evidence() -> Evidence:
+def fall_evidence() -> list[Comparison]:
     """Bodies of several masses, centres of mass and orientations, ten steps each."""
     rng = np.random.default_rng(2)
     heights = []
@@ -37,16 +37,16 @@ def fall_evidence() -> Evidence:
             sideways.append(q[:, :2] / (h**2 * GRAVITY))
             turned.append((q[:, 3:] - system.q_start[3:]) / (h**2 * GRAVITY / 0.1))
     fallen = np.array(expected)
-    return Evidence.of(
+    return [
         comparison("height after k steps [m]", heights, fallen, CLOSED_FORM, fallen),
         comparison(
             "sideways, in steps of fall [-]", np.array(sideways), 0.0, FALL_STEPS * CLOSED_FORM
         ),
         comparison("turned, in steps of fall [-]", np.array(turned), 0.0, FALL_STEPS * CLOSED_FORM),
-    )
+    ]
 
 
-def approach_evidence() -> Evidence:
+def approach_evidence() -> list[Comparison]:
     """A point mass at gaps from -1 mm to 1 cm."""
     gaps = [-1e-3, -1e-5, -1e-8, 0.0, 1e-8, 1e-5, 9e-4, 1e-3, 1e-2]
     sweep = grid([0.01, 0.3, 100.0], gaps, [1e-3, 1e-2, 1e-1])
@@ -57,12 +57,12 @@ def approach_evidence() -> Evidence:
     weight = m * GRAVITY
     push = -m * phi / h**2
     bears = weight + push > 0
-    return Evidence.of(
+    return [
         comparison(
             "rise [m]", rises, np.maximum(-(h**2) * GRAVITY, -phi), CLOSED_FORM, h**2 * GRAVITY
         ),
         sum_of_terms("N [N]", forces, [weight * bears, push * bears], CLOSED_FORM),
-    )
+    ]
 
 
 FALL = Claim(
@@ -91,7 +91,7 @@ APPROACH = Claim(
 RANDOM_STEPS = 40
 
 
-def evidence() -> Evidence:
+def evidence() -> list[Comparison]:
     """Random steps with another inertia, and with another h."""
     rng = np.random.default_rng(45)
     heavier: list[Array] = []
@@ -110,10 +110,10 @@ def evidence() -> Evidence:
         shorter.append(short.delta_q)
         forces.append(heavy.wrench)
         expected.append(short.wrench)
-    return Evidence.of(
+    return [
         comparison("delta_q with sigma M_u at h [m, rad]", heavier, shorter, 0.0),
         comparison("forces of the contacts [N, N m]", forces, expected, 0.0),
-    )
+    ]
 
 
 CLAIM = Claim(

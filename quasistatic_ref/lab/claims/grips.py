@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, contacts_of, point_jacobian
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.thresholds import exact, grid, thresholds
@@ -20,7 +20,7 @@ def held_bar(offset: float, grip: float, mu_v: float, mu_omega: float) -> StepDa
     return pinch_step(grip, offset, mu_v, mu_omega, m=M)
 
 
-def pinch_evidence() -> Evidence:
+def pinch_evidence() -> list[Comparison]:
     """The offset at which the bar begins to turn."""
     sweep = grid([4.0, 10.0, 40.0], [0.4, 0.8], [0.005, 0.02])
     grip, mu_v, mu_omega = sweep.T
@@ -29,10 +29,10 @@ def pinch_evidence() -> Evidence:
     steps = (held_bar(0.9 * limit, *of) for limit, of in zip(expected, sweep, strict=True))
     loads = [exact(step).wrench[:, 2] for step in steps]
     grips = np.stack([grip, grip], axis=1)
-    return Evidence.of(
+    return [
         comparison("offset that turns the bar [m]", measured, expected, CLOSED_FORM, expected),
         comparison("normal force of a finger [N]", loads, grips, CLOSED_FORM, grips),
-    )
+    ]
 
 
 PINCH = Claim(
@@ -107,7 +107,7 @@ def lifting_step(speed: float, lever: float, h: float) -> StepData:
     )
 
 
-def lift_evidence() -> Evidence:
+def lift_evidence() -> list[Comparison]:
     """The rate 1 / h of steps from which on the bar turns."""
     sweep = grid([0.001, 0.01, 0.1, 0.3], [0.02, 0.03, 0.04])
     speed, lever = sweep.T
@@ -119,12 +119,12 @@ def lift_evidence() -> Evidence:
     measured = thresholds(at_rate, sweep, expected, part=slice(7, None))
     held = (at_rate(rate / 1.1, *of) for rate, of in zip(expected, sweep, strict=True))
     risen = np.array([exact(step).delta_q[6] for step in held]) / (speed * 1.1 / expected)
-    return Evidence.of(
+    return [
         comparison(
             "rate of steps that turns the bar [1/s]", measured, expected, CLOSED_FORM, expected
         ),
         comparison("rise of a bar that is held, over v h [-]", risen, 1.0, CLOSED_FORM),
-    )
+    ]
 
 
 LIFT = Claim(

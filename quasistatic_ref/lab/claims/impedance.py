@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, sum_of_terms
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step
 from quasistatic_ref.lab.thresholds import exact, grid
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 
-def free_evidence() -> Evidence:
+def free_evidence() -> list[Comparison]:
     """Random stiffnesses of 1 to 7 coordinates, condition at most 100 or so."""
     rng = np.random.default_rng(1)
     moved = []
@@ -27,10 +27,10 @@ def free_evidence() -> Evidence:
             wanted.append(target)
             sagged.append(np.linalg.solve(step.K_q, tau_a))
     terms = [np.concatenate(wanted), np.concatenate(sagged)]
-    return Evidence.of(sum_of_terms("delta_q_a [m]", np.concatenate(moved), terms, CLOSED_FORM))
+    return [sum_of_terms("delta_q_a [m]", np.concatenate(moved), terms, CLOSED_FORM)]
 
 
-def pressed_evidence() -> Evidence:
+def pressed_evidence() -> list[Comparison]:
     """A finger of stiffness K whose target lies `beyond` a wall at the gap phi."""
     moved = []
     pressed = []
@@ -49,10 +49,10 @@ def pressed_evidence() -> Evidence:
         pressed.append(answer.wrench[0, 2])
         forces.append(max(load, 0.0))
         loads.append(max(abs(K * beyond), tau))
-    return Evidence.of(
+    return [
         comparison("delta_q_a [m]", moved, gaps, CLOSED_FORM, scale=1e-3),
         comparison("normal force [N]", pressed, forces, CLOSED_FORM, scale=loads),
-    )
+    ]
 
 
 FREE = Claim(

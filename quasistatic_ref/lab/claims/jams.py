@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step, rigid_step
 from quasistatic_ref.lab.thresholds import exact, grid, thresholds
@@ -36,7 +36,7 @@ def pushed_peg(depth: float, width: float, mu: float, force: float) -> StepData:
     return rigid_step(PEG_M, PEG_INERTIA, (0, 0, -force, 0, 0, 0), points, frames, mu_v=mu, h=H)
 
 
-def peg_evidence() -> Evidence:
+def peg_evidence() -> list[Comparison]:
     """Depths at which a peg wedges under weak and strong pushes, and where it slides on."""
     sweep = grid([0.01, 0.04], [0.1, 0.3, 0.8], [1e-3, 1.0, 1e6])
     widths, mus, _ = sweep.T
@@ -53,11 +53,11 @@ def peg_evidence() -> Evidence:
         descent = H**2 * force / (PEG_M * (1 + x**2) + PEG_INERTIA * theta**2)
         formula.append(descent * np.array([x, 0, -1, 0, theta, 0]))
     size = np.abs(formula).max(1, keepdims=True)
-    return Evidence.of(
+    return [
         comparison("depth below which it wedges [m]", measured, expected, CLOSED_FORM, expected),
         comparison("motion of a wedged peg [m, rad]", rest, 0.0, 0.0),
         comparison("motion of one that slides in [m, rad]", solved, formula, CLOSED_FORM, size),
-    )
+    ]
 
 
 PEG = Claim(
@@ -104,7 +104,7 @@ def guide_turn(torque: float, phi: float) -> float:
     return float(exact(step).delta_q[1])
 
 
-def locked_guide_evidence() -> Evidence:
+def locked_guide_evidence() -> list[Comparison]:
     """Forces from a hundredth of what reaches the limit to a million times that."""
     shares = [0.01, 0.5, 0.99, 1.01, 2.0, 1e3, 1e6]
     gaps = [0.0, 1e-5, 1e-3]
@@ -129,12 +129,12 @@ def locked_guide_evidence() -> Evidence:
         turns.append(guide_turn(torque, phi))
         limits.append(min(H**2 * torque / GUIDE_INERTIA, phi / MU_OMEGA))
     scale = np.abs(expected).max(axis=1, keepdims=True) + 1e-5
-    return Evidence.of(
+    return [
         comparison("slip along d1 and d2 [m]", slips, expected, CLOSED_FORM, scale),
         comparison("mu_v times the load of the walls, over the force [-]", pressed, balance,
                    CLOSED_FORM, 1.0),
         comparison("turn [rad]", turns, limits, CLOSED_FORM, 1.0),
-    )  # fmt: skip
+    ]  # fmt: skip
 
 
 LOCKED_GUIDE = Claim(

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, within
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
 from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of, words
@@ -202,7 +202,7 @@ def rows_of(scene: Heap) -> dict[str, Array]:
     }
 
 
-def evidence() -> Evidence:
+def evidence() -> list[Comparison]:
     """Twelve heaps."""
     scenes = [rows_of(heap(seed)) for seed in range(SCENES)]
 
@@ -219,14 +219,14 @@ def evidence() -> Evidence:
     their_axes = all_of("theirs elliptic") + all_of("shift elliptic")
     M, theirs_M = (np.concatenate([s[k].ravel() for s in scenes]) for k in ("ours M", "theirs M"))
     largest = float(np.abs(theirs_M).max())
-    return Evidence.of(
+    return [
         comparison("torsional rows [-, m]", *spins, tolerance=ROWS_TOLERANCE),
         comparison("tangential rows, their point moved [-, m]", ours, moved, ROWS_TOLERANCE),
         comparison("J against elliptic rows, the same [-, m]", axes, their_axes, ROWS_TOLERANCE),
         within("largest entry of that move [m]", np.abs(shift).max(), 1e-4, np.inf),
         comparison("mass matrices [kg, kg m, kg m^2]", M, theirs_M, ROWS_TOLERANCE, largest),
         within("contacts", sum(len(s["ours"]) for s in scenes), 2 * SCENES, np.inf),
-    )
+    ]
 
 
 CLAIM = Claim(

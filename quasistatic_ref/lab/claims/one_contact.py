@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, sum_of_terms
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of, point_jacobian
 from quasistatic_ref.lab.scenes.rigid import free_step, point_step, sphere_step
 from quasistatic_ref.lab.thresholds import exact, grid, thresholds
@@ -32,7 +32,7 @@ def _loaded_contact(share: float, phi: float, *direction: float) -> StepData:
     )
 
 
-def octahedron_evidence() -> Evidence:
+def octahedron_evidence() -> list[Comparison]:
     """Random directions and gaps; each direction is scaled until something moves."""
     rng = np.random.default_rng(3)
     directions = rng.normal(size=(24, 3))
@@ -41,9 +41,7 @@ def octahedron_evidence() -> Evidence:
     sweep = np.column_stack([gaps, directions])
     along_floor = [0, 1, 5]  # x, y and the turn; z closes the gap at any load
     loads = thresholds(_loaded_contact, sweep, limits, (0.1, 3.0), along_floor)
-    return Evidence.of(
-        comparison("load that moves it, over the limit [-]", loads / limits, 1.0, CLOSED_FORM)
-    )
+    return [comparison("load that moves it, over the limit [-]", loads / limits, 1.0, CLOSED_FORM)]
 
 
 OCTAHEDRON = Claim(
@@ -89,7 +87,7 @@ def pushed_point(share: float, angle: float, mu: float) -> StepData:
     return point_step(POINT_M, (f1, f2, -POINT_M * GRAVITY), mu, 0.0, H)
 
 
-def threshold_evidence() -> Evidence:
+def threshold_evidence() -> list[Comparison]:
     """The least force that moves the point, by direction."""
     angles = np.radians(np.linspace(0.0, 90.0, 13))
     sweep = grid(angles, (0.2, 1.0))
@@ -97,10 +95,10 @@ def threshold_evidence() -> Evidence:
     expected = 1 / (np.cos(at) + np.sin(at))
     measured = thresholds(pushed_point, sweep, expected)
     what = "least force that moves it, over mu_v m g [-]"
-    return Evidence.of(comparison(what, measured, expected, CLOSED_FORM))
+    return [comparison(what, measured, expected, CLOSED_FORM)]
 
 
-def slip_evidence() -> Evidence:
+def slip_evidence() -> list[Comparison]:
     """One step in each regime of a contact, and then a sequence of steps along an axis."""
     solved = []
     formula = []
@@ -126,10 +124,10 @@ def slip_evidence() -> Evidence:
         layers.append(np.full(POINT_STEPS, layer))
         rest.append(-layer * (mu**2 / (1 + mu**2)) ** k)
     terms = [np.array(layers).ravel(), np.array(rest).ravel()]
-    return Evidence.of(
+    return [
         comparison("delta_q [m]", solved, formula, CLOSED_FORM, np.array(scale)[:, None]),
         sum_of_terms("phi_k while sliding [m]", gaps, terms, CLOSED_FORM),
-    )
+    ]
 
 
 THRESHOLD = Claim(
@@ -181,7 +179,7 @@ def one_step(tau: float, phi: float, h: float, mu_omega: float) -> tuple[float, 
     return float(delta_q[2]), float(delta_q[5])
 
 
-def step_evidence() -> Evidence:
+def step_evidence() -> list[Comparison]:
     """Stuck, turning in contact, and turning above the floor."""
     limits = [0.0, 0.5, 0.999, 1.001, 1.5, 5.0]
     sweep = grid(limits, [-1e-4, 0.0, 1e-5, 3e-3], [1e-3, 1e-2, 0.05], [0.002, 0.02])
@@ -195,12 +193,12 @@ def step_evidence() -> Evidence:
     theta = np.clip(terms.sum(0), 0.0, h**2 * tau / SPHERE_INERTIA)
     rise = np.maximum(mu * theta - phi, -(h**2) * GRAVITY)
     largest = np.abs(terms).max(0)
-    return Evidence.of(
+    return [
         comparison("delta_theta [rad]", solved[:, 1], theta, CLOSED_FORM, largest),
         comparison(
             "delta_z [m]", solved[:, 0], rise, CLOSED_FORM, np.maximum(mu * largest, abs(phi))
         ),
-    )
+    ]
 
 
 def sequence(tau: float, phi: float, h: float, mu: float) -> Array:
@@ -212,7 +210,7 @@ def sequence(tau: float, phi: float, h: float, mu: float) -> Array:
     return np.array(gaps)
 
 
-def recurrence_evidence() -> Evidence:
+def recurrence_evidence() -> list[Comparison]:
     """Gaps, step after step, from several gaps."""
     gaps = []
     fixed = []
@@ -227,7 +225,7 @@ def recurrence_evidence() -> Evidence:
         gaps.append(sequence(share * limit, start, h, mu))
         fixed.append(np.full(SPHERE_STEPS, layer))
         left.append((start - layer) * ratio**k)
-    return Evidence.of(sum_of_terms("phi_k [m]", gaps, [fixed, left], CLOSED_FORM))
+    return [sum_of_terms("phi_k [m]", gaps, [fixed, left], CLOSED_FORM)]
 
 
 STEP = Claim(
@@ -269,7 +267,7 @@ def pressed_balls(phi: float, n: np.ndarray, d1: np.ndarray, force: np.ndarray) 
     return free_step(np.diag(moments), load, contact, H)
 
 
-def couple_evidence() -> Evidence:
+def couple_evidence() -> list[Comparison]:
     """Gaps of both signs, normals and loads at random."""
     rng = np.random.default_rng(4)
     changes = []
@@ -295,12 +293,12 @@ def couple_evidence() -> Evidence:
             balance.append(P1 + P2)
     scale = np.array(sizes)[:, None]
     size = np.array(forces)[:, None]
-    return Evidence.of(
+    return [
         comparison(
             "spurious angular impulse of the pair [N m s]", changes, couples, CLOSED_FORM, scale
         ),
         comparison("impulse of the pair [N s]", balance, np.zeros_like(balance), CLOSED_FORM, size),
-    )
+    ]
 
 
 COUPLE = Claim(

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z, contacts_of
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.lab.thresholds import exact, grid, threshold_near
@@ -68,7 +68,7 @@ def mu_omega(r: Array, N: Array) -> tuple[float, float]:
     return threshold_near(moves, total, precision=PRECISION) / LOAD, total / LOAD
 
 
-def patch_torsion_evidence() -> Evidence:
+def patch_torsion_evidence() -> list[Comparison]:
     """The torque at which a ring of points turns, then many rings under two pressures."""
     ring = [mu_omega(np.full(n, RING_RADIUS), np.full(n, LOAD / n))[0] for n in (1, 3, 6)]
     both = {
@@ -86,7 +86,7 @@ def patch_torsion_evidence() -> Evidence:
             comparison(f"{name}: mu_omega [m]", measured, sums, 2 * PRECISION, sums),
             comparison(f"{name}: mu_omega / (mu a), 32 rings [-]", ratio[-1:], limit, CONTINUUM),
         ]
-    return Evidence.of(*comparisons)
+    return [*comparisons]
 
 
 PATCH_TORSION = Claim(
@@ -138,7 +138,7 @@ def loaded_patch(tau: float) -> StepData:
     )
 
 
-def flat_patch_evidence() -> Evidence:
+def flat_patch_evidence() -> list[Comparison]:
     """The torque that turns a flat patch, how far it turns, and which points bear load."""
     points, _ = disk()
     r = np.hypot(points[:, 0], points[:, 1])
@@ -162,12 +162,12 @@ def flat_patch_evidence() -> Evidence:
         load = answer.wrench[:, 2].reshape(DISK_RINGS, POINTS).sum(1)
         inner.append(load[:-1].sum() / load.sum())
     words = "its torque over that of a uniform load [-]"
-    return Evidence.of(
+    return [
         comparison("torque that turns it, over mu m g a [-]", held, 1.0, CLOSED_FORM),
         comparison("turn [rad]", turns, forms, CLOSED_FORM, scales),
         comparison("share of the load inside the rim [-]", inner, 0.0, 0.0),
         comparison(words, held * limit / uniform, DISK_RADIUS / r.mean(), CLOSED_FORM),
-    )
+    ]
 
 
 FLAT_PATCH = Claim(

@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, sum_of_terms, within
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, sum_of_terms, within
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.slider import (
     GYRATION,
@@ -63,7 +63,7 @@ def steady_push(v: float, mu_v: float, h: float) -> Array:
     return np.array([lag, last.points.phi[1:].max(), last.points.phi[1:].min(), load])
 
 
-def pushed_block_evidence() -> Evidence:
+def pushed_block_evidence() -> list[Comparison]:
     """Speeds, friction and time steps."""
     sweep = grid([0.005, 0.05, 0.2], [0.2, 0.5], [5e-3, 1e-2])
     v, mu, h = sweep.T
@@ -75,11 +75,11 @@ def pushed_block_evidence() -> Evidence:
     ride = np.repeat((mu * v * h)[:, None], 2, axis=1)
     load = measured[:, 3]
     weight = M * GRAVITY
-    return Evidence.of(
+    return [
         sum_of_terms("K times the finger's lag [N]", force, [friction, drag], CLOSED_FORM),
         comparison("gap under the block [m]", gap, ride, CLOSED_FORM, C),
         comparison("load of the base [N]", load, weight, 10 * CLOSED_FORM, weight),
-    )
+    ]
 
 
 PUSHED_BLOCK = Claim(
@@ -110,7 +110,7 @@ ENCLOSED = 1e-15
 PUSHES = 64
 
 
-def planar_push_evidence() -> Evidence:
+def planar_push_evidence() -> list[Comparison]:
     """Points, directions, coefficients and speeds."""
     rng = np.random.default_rng(28)
     # The angle of the point, its radius, the angle aside, mu_v, chi, Pi; lifted and sticks or not.
@@ -150,7 +150,7 @@ def planar_push_evidence() -> Evidence:
     total = np.linalg.norm(force, axis=1)
     law = [(1 + SPEEDS) / (1 + SPEEDS * (GYRATION / chi) ** 2) for chi in RADII]
     along_normal = "support's force, along the normal of its limit surface [N]"
-    return Evidence.of(
+    return [
         comparison("motion of the slider [m]", moved, expected, CLOSED_FORM, size[:, None]),
         comparison("rise [m]", [a.delta_q[4] for a in answers], rise, CLOSED_FORM, gap),
         comparison(along_normal, support, normal, CLOSED_FORM, load[:, None]),
@@ -158,7 +158,7 @@ def planar_push_evidence() -> Evidence:
         comparison("load [N]", [a.wrench[0, 2] for a in answers], load, CLOSED_FORM, load),
         comparison("turn over Lynch's [-]", [turns(chi) for chi in RADII], law, CLOSED_FORM, law),
         within("error_bound [-]", bounds, 0.0, ENCLOSED),
-    )
+    ]
 
 
 PLANAR_PUSH = Claim(

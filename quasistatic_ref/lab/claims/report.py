@@ -22,7 +22,6 @@ CHAPTER = re.compile(r"^### (\w+): .*?(?=^##|\Z)", re.MULTILINE | re.DOTALL)
 def finding_record(finding: ClaimResult) -> dict[str, Any]:
     """One finding as a JSON object."""
     claim = finding.claim
-    comparisons = () if finding.evidence is None else finding.evidence.comparisons
     return {
         "name": claim.name,
         "claim": claim.sentence,
@@ -32,7 +31,7 @@ def finding_record(finding: ClaimResult) -> dict[str, Any]:
         "reason": claim.reason,
         "verdict": finding.verdict,
         "trouble": finding.trouble,
-        "comparisons": [_record(c) for c in comparisons],
+        "comparisons": [_record(c) for c in finding.comparisons or ()],
     }
 
 

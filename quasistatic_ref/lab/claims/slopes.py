@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.claims.claim import Claim, Comparison, Evidence, comparison, sum_of_terms
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, sum_of_terms
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import sphere_step
 from quasistatic_ref.lab.scenes.systems import (
@@ -50,7 +50,7 @@ def displacements(results: list[StepResult]) -> Array:
     return np.array([result.solution.delta_q for result in results])
 
 
-def slide_evidence() -> Evidence:
+def slide_evidence() -> list[Comparison]:
     """Low blocks on slopes around the angle of friction."""
     stuck = []
     slips = []
@@ -70,14 +70,14 @@ def slide_evidence() -> Evidence:
         fixed.append(np.full(BLOCK_STEPS, steady))
         left.append(-steady * (mu**2 / (1 + mu**2)) ** (k + 1))
         sideways.append(delta_q[:, [1, 3, 4, 5]] / (H**2 * GRAVITY / L))
-    return Evidence.of(
+    return [
         comparison("stuck: motion, in h^2 g [-]", np.array(stuck), 0.0, CLOSED_FORM),
         sum_of_terms("slip of step k [m]", slips, [fixed, left], 4 * CLOSED_FORM),
         comparison("sliding: sideways and turns [-]", np.array(sideways), 0.0, 4 * CLOSED_FORM),
-    )
+    ]
 
 
-def tip_evidence() -> Evidence:
+def tip_evidence() -> list[Comparison]:
     """High blocks whose friction would hold them: they tip at tan a = L / z."""
     turns = []
     up = []
@@ -94,10 +94,10 @@ def tip_evidence() -> Evidence:
         turns.append(delta_q[4])
         down.append(unit * z * np.sin(slope))
         up.append(-unit * L * np.cos(slope))
-    return Evidence.of(
+    return [
         comparison("held: motion, in h^2 g [-]", held, 0.0, CLOSED_FORM),
         sum_of_terms("turn about the lower edge [rad]", turns, [down, up], CLOSED_FORM),
-    )
+    ]
 
 
 SLIDE = Claim(
@@ -151,7 +151,7 @@ def limit_of_rolling() -> Comparison:
     return comparison("slips, beyond the limit alone [0 or 1]", slips, shares > 1, 0.0)
 
 
-def evidence() -> Evidence:
+def evidence() -> list[Comparison]:
     """Forces along several directions, each step compared with the one before."""
     turned = []
     wanted = []
@@ -184,12 +184,12 @@ def evidence() -> Evidence:
             along.append(sinc * RADIUS * theta - (1 - np.cos(theta)) / theta * phi)
             q = result.q
     rolled = np.array(wanted)
-    return Evidence.of(
+    return [
         comparison("turn of a step [rad]", turned, rolled, 10 * CLOSED_FORM, rolled),
         sum_of_terms("height [m]", heights, [dips, closed], CLOSED_FORM),
         comparison("way of a step [m]", ahead, along, 10 * CLOSED_FORM, RADIUS * rolled),
         limit_of_rolling(),
-    )
+    ]
 
 
 CLAIM = Claim(

@@ -247,7 +247,7 @@ def candidates(alpha, pose_alpha, beta, pose_beta, k):
     about = np.flatnonzero(n @ way >= FACING)
     if is_spanned(phi[about], a[about], n[about], smaller(alpha, beta)):
         about = about[:-1]
-    late = repeats(phi[about], a[about], n[about], REPEATED)
+    late = repeats(phi[about], a[about], n[about])
     filling = np.arange(max(0, min(k, number) - len(about)))
     kept = np.append(about, 0 * filling + len(phi) - 1)
     phi = np.append(phi[about], 0.0 * filling + FILLED)
@@ -265,10 +265,10 @@ def crossing_index(last, k, i, j):
     return last + np.minimum(k, last + 9) + 2 * (12 * i + j)
 
 
-def repeats(phi, alpha, n, repeated):
-    """Which candidates repeat an earlier one: what differs by no more than `repeated` is one."""
+def repeats(phi, alpha, n):
+    """Which candidates repeat an earlier one."""
     every = np.column_stack([phi, alpha, n])
-    same = np.all(np.abs(every[:, None] - every) <= repeated, axis=2)
+    same = np.all(np.abs(every[:, None] - every) <= REPEATED, axis=2)
     return np.tril(same, -1).any(axis=1)
 
 

@@ -203,8 +203,11 @@ def cloud_on(cloud, pose_c, shape, pose):
     return phi, x, x + phi[:, None] * n, n
 
 
-def closest(alpha, pose_alpha, beta, pose_beta):
-    """phi, alpha, beta, n of two shapes; lists of them where one is a cloud."""
+def closest_points(alpha, pose_alpha, beta, pose_beta):
+    """phi, alpha, beta, n of two shapes; lists of them where one is a cloud.
+
+    n points from alpha's body to beta's, also in penetration, where phi is negative.
+    """
     kinds = alpha["kind"], beta["kind"]
     if kinds[0] == "cloud":
         return cloud_on(alpha, pose_alpha, beta, pose_beta)
@@ -217,7 +220,7 @@ def closest(alpha, pose_alpha, beta, pose_beta):
     if core(alpha, pose_alpha) is None:
         if core(beta, pose_beta) is None:
             return by_projections(alpha, pose_alpha, beta, pose_beta)
-        return swapped(closest(beta, pose_beta, alpha, pose_alpha))
+        return swapped(closest_points(beta, pose_beta, alpha, pose_alpha))
     # In the frame of beta, whose corners are then not rounded.
     R, t = pose_beta
     a, r = core(alpha, (R.T @ pose_alpha[0], R.T @ (pose_alpha[1] - t)))
@@ -293,15 +296,6 @@ def from_afar(alpha, pose_alpha, beta, pose_beta, n):
         n = n / np.linalg.norm(n)
     radii = [shape["radius"] if shape["kind"] == "capsule" else 0.0 for shape in (alpha, beta)]
     return x - radii[0] * n, y + radii[1] * n - n / 8, n
-
-
-def closest_points(alpha, pose_alpha, beta, pose_beta):
-    """Closest points of two shapes in the conventions of the vectors.
-
-    n points from alpha's body to beta's, also in penetration, where phi is negative.
-    """
-    phi, at_alpha, at_beta, n = closest(alpha, pose_alpha, beta, pose_beta)
-    return phi, at_alpha, at_beta, n
 
 
 def distance(case):

@@ -57,7 +57,7 @@ def difference(body, target, q):
         _, b, c = coefficients(np.sqrt(w @ w))
         W = skew(w)
         V = AXES + b * W + c * W @ W
-        return np.append(cramer_solution(V, rotation(q[3:]).T @ (target[:3] - q[:3])), w)
+        return np.append(np.linalg.solve(V, rotation(q[3:]).T @ (target[:3] - q[:3])), w)
     if kind in ("planar", "continuous"):
         c, s = q[-2:]
         c1, s1 = target[-2:]
@@ -70,12 +70,6 @@ def difference(body, target, q):
         size = a * a + b * w * b * w
         return np.array([(a * x + b * w * y) / size, (a * y - b * w * x) / size, w])
     return target - q
-
-
-def cramer_solution(V, x):
-    """The y of V y = x in three dimensions, by the cofactors of V."""
-    cofactors = np.array([np.cross(V[:, i - 2], V[:, i - 1]) for i in range(3)])
-    return cofactors @ x / (cofactors[0] @ V[:, 0])
 
 
 def integrate(case):

@@ -14,7 +14,7 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.solve.backends import BACKENDS, Options, installed
 
-QPSOLVERS, CVXPY, FUNCTION = DOORS = ("qpsolvers", "cvxpy", "function")
+QPSOLVERS, CVXPY, FUNCTION = ("qpsolvers", "cvxpy", "function")
 """Matrices to qpsolvers; a problem to CVXPY; ``(P, q, G, h, **options) -> (x, z, status)``."""
 BY_NAME = (QPSOLVERS, CVXPY)
 
@@ -77,7 +77,7 @@ class Solver:
     ----------
     name : str
     door : str
-        One of ``DOORS``.
+        ``"qpsolvers"``, ``"cvxpy"`` or ``"function"``.
     target : str or bytes
         The solver's name there; or a function, pickled: see :func:`function_solver`.
     options : mapping of str to mapping
