@@ -137,6 +137,9 @@ def status(options: argparse.Namespace) -> int:
 def _option(error: InputError, options: argparse.Namespace) -> str | None:
     """The option, as the user wrote it, that holds the value of an error; or None."""
     written = getattr(options, str(error.field), None)
+    if isinstance(written, list):  # each is NAME=VALUE, and the error is about a name
+        of_name = [setting for setting in written if setting.partition("=")[0] == error.value]
+        return f"--{error.field} {shlex.quote(of_name[-1])}" if of_name else None
     if written is None or written is False or written != error.value:
         return None
     word = f"{written:g}" if isinstance(written, float) else str(written)

@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import InputError, ModelError, ScenarioError, check_kind
-from quasistatic_ref.files.scenario.checks import ignored_findings
+from quasistatic_ref.files.scenario.checks import checked_fields, ignored_findings
 from quasistatic_ref.files.scenario.overrides import Changes, about_changes, apply_settings
 from quasistatic_ref.files.scenario.scenario import Scenario
 from quasistatic_ref.files.scenario.scenario_table import LIMITS, SOLVER, TOP, fields_of
@@ -179,7 +179,11 @@ def _scenario_of(
     for name in top.names_left():
         if name not in FIELDS:
             problem = f"is not for a MuJoCo scene{suggestion(name, FIELDS)}"
-            raise ScenarioError(problem, field=name, value=tables[name])
+            field, value = name, tables[name]
+            while isinstance(value, Mapping) and value:  # down to what a change wrote
+                key, value = next(iter(value.items()))
+                field = f"{field}.{key}"
+            raise ScenarioError(problem, field=field, value=value)
     top.take("roots", None)
     read = fields_of(top, TOP)
     h = read("h")
@@ -188,8 +192,8 @@ def _scenario_of(
     stiffness = top.take("stiffness", {})
     if not isinstance(stiffness, Mapping):
         raise ScenarioError("must name joints: stiffness.JOINT=VALUE", field="stiffness")
-    of_solver = fields_of(read("solver"), SOLVER)
-    of_limits = fields_of(read("limits"), LIMITS)
+    of_solver = checked_fields(read("solver"), SOLVER)
+    of_limits = checked_fields(read("limits"), LIMITS)
     ignored = ignored_findings(read("findings"))
     if data is None:
         keys = () if callable(targets) or isinstance(targets, str | Path) else targets

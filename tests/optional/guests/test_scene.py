@@ -206,6 +206,23 @@ def test_joints_without_servos_have_springs_and_fields_their_names():
         mujoco_scenario(model(), gravity=[0, 0, -1])
 
 
+@pytest.mark.parametrize(
+    ("setting", "problem"),
+    [
+        ("contacts.a.mu_v=3", "is not for a MuJoCo scene"),
+        ("contacts.a.mu_v", "must be table.field=value"),
+        ("solver.frob=1", "is unknown"),
+        ("limits.reach=-1", "must "),
+    ],
+)
+def test_a_setting_that_a_scene_has_not_is_blamed_itself(setting, problem, tmp_path, cli):
+    """And not the file, in which it does not stand."""
+    path = tmp_path / "scene.xml"
+    path.write_text(SCENE)
+    said = cli("run", path, "--set", setting, "--out", tmp_path, status=2).err
+    assert said.startswith(f"quasistatic-ref: --set {setting}: {problem}")
+
+
 @pytest.mark.extra("view")
 def test_the_command_runs_a_scene(tmp_path, cli):
     """With keyframes, a table and a page."""
