@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 STRONGER = "raise friction of the geoms, or what presses the bodies together"
 SPINS = "set condim 4 of the geoms, and the second number of their friction"
+HOLDS = "raise the second number of friction of the geoms, or what presses the bodies together"
 RESTS = "do without what MuJoCo has and a step has not: rolling friction"
 STIFFER = "change solref and solimp of the geoms, or take masses that differ less"
 APART = "change size or pos, or add contact/exclude for bodies that may overlap"
@@ -224,11 +225,14 @@ def _slides(body: Body, through: Sequence[Contact]) -> Named:
 def _turns(body: Body, through: Sequence[Contact]) -> Named:
     mu_omega = 1e3 * max(c.mu_omega for c in through)
     about = "the line of the two points" if len(through) == 2 else "the normal"
-    needed = 1e3 * body.torque / sum(c.exact.normal for c in through if c.exact)
+    sides = [c.exact for c in through if c.exact]
+    torque = body.torque + sum(side.torque for side in sides)
+    needed = 1e3 * torque / sum(side.normal for side in sides)
     cause = f"torsional friction {mu_omega:.3g} mm: {body.name} turns about {about}"
     cause += f"; {needed:.3g} mm or more would hold it" if needed else ""
     cause += f"; in MuJoCo, {_turning(body)}"
-    return _finding("turns", body, through, SPINS, cause, {"mu_omega_mm": mu_omega})
+    remedy = HOLDS if mu_omega else SPINS
+    return _finding("turns", body, through, remedy, cause, {"mu_omega_mm": mu_omega})
 
 
 def _turning(body: Body) -> str:

@@ -5,7 +5,7 @@ No geometry is translated. Contacts, frames, friction, Jacobians, masses and for
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -108,9 +108,16 @@ def mujoco_step(
 
 
 def step_with(
-    model: MjModel, data: MjData, h: float, depth: str, drag: Array | float = 0.0
+    model: MjModel,
+    data: MjData,
+    h: float,
+    depth: str,
+    drag: Array | float = 0.0,
+    hops: Collection[tuple[int, int]] = (),
 ) -> tuple[StepData, Coordinates]:
     """The step of :func:`mujoco_step` under a further load, `drag` (nv,) or 0 [N, N m].
+
+    Pairs of geoms that hop count as touching.
 
     Raises
     ------
@@ -121,7 +128,7 @@ def step_with(
         raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
     h = seconds(h)
     as_is = depth == "as is"
-    state = mujoco_state(model, data)
+    state = mujoco_state(model, data, hops)
     check(state)
     state.run()
     of_state = loads(state)

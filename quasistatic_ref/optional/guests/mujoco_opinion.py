@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Mapping
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.numbers.arrays import positive_number
+from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.numbers.arrays import Array, positive_number
 from quasistatic_ref.optional.guests import touches
 from quasistatic_ref.optional.guests.compared import WINDOW, Compared, Mover, MujocoAnswer
 from quasistatic_ref.optional.guests.fates import kind_of
@@ -16,15 +19,20 @@ from quasistatic_ref.optional.guests.mujoco import step_with
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, awake, mujoco_state
 from quasistatic_ref.optional.guests.opinion import MOVES, Opinion
 from quasistatic_ref.optional.guests.overlaps import misplaced, unlisted
-from quasistatic_ref.optional.guests.settled import fullest, run, velocities
+from quasistatic_ref.optional.guests.settled import run, velocities, window
+from quasistatic_ref.parts import coulomb_solution
+from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.tolerances import CREEP
+from quasistatic_ref.tolerances import ACCURACY, CREEP
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
 
+    from quasistatic_ref.certify.solution import StepSolution
+    from quasistatic_ref.step.data import StepData
+
 SHORT = 0.01
-"""Time step for forces of what slides, over MuJoCo's [-]: lift-off is 1e-4 of the former."""
+"""Time step for forces of what slides, over MuJoCo's [-]: springs give way by 1e-4 as much."""
 DRAG = "dampers: their forces at the present velocity are loads"
 
 
@@ -71,28 +79,30 @@ def mujoco_opinion(
     """
     tolerance = positive_number(tolerance, "tolerance")
     mujoco_state(model, data).run()  # refuses what is no state
-    data = fullest(model, data, WINDOW)
-    state = mujoco_state(model, data)
+    seen = window(model, data, WINDOW)
+    data = seen.data
+    g = float(np.linalg.norm(model.opt.gravity))
+    near = seen.near(model, g * WINDOW**2 / 8) if seen.hops else model  # as high as a hop may be
+    state = mujoco_state(near, data, seen.hops)
     state.run()
     now = copy.copy(data)
-    state.mujoco.mj_forward(awake(model), now)
-    theirs = _answer(state, data, now)
+    state.mujoco.mj_forward(awake(near), now)
+    theirs = _answer(state, data, now, seen.hops)
     rest = state.data
     drag = now.qfrc_passive + now.qfrc_actuator - rest.qfrc_passive - rest.qfrc_actuator
     h = float(model.opt.timestep)
-    step, coordinates = step_with(model, data, h, "closed", drag)
+    step, coordinates = step_with(near, data, h, "closed", drag, seen.hops)
     T = coordinates.T
     answer = solve_step(step)
     exact = T @ answer.delta_q / h
     both = Compared(theirs, answer, exact / h, exact)
     contacts = tuple(both.contacts())
-    if any(c.exact and c.exact.slip > tolerance for c in contacts):
-        # What slides lifts off by a part of its way, about a h^2, against what presses it.
-        short = solve_step(step_with(model, data, h * SHORT, "closed", drag)[0])
+    if any(c.exact and max(c.exact.slip, c.mu_omega * c.exact.spin) > tolerance for c in contacts):
+        short = _sliding(step_with(near, data, h * SHORT, "closed", drag, seen.hops)[0])
         both = Compared(theirs, short, T @ short.delta_q / (h * SHORT) ** 2, exact)
         contacts = tuple(both.contacts())
     bodies = tuple(both.bodies())
-    weight = float(model.body_mass.sum() * np.linalg.norm(model.opt.gravity))
+    weight = float(model.body_mass.sum()) * g
     every = [*findings(contacts, bodies, weight, tolerance, model), *unlisted(state)]
     if start is not None:
         first = mujoco_state(model, start)
@@ -114,8 +124,23 @@ def mujoco_opinion(
     )  # fmt: skip
 
 
-def _answer(state: MujocoState, data: MjData, now: MjData) -> MujocoAnswer:
-    """MuJoCo's forces in a state: at rest, as the user has it, and `now`, by ``mj_forward``."""
+def _sliding(step: StepData) -> StepSolution:
+    """A step in which something slides: by Coulomb's law, where nothing lifts off as it slides.
+
+    Where that has no answer, the convex step, from which things lift off by a part of their way.
+    """
+    with suppress(QuasistaticError):
+        return coulomb_solution(step, solver_for(step), ACCURACY)
+    return solve_step(step)
+
+
+def _answer(
+    state: MujocoState, data: MjData, now: MjData, hops: Mapping[tuple[int, int], Array]
+) -> MujocoAnswer:
+    """MuJoCo's forces in a state: at rest, as the user has it, and `now`, by ``mj_forward``.
+
+    Of what hops they are means, as of :class:`Window`.
+    """
     model = state.model
     active = awake(model)
     moves = copy.copy(now)
@@ -124,7 +149,7 @@ def _answer(state: MujocoState, data: MjData, now: MjData) -> MujocoAnswer:
     mean, later = velocities(active, moves, WINDOW)
     return MujocoAnswer(
         contacts=tuple(touches.contacts(state)),
-        wrenches=touches.forces(state, now),
+        wrenches=touches.forces(state, now, hops),
         movers=tuple(_mover(state, b) for b in np.flatnonzero(model.body_jntnum).tolist()),
         M=state.M,
         gravity=model.opt.gravity,

@@ -7,6 +7,7 @@ rounding, 1e-15 m/rad. As a row of a step it would bear any load, by a force of 
 from __future__ import annotations
 
 import copy
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType
@@ -46,12 +47,15 @@ class MujocoState:
         The copy.
     data : mujoco.MjData
         The copy.
+    hops : collection of tuple of int
+        Pairs of geoms that count as touching, though they may have parted.
     """
 
     mujoco: ModuleType
     model: MjModel
     adapted: MjModel
     data: MjData
+    hops: Collection[tuple[int, int]] = ()
 
     @property
     def M(self) -> Array:
@@ -177,8 +181,12 @@ def check_finite(model: MjModel, data: MjData) -> None:
             raise ModelError("must contain finite numbers only", field=f"data.{name}")
 
 
-def mujoco_state(model: MjModel, data: MjData) -> MujocoState:
+def mujoco_state(
+    model: MjModel, data: MjData, hops: Collection[tuple[int, int]] = ()
+) -> MujocoState:
     """Copies of a model and of its state at zero velocity, before ``run``.
+
+    `hops` is as of :class:`MujocoState`.
 
     Raises
     ------
@@ -199,7 +207,7 @@ def mujoco_state(model: MjModel, data: MjData) -> MujocoState:
     )
     at_rest = copy.copy(data)
     at_rest.qvel[:] = 0.0
-    state = MujocoState(mujoco, model, adapted, at_rest)
+    state = MujocoState(mujoco, model, adapted, at_rest, hops)
     if not model.nv:
         bodies = [i for i in range(1, model.nbody) if model.body_mocapid[i] < 0]
         which = (

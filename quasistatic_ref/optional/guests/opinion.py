@@ -50,7 +50,7 @@ TABLES = Tables({
         "mu_v": Field("number", "friction", "-", least=0),
         "mu_omega": Field("number", "torsional friction", "m", least=0),
         "pair": Field("text", "what touches, without the number of the contact"),
-        "theirs": Field("table", "MuJoCo's answer", of=BEARING),
+        "theirs": Field("table", "MuJoCo's answer; a mean over 0.1 s of what hops", of=BEARING),
         "exact": Field("a table or null", "null where joints or equalities bear any force",
                        schema=NULL),
     },

@@ -5,11 +5,11 @@ from __future__ import annotations
 import copy
 from collections.abc import Mapping
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, ModelError
+from quasistatic_ref.errors import InputError, ModelError, about_field
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.mujoco_state import check_finite
@@ -58,8 +58,9 @@ def settled(
         raise InputError("must be zero or more seconds", field="settle", value=seconds)
     if keyframe is not None:
         mujoco.mj_resetDataKeyframe(model, data, numbered(model, "keyframe", keyframe))
-    for name, value in (control or {}).items():
-        data.ctrl[numbered(model, "actuator", name)] = value
+    with about_field("control"):
+        for name, value in (control or {}).items():
+            data.ctrl[numbered(model, "actuator", name)] = value
     check_finite(model, data)
     run(model, data, seconds)
     return data
@@ -86,8 +87,35 @@ def velocities(model: MjModel, data: MjData, seconds: float) -> tuple[Array, Arr
     return means[0], means[1]
 
 
-def fullest(model: MjModel, data: MjData, seconds: float) -> MjData:
-    """The state with most contacts from now until some seconds [s] later: the first of them.
+class Window(NamedTuple):
+    """What MuJoCo's contacts do in a while.
+
+    Parameters
+    ----------
+    data : mujoco.MjData
+        The first state with most contacts.
+    hops : dict of tuple of int to ndarray, shape (4,)
+        Of the pairs of geoms that part and meet again, the mean force on the second, in the world
+        frame [N], and the mean torque about the normal [N m].
+    """
+
+    data: MjData
+    hops: dict[tuple[int, int], Array]
+
+    def near(self, model: MjModel, reach: float) -> MjModel:
+        """A copy of a model that lists contacts of hopping geoms up to a distance `reach` [m].
+
+        They push no sooner: that is the margin's.
+        """
+        near = copy.copy(model)
+        of = np.unique([geom for pair in self.hops for geom in pair]).astype(int)
+        near.geom_gap[of] += reach
+        near.pair_gap[np.isin(model.pair_geom1, of) | np.isin(model.pair_geom2, of)] += reach
+        return near
+
+
+def window(model: MjModel, data: MjData, seconds: float) -> Window:
+    """What MuJoCo's contacts do from a state on, for some `seconds` [s].
 
     What slides fast hops in MuJoCo: at one instant it may touch with one corner, or with none.
 
@@ -99,14 +127,27 @@ def fullest(model: MjModel, data: MjData, seconds: float) -> MjData:
     mujoco = needed_package("mujoco", "engines", "a MuJoCo scene")
     now = copy.copy(data)
     mujoco.mj_forward(model, now)
-    most = copy.copy(data)
-    count = now.ncon
-    for _ in range(round(seconds / model.opt.timestep)):
-        run(model, now, model.opt.timestep)
+    most, count = data, now.ncon
+    steps = max(round(seconds / model.opt.timestep), 1)
+    touches: dict[tuple[int, int], Array] = {}
+    sums: dict[tuple[int, int], Array] = {}
+    for k in range(steps + 1):
+        if k:
+            run(model, now, model.opt.timestep)
+            mujoco.mj_forward(model, now)
         if now.ncon > count:
-            most = copy.copy(now)
-            count = now.ncon
-    return most
+            most, count = copy.copy(now), now.ncon
+        force = np.zeros(6)
+        for i, touch in enumerate(now.contact):
+            pair = (int(touch.geom[0]), int(touch.geom[1]))
+            mujoco.mj_contactForce(model, now, i, force)
+            force[0] += touch.adhesion
+            world = touch.frame.reshape(3, 3).T @ force[:3]
+            touches.setdefault(pair, np.zeros(steps + 1, dtype=bool))[k] |= touch.exclude == 0
+            sums[pair] = sums.get(pair, np.zeros(4)) + np.array([*world, force[3]])
+    changes = {pair: np.diff(on.astype(int)) for pair, on in touches.items()}
+    back = [pair for pair, ways in changes.items() if (ways > 0).any() and (ways < 0).any()]
+    return Window(most, {pair: sums[pair] / (steps + 1) for pair in back})
 
 
 def run(model: MjModel, data: MjData, seconds: float) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -79,7 +79,8 @@ def contacts(state: MujocoState) -> list[StateContact]:
 
     A name has MuJoCo's number, and the geoms, or the bodies of geoms without names. The gap is that
     at which MuJoCo lets a contact push. A gap of up to ``DEEP`` of a contact with adhesion counts
-    as closed: MuJoCo lets such a contact rest a little off the surface.
+    as closed: MuJoCo lets such a contact rest a little off the surface. So does one of geoms that
+    hop.
 
     Raises
     ------
@@ -96,10 +97,12 @@ def contacts(state: MujocoState) -> list[StateContact]:
         name = f"{i}: {pair}"
         phi = float(touch.dist - touch.includemargin)
         sticks = touch.adhesion > 0 and phi <= DEEP
+        hops = tuple(touch.geom.tolist()) in state.hops
         frame = touch.frame.reshape(3, 3).copy()
         bodies = (mover_name(state, touch.geom[0]), mover_name(state, touch.geom[1]))
         every.append(
-            StateContact(name, pair, bodies, phi, float(touch.dist), phi <= 0 or sticks, frame,
+            StateContact(name, pair, bodies, phi, float(touch.dist), phi <= 0 or sticks or hops,
+                         frame,
                          jacobian(state, touch), *friction(touch, name))
         )  # fmt: skip
     return every
@@ -171,15 +174,25 @@ def rolling_words(state: MujocoState, every: Sequence[StateContact]) -> Iterator
             yield f"contact[{contact.name}]: rolling friction, for which there is no row"
 
 
-def forces(state: MujocoState, data: MjData) -> Array:
+def forces(
+    state: MujocoState, data: MjData, means: Mapping[tuple[int, int], Array] | None = None
+) -> Array:
     """MuJoCo's (f_d1, f_d2, f_n, tau_n) of its contacts in a state, (n_c, 4) [N, N m].
 
-    They include what balances adhesion, which MuJoCo takes off them.
+    They include what balances adhesion, which MuJoCo takes off them. Contacts of a pair of geoms
+    in `means` share its mean, the force on the second geom [N] and the torque [N m], (4,).
     """
     its = np.zeros((data.ncon, 6))
     for i in range(data.ncon):
         state.mujoco.mj_contactForce(state.model, data, i, its[i])
     its[:, 0] += data.contact.adhesion
+    pairs = [tuple(touch.geom.tolist()) for touch in data.contact]
+    for pair, mean in (means or {}).items():
+        at = [i for i, geoms in enumerate(pairs) if geoms == pair]
+        for i in at:
+            frame = data.contact[i].frame.reshape(3, 3)
+            its[i, :4] = [*(frame @ mean[:3]), mean[3]]
+            its[i] /= len(at)
     return its[numbers(state)][:, [1, 2, 0, 3]]
 
 

@@ -162,7 +162,7 @@ def test_the_command_prints_json_of_the_schema_and_ends_with_1(tmp_path, cli):
 REFUSED = {
     "joint[x].springyield": "",
     "--keyframe gripp": "--keyframe gripp",
-    "actuator": "--control left=1",
+    "--control left=1": "--control left=1",
     "--control": "--control left",
     "--control v": "--control v=nan",
     "--tolerance 0": "--tolerance 0",
@@ -348,17 +348,39 @@ def test_bodies_that_may_overlap_are_not_found():
     assert {one.name for one in opinion(mjcf(two, exclude), 0.0).findings} == {"moving"}
 
 
-@pytest.mark.parametrize("seconds", [0.2, 0.3, 0.5, 0.7, 1.0, 2.0])
-@pytest.mark.parametrize(("mu", "slope"), [(0.3, 0.45), (0.5, 0.6), (0.6, 0.62)])
-def test_what_slides_and_hops_is_never_without_a_finding(seconds, mu, slope):
-    """It touches in a quarter of MuJoCo's steps, with some of its corners."""
-    down = 9.81 / np.hypot(1.0, slope)
-    gravity = f'<option gravity="{slope * down} 0 {-down}" cone="elliptic"/>'
+@pytest.mark.parametrize("cone", ["elliptic", "pyramidal"])
+@pytest.mark.parametrize("seconds", [0.2, 0.5, 1.0, 2.0])
+@pytest.mark.parametrize(("mu", "slope"), [(0.3, 0.45), (0.5, 0.6), (0.2, 0.3), (0.6, 0.62)])
+def test_what_slides_and_hops_is_told_what_its_friction_holds(seconds, mu, slope, cone):
+    """It is mu over slope, though it touches in a quarter of MuJoCo's steps, with some corners.
+
+    MuJoCo's mean force along the normal is m g cos: but for the momentum of a hop.
+    """
+    down = GRAVITY / np.hypot(1.0, slope)
+    gravity = f'<option gravity="{slope * down} 0 {-down}" cone="{cone}"/>'
     box = f'type="box" size=".1 .1 .1" mass="1" friction="{mu}"'
     floor = f'<geom type="plane" size="5 5 .1" friction="{mu}"/>'
     scene = f"<mujoco>{gravity}<worldbody>{floor}{free('box', box, '0 0 .1')}</worldbody></mujoco>"
     said = opinion(scene, seconds)
-    assert {one.name for one in said.findings} & {"slides", "moving"}
+    (slides,) = said.findings
+    assert slides.name == "slides"
+    assert slides.numbers == {"share": pytest.approx(mu / slope, rel=1e-3)}
+    assert sum(c.exact.normal for c in said.contacts) == pytest.approx(down, rel=1e-3)
+    assert sum(c.theirs.normal for c in said.contacts) == pytest.approx(down, rel=0.3)
+
+
+def test_what_spins_and_hops_is_told_what_would_hold_it():
+    """0.25 N m about the normal of 9.81 N: 25.5 mm, of which it has 20."""
+    rough = 'friction="1 0.02 0" condim="4"'
+    floor = f'<geom type="plane" size="5 5 .1" {rough}/>'
+    ball = (
+        f'<body name="ball" pos="0 0 .0998"><freejoint name="f"/><geom size=".1" mass="1" {rough}/>'
+    )
+    motor = '<actuator><motor name="m" joint="f" gear="0 0 0 0 0 1"/></actuator>'
+    scene = mjcf(f"{floor}{ball}</body>", motor, '<option cone="elliptic"/>')
+    (turns,) = opinion(scene, control={"m": 0.25}).findings
+    assert "25.5 mm or more would hold it" in turns.cause
+    assert turns.remedy.startswith("raise the second number of friction")
 
 
 def test_what_falls_beside_the_scene_is_said():
