@@ -136,30 +136,30 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
         return _cloud_on_solid(pair, a, b)
     if isinstance(a.shape, PointCloud):
         return _cloud_on_solid(pair, b, a).swapped()
-    if isinstance(a.shape, HalfSpace):
-        return _from_foot(pair, a, b, a.shape)
+    if _places(a, b) < FAR * pair.size:
+        return _solid_on_solid(pair, a, b)
+    a, b, origin = _from_near(a, b)
+    points = _solid_on_solid(pair, a, b)
+    return points._replace(alpha=points.alpha + origin, beta=points.beta + origin)
+
+
+def _places(a: ShapeInWorld, b: ShapeInWorld) -> float:
+    """The largest coordinate of the places of two solids [m]."""
+    offsets = [abs(s.shape.offset) for s in (a, b) if isinstance(s.shape, HalfSpace)]
+    return float(max(np.abs(a.t).max(), np.abs(b.t).max(), *offsets, 0.0))
+
+
+def _from_near(a: ShapeInWorld, b: ShapeInWorld) -> tuple[ShapeInWorld, ShapeInWorld, Array]:
+    """Two solids as they are seen from a point of them, and that point, shape (3,) [m]."""
     if isinstance(b.shape, HalfSpace):
-        return _from_foot(pair, b, a, b.shape)
-    return _solid_on_solid(pair, a, b)
-
-
-def _from_foot(
-    pair: ContactPair, plane: ShapeInWorld, solid: ShapeInWorld, half_space: HalfSpace
-) -> ClosestPoints:
-    """The contacts of a solid on a half-space, far from the origin seen from its foot there."""
-    places = max(np.abs(plane.t).max(), np.abs(solid.t).max(), abs(half_space.offset))
-    foot = np.zeros(3)
-    far = not places < FAR * pair.size
-    if far:
-        pose = plane.R, plane.t
-        foot, of_plane, above = on_plane(half_space.normal, half_space.offset, pose, solid.t)
-        plane = plane._replace(t=of_plane)
-        solid = solid._replace(t=above)
-    sides = (plane, solid) if pair.alpha.shape is half_space else (solid, plane)
-    points = _solid_on_solid(pair, *sides)
-    if not far:
-        return points
-    return points._replace(alpha=points.alpha + foot, beta=points.beta + foot)
+        b, a, foot = _from_near(b, a)
+        return a, b, foot
+    if isinstance(a.shape, HalfSpace):
+        foot, of_plane, above = on_plane(a.shape.normal, a.shape.offset, a.pose, b.t)
+        return a._replace(t=of_plane), b._replace(t=above), foot
+    away = _places(a, b)
+    seen = a._replace(t=a.t - b.t, away=away), b._replace(t=np.zeros(3), away=away)
+    return *seen, b.t
 
 
 def _solid_on_solid(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> ClosestPoints:
@@ -211,7 +211,10 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
     within : float
         [m].
     """
-    phi = search(replace(pair, k=pair.candidates), *in_world(pair, R, t)).rank
+    a, b = in_world(pair, R, t)
+    if not (pair.has_cloud or _places(a, b) < FAR * pair.size):
+        a, b, _ = _from_near(a, b)
+    phi = search(replace(pair, k=pair.candidates), a, b).rank
     return int(np.count_nonzero(phi <= phi.min() + within + pair.resolution))
 
 
@@ -364,7 +367,7 @@ def _cloud_on_solid(pair: ContactPair, solid: ShapeInWorld, cloud: ShapeInWorld)
     kept = closest(rounded_gaps(phi, pair.resolution), pair.k)
     surface = cloud_surface(pair.name, solid, cloud, relative, x[kept], phi[kept], normal[kept])
     point = near[kept]
-    return contacts_over(solid[1:], cloud[1:], cloud.shape.points[point], 0.0, surface, point)
+    return contacts_over(solid.pose, cloud.pose, cloud.shape.points[point], 0.0, surface, point)
 
 
 def _corners_on_solid(
@@ -379,7 +382,7 @@ def _corners_on_solid(
     near = OVER_FACE * solid.shape.extent + within
     surface = corner_surface(solid.shape, x, product(solid.R.T, n), within, near)
     number = np.arange(len(corners))
-    return contacts_over(solid[1:], other[1:], corners, radius, surface, number)
+    return contacts_over(solid.pose, other.pose, corners, radius, surface, number)
 
 
 def relative_pose(solid: ShapeInWorld, other: ShapeInWorld) -> Array:

@@ -29,8 +29,9 @@ between them. Deeper, the push-out along it would part them along neither."""
 
 FAR: Final = 1e3
 """Places relative to a solid's size [-] up to which their rounding, 1e-16 of them, is far below the
-length to which distances are rounded, 1e-9 of the size. Beyond, what is over a half-space is seen
-from its foot there: its lowest corners rank as the closest pair does, and hold it in their hull."""
+length to which distances are rounded, 1e-9 of the size. Beyond, a pair is seen from a point of it,
+what is over a half-space from its foot there: corners and crossings then rank as the closest pair
+does, and hold it in their hull."""
 
 UNIQUE_NORMAL, OF_PAIR, BISECTOR, OF_CLOUD = range(4)
 """How a normal was chosen: no tie; as the pair's; between equal gaps of zero; as a cloud's."""
@@ -45,7 +46,8 @@ SAYS = {
 
 def rounding(solid: ShapeInWorld, other: ShapeInWorld) -> float:
     """The largest difference [m] of two heights that rounding can cause."""
-    places = float(max(np.abs(solid.t).max(), np.abs(other.t).max()))
+    here = float(max(np.abs(solid.t).max(), np.abs(other.t).max()))
+    places = max(here, solid.away, other.away)
     extents = [s.shape.extent for s in (solid, other) if not isinstance(s.shape, PointCloud)]
     return TIED_FACES * max([places, *(x for x in extents if np.isfinite(x))])
 

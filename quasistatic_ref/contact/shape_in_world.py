@@ -10,11 +10,21 @@ from quasistatic_ref.shapes.placed_shape import Shape
 
 
 class ShapeInWorld(NamedTuple):
-    """A shape and its pose in the world: x_world = R x + t."""
+    """A shape and its pose in the world: x_world = R x + t.
+
+    Of a pair that is far away, and seen from a point of it, `away` is the largest coordinate of its
+    places in the world [m]: they are rounded there.
+    """
 
     shape: Shape
     R: Array
     t: Array
+    away: float = 0.0
+
+    @property
+    def pose(self) -> "Pose":
+        """R and t."""
+        return self.R, self.t
 
     def farthest(self, direction: Array) -> Array:
         """The farthest point along a direction, shape (3,) [m]; both in the world frame."""

@@ -4,6 +4,7 @@
 """
 
 import itertools
+from functools import partial
 
 import numpy as np
 import pytest
@@ -100,6 +101,39 @@ def test_a_box_far_away_is_searched_as_one_at_the_origin(monkeypatch, upside_dow
         assert bits(points.phi[4 * i :][:4]) == bits(points.phi[:4])
         assert bits(points.point[4 * i :][:4]) == bits(points.point[:4])
         assert np.abs(points.beta[4 * i :][:4] - t - points.beta[:4]).max() <= 2.0**-35
+
+
+CLOSED = [kind for kind in KINDS if not {"half-space", "cylinder"} & {*kind}]
+"""Pairs of solids with closed forms, all about as large as each other."""
+
+
+@pytest.mark.parametrize("away", [2.0**10, 2.0**17])
+@pytest.mark.parametrize("kind", CLOSED, ids="-".join)
+def test_two_solids_far_away_are_searched_as_at_the_origin(kind, away, count):
+    """Singly and at once; places are whole multiples of 2^-20 m, so that both are the same scene.
+
+    Where an edge ends on another, rounding decides whether they cross: that is rare.
+    """
+    there = away * np.array([1.0, -1.0, 0.5])
+    other = 0
+    scenes = range(max(40, count // 10))
+    for seed in scenes:
+        rng = np.random.default_rng(seed)
+        shapes = [placed_shape(SOLIDS[name](rng), i + 1) for i, name in enumerate(kind)]
+        one = pair(*shapes, int(rng.choice([1, 2, 4, 12])))
+        poses = [(turn(rng), np.round(place(rng) * 2.0**20) / 2.0**20) for _ in shapes]
+        near = standing_links(*poses)
+        far = standing_links(*((R, t + there) for R, t in poses))
+        for search in (AllPairs([one]).closest_points, partial(one_by_one, [one])):
+            here, seen = searched(search, near), searched(search, far)
+            if isinstance(here, str):
+                continue
+            same = bits(here.point) == bits(seen.point) and bits(here.tie) == bits(seen.tie)
+            other += not same
+            assert not same or np.abs(here.phi - seen.phi).max() <= 1e-15
+            assert not same or np.abs(here.n - seen.n).max() <= 1e-11
+            assert not same or np.abs(here.beta + there - seen.beta).max() <= 2.0**-53 * 4 * away
+    assert other <= 0.1 * len(scenes)
 
 
 def searched(search, *arguments):

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.contact.batches.batch import Batch, farthest_places
+from quasistatic_ref.contact.batches.batch import Batch
 from quasistatic_ref.contact.distance import ClosestPoints, contacts_over
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import FAR, TIED_FACES, UNIQUE_NORMAL
@@ -48,21 +48,19 @@ class Balls(Batch):
         """Signed distances, (P, N) [m], and normals of points, both (P, N, 3), on the solids."""
 
     @abstractmethod
-    def known(self, nearest: Array, places: Array) -> Mask:
+    def known(self, nearest: Array, seen: Array, places: Array) -> Mask:
         """Which pairs have contacts that follow from the points, shape (P,).
 
         Parameters
         ----------
-        nearest, places : ndarray, shape (P,)
-            Distance of the first contact, and the farthest of the places of both [m].
+        nearest, seen, places : ndarray, shape (P,)
+            Distance of the first contact; the largest coordinates of both places as they are seen,
+            and in the world [m].
         """
 
-    def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
-        """The contacts at the n_c points that rank first."""
-        return self.of_poses(*self.in_world(R, t)[:: self._turn])
-
-    def of_poses(self, solid: Pose, other: Pose) -> tuple[Mask, ClosestPoints]:
-        """The contacts that rank first, from the poses of the solids and of the others."""
+    def of_poses(self, alpha: Pose, beta: Pose, places: Array) -> tuple[Mask, ClosestPoints]:
+        """The contacts at the n_c points that rank first, of `places` (P,) [m]."""
+        solid, other = (alpha, beta)[:: self._turn]
         back = solid[0].mT
         x = rotated(product(back, other[0])[:, None], self._points)
         x += rotated(back, other[1] - solid[1])[:, None]
@@ -72,7 +70,7 @@ class Balls(Batch):
         first = np.arange(len(order))[:, None], order
         surface = phi[first], normal[first], np.full(order.shape, UNIQUE_NORMAL)
         points = contacts_over(solid, other, self._points[first], self._radius, surface, order)
-        known = self.known(points.phi[:, 0], farthest_places(solid, other))
+        known = self.known(points.phi[:, 0], self.places(alpha, beta), places)
         return known, points if self._turn > 0 else points.swapped()
 
 
@@ -85,30 +83,24 @@ class OnHalfSpaces(Balls):
         self._normal = np.array([plane.normal for plane in planes])[:, None]
         self._offset = np.array([plane.offset for plane in planes])
 
-    def of_poses(self, solid: Pose, other: Pose) -> tuple[Mask, ClosestPoints]:
-        """The n_c points that rank first, of what is far away seen from its foot."""
-        far = ~self.known(self.size, farthest_places(solid, other))
-        if not far.any():
-            return super().of_poses(solid, other)
-        far = far[:, None]
-        foot, of_plane, above = on_plane(self._normal[:, 0], self._offset, solid, other[1])
-        known, points = super().of_poses(
-            (solid[0], np.where(far, of_plane, solid[1])),
-            (other[0], np.where(far, above, other[1])),
-        )
-        far = far[:, None]
-        foot = foot[:, None]
-        alpha = np.where(far, points.alpha + foot, points.alpha)
-        beta = np.where(far, points.beta + foot, points.beta)
-        return known, points._replace(alpha=alpha, beta=beta)
+    def places(self, alpha: Pose, beta: Pose) -> Array:
+        """Largest coordinates of both places, or offsets, at poses of both, shape (P,) [m]."""
+        return np.asarray(np.maximum(super().places(alpha, beta), np.abs(self._offset)))
+
+    def from_near(self, alpha: Pose, beta: Pose) -> tuple[Array, Array, Array]:
+        """The foot of each pair on its plane, and both places seen from there, (P, 3) [m]."""
+        plane, other = (alpha, beta)[:: self._turn]
+        foot, *seen = on_plane(self._normal[:, 0], self._offset, plane, other[1])
+        of_alpha, of_beta = seen[:: self._turn]
+        return foot, of_alpha, of_beta
 
     def surface(self, x: Array) -> tuple[Array, Array]:
         """Heights (P, N) [m] over the planes, and their normals (P, N, 3), of `x` as of these."""
         return dot(x, self._normal) - self._offset[:, None], np.broadcast_to(self._normal, x.shape)
 
-    def known(self, nearest: Array, places: Array) -> Mask:
-        """Pairs that are not too far away, (P,); `nearest` and `places` are (P,) [m]."""
-        return np.asarray(np.maximum(places, np.abs(self._offset)) < FAR * self.size)
+    def known(self, nearest: Array, seen: Array, places: Array) -> Mask:
+        """Pairs that are not too far apart, (P,); `nearest`, `seen` and `places` are (P,) [m]."""
+        return np.asarray(seen < FAR * self.size)
 
 
 class Spheres(Balls):
@@ -127,7 +119,7 @@ class Spheres(Balls):
         phi, normal = distance_to_rounded_box(x[:, 0], self._cores, self._margins)
         return phi[:, None], normal[:, None]
 
-    def known(self, nearest: Array, places: Array) -> Mask:
-        """Pairs that do not touch by their cores, (P,); `nearest` and `places` are (P,) [m]."""
+    def known(self, nearest: Array, seen: Array, places: Array) -> Mask:
+        """Pairs that touch by no cores, (P,); `nearest`, `seen` and `places` are (P,) [m]."""
         within = TIED_FACES * np.maximum(places, self._extent)
         return np.asarray(nearest + (self._margins + self._radius[:, 0]) > within)

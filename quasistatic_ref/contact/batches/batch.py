@@ -7,6 +7,7 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.separations import FAR
 from quasistatic_ref.contact.shape_in_world import Pose, poses_in_world
 from quasistatic_ref.numbers.arrays import Array, Mask
 
@@ -29,7 +30,6 @@ class Batch(ABC):
         self.resolution = np.array([pair.resolution for pair in pairs])
         self.n_c = pairs[0].n_c
 
-    @abstractmethod
     def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
         """Ranked contacts of the pairs at poses of the links, (L, 3, 3) and (L, 3) [m].
 
@@ -40,13 +40,37 @@ class Batch(ABC):
         contacts : ClosestPoints
             With fields of shape (P, n_c, ...).
         """
+        alpha, beta = poses_in_world(self.links, self.poses, R, t)
+        places = self.places(alpha, beta)
+        far = ~(places < FAR * self.size)[:, None]
+        if not far.any():
+            return self.of_poses(alpha, beta, places)
+        origin, of_alpha, of_beta = self.from_near(alpha, beta)
+        alpha = alpha[0], np.where(far, of_alpha, alpha[1])
+        beta = beta[0], np.where(far, of_beta, beta[1])
+        known, points = self.of_poses(alpha, beta, places)
+        far = far[:, None]
+        origin = origin[:, None]
+        return known, points._replace(
+            alpha=np.where(far, points.alpha + origin, points.alpha),
+            beta=np.where(far, points.beta + origin, points.beta),
+        )
 
-    def in_world(self, R: Array, t: Array) -> tuple[Pose, Pose]:
-        """Poses of alpha's and beta's shapes, where the links have the given poses."""
-        return poses_in_world(self.links, self.poses, R, t)
+    @abstractmethod
+    def of_poses(self, alpha: Pose, beta: Pose, places: Array) -> tuple[Mask, ClosestPoints]:
+        """Ranked contacts at poses of both shapes, whose :meth:`places` in the world are (P,) [m].
 
+        Returns
+        -------
+        known, contacts
+            As of :meth:`contacts`.
+        """
 
-def farthest_places(*poses: Pose) -> Array:
-    """The largest coordinate of both places of each pair, shape (P,) [m]; `poses` are two."""
-    one, other = (np.abs(t).max(axis=1) for _, t in poses)
-    return np.asarray(np.maximum(one, other))
+    def places(self, alpha: Pose, beta: Pose) -> Array:
+        """Largest coordinates of both places of the pairs at poses of both, shape (P,) [m]."""
+        one, other = (np.abs(t).max(axis=1) for _, t in (alpha, beta))
+        return np.asarray(np.maximum(one, other))
+
+    def from_near(self, alpha: Pose, beta: Pose) -> tuple[Array, Array, Array]:
+        """A point of each pair at poses of both, and both places seen from there, (P, 3) [m]."""
+        return beta[1], alpha[1] - beta[1], np.zeros_like(beta[1])

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.contact.batches.batch import Batch, farthest_places
+from quasistatic_ref.contact.batches.batch import Batch
 from quasistatic_ref.contact.crossings import bearing, crossing_number, lines_crossed
 from quasistatic_ref.contact.distance import SPANNED, ClosestPoints, contacts_over, repeated
 from quasistatic_ref.contact.pairs import ContactPair
@@ -49,17 +49,17 @@ class Boxes(Batch):
         self._of_corners = [BoxOfEach.unchecked(half_extents=half) for half in each]
         self._corners = pairs[0].corners
 
-    def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
-        """The candidates that rank first.
+    def of_poses(self, alpha: Pose, beta: Pose, places: Array) -> tuple[Mask, ClosestPoints]:
+        """The candidates that rank first, of `places` (P,) [m].
 
         A pair is known where it has one normal, and where a candidate is at the place of the
         closest pair or none is as near: whether others span it is then plain.
         """
-        poses = self.in_world(R, t)
+        poses = alpha, beta
         nearest, (gaps, normals) = polytope_pairs(*self._solids, *poses)
-        phi, alpha, _, n = nearest
+        phi, on_alpha, _, n = nearest
         extent = np.maximum(*self._extents)
-        within = TIED_FACES * np.maximum(farthest_places(*poses), extent)
+        within = TIED_FACES * np.maximum(places, extent)
         rivals = np.abs(normals - n[:, None]).max(axis=2) > SAME_NORMAL / 4
         rivals &= gaps >= (phi - within)[:, None]
         a, b = self._solids
@@ -79,7 +79,7 @@ class Boxes(Batch):
 
         level = there & ~alone & (every.phi <= (phi + self.resolution)[:, None])
         level &= np.abs(every.n - n[:, None]).max(axis=2) <= SAME_NORMAL
-        away = norm(every.alpha - alpha[:, None])
+        away = norm(every.alpha - on_alpha[:, None])
         at_its_place = (level & (away <= SPANNED / 2 * self.size[:, None])).any(axis=1)
         known &= at_its_place | ~level.any(axis=1)
         there &= ~(alone & at_its_place[:, None]) & (dot(every.n, n[:, None]) >= TURNED)
