@@ -44,15 +44,14 @@ _HOMES = {
     "solve.step_problem": "StepProblem",
     "step.standard_form": "standard_form",
     "optional.extensions.extension": "Extension Symbols",
-    "certify.solution": "Certificate ContactForces SolverStatistics StepSolution Verdict",
+    "certify.optimum": "Certificate ContactForces SolverStatistics StepSolution",
     "files.solution": "SolutionFile load_solution save_solution",
     "solve.solve": "solve_step",
     "optional.guests.mujoco": "mujoco_step",
     "optional.guests.mujoco_opinion": "mujoco_opinion",
     "optional.guests.scene": "mujoco_scenario",
     "optional.coulomb.fixed_point": "coulomb_step CoulombSolution NoFixedPoint",
-    "certify.residuals": "Residuals optimality_residuals",
-    "certify.verification": "verify verify_answer",
+    "certify.verification": "verify verify_answer Verdict Residuals optimality_residuals",
     "optional.forces.forces": "contact_forces",
     # Any quadratic program.
     "optional.qp.exact": "exact_qp",
@@ -76,30 +75,28 @@ __all__ = ["__version__", "figures", *sorted(_HOME)]
 
 if TYPE_CHECKING:  # what editors and type checkers see: the same names, with their types
     from quasistatic_ref import figures as figures
-    from quasistatic_ref.certify.solution import Certificate as Certificate
-    from quasistatic_ref.certify.solution import ContactForces as ContactForces
     from quasistatic_ref.certify.failures import (
         StepIllPosed as StepIllPosed,
         StepInfeasible as StepInfeasible,
         StepNotSolved as StepNotSolved,
     )
-    from quasistatic_ref.certify.residuals import (
-        Residuals as Residuals,
-        optimality_residuals as optimality_residuals,
-    )
-    from quasistatic_ref.certify.solution import (
+    from quasistatic_ref.certify.optimum import (
+        Certificate as Certificate,
+        ContactForces as ContactForces,
         SolverStatistics as SolverStatistics,
         StepSolution as StepSolution,
+    )
+    from quasistatic_ref.certify.verification import (
+        Residuals as Residuals,
+        Verdict as Verdict,
+        optimality_residuals as optimality_residuals,
+        verify as verify,
+        verify_answer as verify_answer,
     )
     from quasistatic_ref.files.solution import (
         SolutionFile as SolutionFile,
         load_solution as load_solution,
         save_solution as save_solution,
-    )
-    from quasistatic_ref.certify.solution import Verdict as Verdict
-    from quasistatic_ref.certify.verification import (
-        verify as verify,
-        verify_answer as verify_answer,
     )
     from quasistatic_ref.contact.pairs import ContactPair as ContactPair
     from quasistatic_ref.errors import (

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
     from quasistatic_ref.certify.curved_cone import CurvedCone
-    from quasistatic_ref.certify.solution import ContactForces, StepSolution
+    from quasistatic_ref.certify.optimum import ContactForces, StepSolution
     from quasistatic_ref.contact.pairs import ContactPair
     from quasistatic_ref.files.mesh import Mesh
     from quasistatic_ref.files.scenario.bodies import BodyEntry, OfBodies

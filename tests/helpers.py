@@ -5,15 +5,14 @@ from dataclasses import replace
 import numpy as np
 
 from quasistatic_ref import InputError, load_step, standard_form
-from quasistatic_ref.certify.curved_cone import judge_of
-from quasistatic_ref.certify.residuals import optimality_residuals
-from quasistatic_ref.certify.verification import verify
+from quasistatic_ref.certify.verification import optimality_residuals, verify
 from quasistatic_ref.files.solution import load_solution
 from quasistatic_ref.lab.scenes import at_random
 from quasistatic_ref.lab.scenes.at_random import random_contacts
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import free_step, point_step, sphere_step
+from quasistatic_ref.step.cones import cone
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
 INTERFACES = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))
@@ -41,7 +40,8 @@ def changed(contacts, **changes):
 
 def residuals_of(step, delta_q, lam):
     """The residuals of an answer in the step's own cone."""
-    return optimality_residuals(standard_form(step), delta_q, lam, judge_of(step))
+    judge = cone(step.cone).judge(step.contacts.mu)
+    return optimality_residuals(standard_form(step), delta_q, lam, judge)
 
 
 def first_step(scenario, simulator=None):

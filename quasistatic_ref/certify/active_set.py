@@ -237,7 +237,7 @@ def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:
     Returns
     -------
     list of int
-        A start for :func:`~quasistatic_ref.certify.exact.step_optimum`, as good as the answer.
+        A start for :func:`~quasistatic_ref.certify.optimum.step_optimum`, as good as the answer.
     """
     pressed = np.flatnonzero(lam > np.maximum(slack, 0))
     basic = _basic(A[pressed], lam[pressed])

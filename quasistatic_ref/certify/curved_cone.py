@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, ClassVar, Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from quasistatic_ref.certify.residuals import Judge, row_violations
-from quasistatic_ref.certify.solution import CLAIMS, Certificate, Claims, Verdict
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.step.cones import FrictionCone, Rows, cone
+from quasistatic_ref.step.cones import FrictionCone, cone
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
-    import cvxpy as cp
+    from quasistatic_ref.certify.optimum import Certificate
+    from quasistatic_ref.certify.verification import Verdict
 
 
 class Enclosed(Protocol):
@@ -44,31 +43,6 @@ class CurvedCone(FrictionCone):
     """
 
     polyhedral = False
-    claims: ClassVar[Claims]
-    """The kinds of certificate in it, each with its further fields in a solution file."""
-
-    @abstractmethod
-    def constraints(self, motion: Rows) -> list[cp.Constraint]:
-        """The constraints on CVXPY's gap, slip_1, slip_2 and spin [m], each (n_c,)."""
-
-    @abstractmethod
-    def multipliers(self, constraints: Sequence[cp.Constraint], mu: Array) -> Array:
-        """Lam of solved :meth:`constraints`, contact-major, shape (m,); `mu` as of contacts."""
-
-    @abstractmethod
-    def judge(self, mu: Array) -> Judge:
-        """A function that measures the violation of Eqs. :eq:`eq-10`-:eq:`eq-12`.
-
-        Parameters
-        ----------
-        mu : ndarray, shape (n_c, 3)
-            As of contacts.
-
-        Returns
-        -------
-        callable
-            As :func:`~quasistatic_ref.certify.residuals.row_violations`, of all rows of A.
-        """
 
     @abstractmethod
     def optimum(self, step: StepData, start: tuple[Array, Array] | None) -> Enclosed | None:
@@ -109,22 +83,11 @@ class CurvedCone(FrictionCone):
         lam: Array | None,
         claims: Certificate | None,
     ) -> Verdict:
-        """As :func:`~quasistatic_ref.certify.verification.verify`."""
+        """As :func:`~quasistatic_ref.certify.verification.verify_answer`, its wrench left out."""
 
 
-def curved_cone(step: StepData) -> CurvedCone | None:
-    """The curved cone of a step; None if the step's cone is polyhedral."""
+def curved_cone(step: StepData) -> CurvedCone:
+    """The cone of a step that is not polyhedral."""
     of_step = cone(step.cone)
-    return of_step if isinstance(of_step, CurvedCone) else None
-
-
-def judge_of(step: StepData) -> Judge:
-    """A function that measures the violation of Eqs. :eq:`eq-10`-:eq:`eq-12` in a step's cone."""
-    curved = curved_cone(step)
-    return row_violations if curved is None else curved.judge(step.contacts.mu)
-
-
-def claims_of(step: StepData) -> Claims:
-    """The claims that each kind of certificate makes in the cone of a step."""
-    curved = curved_cone(step)
-    return CLAIMS if curved is None else curved.claims
+    assert isinstance(of_step, CurvedCone)
+    return of_step

@@ -12,25 +12,39 @@ measured as the displacements that they stand for, so that the three can be comp
   max_i |a_i'(x - x*)| / ||a_i||_{H^-1} / ell, never more than the error of x.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.certify.failures import StepIllPosed
 from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.numbers.pivots import exact_factor
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.standard_form import linear_term
+from quasistatic_ref.step.standard_form import linear_term, standard_form
 from quasistatic_ref.tolerances import UNMOVED
 
 MOST = 16.0
 """Digits of a float64: more cannot be known."""
 Parts = Sequence[tuple[Group, StepData]]
 """The groups of a step, each as a step."""
+
+
+ILL_POSED: Final = 1e6
+"""Longest certified step: its length in the H norm over the largest of four lengths [-]. Three are
+the lengths of the unconstrained steps that the targets, tau_a and tau_u would each cause alone; the
+fourth is that of the longest push-out b_i / ||a_i|| of a single row, in the norm of H^-1.
+
+Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
+MIDDLE = 1e-100, 1e100
+"""Lengths that no overflow and no underflow on the way to them has changed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,6 +200,73 @@ def joined(lengths: Sequence[Sequence[float]]) -> list[float]:
         As of :func:`single_lengths` [(N m s)^0.5].
     """
     return [math.hypot(*every) for every in zip(*lengths, strict=True)]
+
+
+def check_length(step: StepData, delta_q: Array, parts: Parts) -> None:
+    """Raise StepIllPosed if delta_q (n_v,) [m, rad] is absurdly long in a group of the step.
+
+    Parameters
+    ----------
+    step : StepData
+    delta_q : ndarray, shape (n_v,)
+    parts : sequence of (Group, StepData)
+        The groups of the step.
+
+    Raises
+    ------
+    StepIllPosed
+    """
+    relative = []
+    for group, part in parts:
+        moved = delta_q[group.coordinates]
+        norm = energy_norm(part.H)
+        of_loads = norm.of_impulses(single_loads(part))
+        most = 0.1 * ILL_POSED * float(of_loads.max())  # a tenth is for rounding
+        length = norm.of_displacement(moved)
+        if not (MIDDLE[0] < most < MIDDLE[1] and length <= most):
+            relative.append(relative_length(part, moved))
+    longest = max(relative, key=lambda r: math.inf if math.isnan(r) else r, default=0.0)
+    if not longest <= ILL_POSED:
+        raise StepIllPosed(step, delta_q, longest)
+
+
+def relative_length(step: StepData, delta_q: Array) -> float:
+    """||delta_q||_H over the largest step that the loads or a single row ask for alone [-].
+
+    It is compared with ``ILL_POSED`` for each group of a step by itself, lest a heavy body hide
+    what is absurd in a light one.
+
+    The length that delta_q is divided by is the largest of several in the H norm. Some are those of
+    the unconstrained steps that the targets, tau_a, tau_u and a user's cost would each cause alone
+    (together they may cancel, but for rounding). The last is max_i b_i / ||a_i||, in the norm of
+    H^-1: the shortest step that satisfies the row i alone (a body pushed out of penetration moves
+    however small g is). Without loads and penetration, zero is the optimum.
+
+    Parameters
+    ----------
+    step : StepData
+    delta_q : ndarray, shape (n_v,)
+
+    Returns
+    -------
+    float
+    """
+    form = standard_form(step)
+    norm = energy_norm(form.H)
+    b = np.maximum(form.b, 0.0)
+    of_cost = [] if step.extra.cost is None else [step.extra.cost[1]]
+    parameters = np.concatenate([step.delta_q_bar_a, step.tau_a, step.tau_u, *of_cost, b])
+    # All lengths are linear in these and delta_q. Of subnormal loads h tau could be zero.
+    scale = 2.0 ** min(-math.frexp(np.abs(parameters).max(initial=0.0))[1], 1000)
+    pushed = b > 0
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        push_out = scale * b[pushed] / norm.of_impulses(form.A[pushed])
+        of_loads = norm.of_impulses(single_loads(step, scale)).max()
+        scene_length = float(max(of_loads, push_out.max(initial=0.0)))
+        length = norm.of_displacement(scale * delta_q)
+        if scene_length:
+            return length / scene_length
+        return 0.0 if length == 0 else float("inf")
 
 
 def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> float:

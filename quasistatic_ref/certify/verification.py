@@ -12,7 +12,10 @@ positive definite, and the decisions on degeneracy; it does not search for a wor
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -24,18 +27,180 @@ from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
 from quasistatic_ref.certify.groups import flat_rows, group_steps, row_owners
 from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
-from quasistatic_ref.certify.solution import (
-    Certificate,
-    StepSolution,
-    Verdict,
-    wrong_bits,
-    wrong_claim,
-)
+from quasistatic_ref.certify.optimum import Certificate, StepSolution
 from quasistatic_ref.certify.working_set import Point, fraction_point
-from quasistatic_ref.errors import InputError, check_kind
+from quasistatic_ref.errors import InputError, StepDataError, check_kind
+from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
-from quasistatic_ref.numbers.precision import working_precision
+from quasistatic_ref.numbers.precision import nearest, working_precision
+from quasistatic_ref.step.cones import PYRAMID, Judge, cone, row_violations
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, check_step
+from quasistatic_ref.step.friction import impulses, wrenches
+from quasistatic_ref.step.standard_form import StandardForm
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """Largest violation of each optimality condition, in the units of the step judged.
+
+    Parameters
+    ----------
+    stationarity : float
+        Eq. :eq:`eq-9`, as mended: H delta_q - g - sum_j A_j' lam_j = 0 [N s, N m s].
+    primal : float
+        Eq. :eq:`eq-10`: A delta_q >= b [m].
+    dual : float
+        Eq. :eq:`eq-11`: lam >= 0 [N s].
+    complementarity : float
+        Eq. :eq:`eq-12`: (A delta_q - b) o lam = 0 [N m s].
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.optimality_residuals(qr.standard_form(step), np.zeros(6), np.zeros(step.m)).primal
+    0.0
+    """
+
+    stationarity: float
+    primal: float
+    dual: float
+    complementarity: float
+
+    @property
+    def worst(self) -> float:
+        """The largest of the four, NaN if any of them is: for a step in natural units [-]."""
+        return largest(np.array([*vars(self).values()]))
+
+    def in_size(self, size: float) -> Residuals:
+        """The residuals if delta_q, b, g and lam are measured in another `size` [of theirs]."""
+        return Residuals(
+            stationarity=self.stationarity / size,
+            primal=self.primal / size,
+            dual=self.dual / size,
+            complementarity=self.complementarity / size / size,
+        )
+
+
+def largest(x: Array) -> float:
+    """The largest of the numbers of a vector and 0, in the vector's unit [-]; NaN if one is NaN."""
+    return float(x.max(initial=0.0)) + 0.0
+
+
+def _vector(numbers: ArrayLike, name: str, length: int) -> Array:
+    """Numbers of any size, NaN too, of shape (length,); StepDataError of another shape."""
+    vector = checked_numbers(numbers, name)
+    if vector.shape != (length,):
+        raise StepDataError(f"must have shape ({length},)", field=name, value=vector.shape)
+    return vector
+
+
+def optimality_residuals(
+    form: StandardForm, delta_q: ArrayLike, lam: ArrayLike, judge: Judge = row_violations
+) -> Residuals:
+    """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at an answer.
+
+    Parameters
+    ----------
+    form : StandardForm
+        The step's H, g, A and b, in SI or in natural units.
+    delta_q : array_like, shape (n_v,)
+    lam : array_like, shape (m,)
+        Multipliers, contact-major, the user's own rows last.
+    judge : callable
+        (slack, lam) -> how far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding: of rows, or of
+        another cone, whose :meth:`~quasistatic_ref.step.cones.FrictionCone.judge` it is.
+
+    Returns
+    -------
+    Residuals
+
+    Raises
+    ------
+    InputError
+        If an argument is of another kind.
+    StepDataError
+        If one has another shape.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> solution = qr.solve_step(step)
+    >>> form = qr.standard_form(step)
+    >>> qr.optimality_residuals(form, solution.delta_q, solution.lam).worst < 1e-15
+    True
+    """
+    check_kind(form, StandardForm, "form", "a StandardForm, as standard_form(step) returns")
+    H, g, A, b = form
+    x = _vector(delta_q, "delta_q", len(g))
+    y = _vector(lam, "lam", len(b))
+    balance = H @ x - g - A.T @ y  # Eq. (9), as (13) has it
+    slack = A @ x - b
+    short, pull, work = judge(slack, y)  # Eqs. (10)-(12)
+    return Residuals(
+        stationarity=largest(np.abs(balance)),
+        primal=largest(short),
+        dual=largest(pull),
+        complementarity=largest(np.abs(work)),
+    )
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether a certificate holds.
+
+    Parameters
+    ----------
+    ok : bool
+    reason : str
+        Why not, in plain words; empty if it holds.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.verify_answer(step, np.zeros(6), []).reason
+    'row +d1 of floor(floor, sphere/sphere#0)/0 is violated by the minimiser on the working set'
+    """
+
+    ok: bool
+    reason: str = ""
+
+    def __bool__(self) -> bool:
+        return self.ok
+
+
+def wrong_bits(name: str, numbers: Array, right: Array) -> str:
+    """What is wrong with numbers that must be right to the last bit; empty if nothing.
+
+    Parameters
+    ----------
+    name : str
+    numbers, right : ndarray, of the same shape (k,)
+        What is judged, and what it must be [of one unit].
+    """
+    numbers = np.array(numbers, dtype=np.float64)
+    if numbers.shape != right.shape:
+        return f"{name} has shape {numbers.shape}; the step wants {right.shape}"
+    wrong = np.flatnonzero(numbers.view(np.int64) != right.view(np.int64))
+    if not wrong.size:
+        return ""
+    at = int(wrong[0])
+    return f"{name}[{at}] is {float(numbers[at])!r}; the exact one rounds to {float(right[at])!r}"
+
+
+def wrong_claim(name: str, claimed: object, right: object) -> str:
+    """What is wrong with a claim that must be right to the last bit; empty if nothing.
+
+    Parameters
+    ----------
+    name : str
+    claimed, right : object
+        What is said, and what is true; -0.0 is not 0.0.
+    """
+    signs = {math.copysign(1.0, v) for v in (claimed, right) if isinstance(v, float)}
+    if claimed == right and len(signs) < 2:
+        return ""
+    return f"{name} is claimed to be {clipped(repr(claimed))}; it is {right!r}"
 
 
 @runtime_checkable
@@ -85,6 +250,7 @@ def verify_answer(
     active: Sequence[tuple[int, int]],
     lam: ArrayLike | None = None,
     claims: Certificate | None = None,
+    wrench: ArrayLike | None = None,
 ) -> Verdict:
     """Whether delta_q is the exact optimum of a step, rounded correctly.
 
@@ -102,6 +268,8 @@ def verify_answer(
     claims : Certificate, optional
         All fields but the residuals, which are float64's, are checked. One of another step is
         refused, and so are the kinds ``"residual"`` and ``"none"``, which prove nothing.
+    wrench : ndarray, shape (n_c, 4), optional
+        What lam is claimed to add up to, as a solution file has it [N, N m]; every bit counts.
 
     Returns
     -------
@@ -110,9 +278,10 @@ def verify_answer(
     Raises
     ------
     StepDataError
-        If delta_q or lam are no numbers.
+        If delta_q, lam or the wrench are no numbers.
     InputError
-        If nothing can be proved in this thread: see :mod:`~quasistatic_ref.numbers.precision`.
+        If the wrench is given without lam, an argument is of another kind, or nothing can be proved
+        in this thread: see :mod:`~quasistatic_ref.numbers.precision`.
 
     Examples
     --------
@@ -131,9 +300,11 @@ def verify_answer(
     for name, (x, length) in lengths.items():
         if x is not None and np.shape(x) != (length,):
             return Verdict(False, f"{name} has shape {np.shape(x)}; the step wants ({length},)")
-    curved = curved_cone(step)
-    if curved is not None:
-        return curved.verdict(step, delta_q, active, lam, claims)
+    problem = "" if wrench is None else _wrong_wrench(step, lam, wrench)
+    if problem:
+        return Verdict(False, problem)
+    if not cone(step.cone).polyhedral:
+        return curved_cone(step).verdict(step, delta_q, active, lam, claims)
     if claims is not None and claims.kind != "exact":
         return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing here")
     try:
@@ -169,6 +340,43 @@ def verify_answer(
     if claims is not None and not reason:
         reason = _wrong_claim(solved, claims, lam_exact[list(working)])
     return Verdict(not reason, reason)
+
+
+def rounded_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:
+    """Contact wrenches, each number of them rounded once, as files have it.
+
+    Parameters
+    ----------
+    contacts, lam, h, name
+        As of :func:`~quasistatic_ref.step.friction.contact_wrenches`; lam is finite.
+
+    Returns
+    -------
+    ndarray, shape (n_c, 4)
+        (f_d1, f_d2, f_n, tau_n) [N, N m]: each the float64 nearest to the exact combination, which
+        ``contact_wrenches`` may miss by the rounding of its sums; infinite beyond float64's range.
+    """
+    kind = cone(name)
+    exact = np.frompyfunc(Fraction, 1, 1)
+    of_rows = impulses(contacts, lam, name)
+    mu = kind.row_coefficients(contacts.mu)
+    wrench = wrenches(exact(of_rows), exact(kind.matrix), exact(mu)) / Fraction(h)
+    rounded = [nearest(x.numerator, x.denominator) for x in wrench.ravel()]
+    return np.reshape(rounded, (-1, 4)).astype(np.float64)
+
+
+def _wrong_wrench(step: StepData, lam: Array | None, wrench: ArrayLike) -> str:
+    """What is wrong with wrenches (n_c, 4) [N, N m] of multipliers (m,) [N s]; or empty."""
+    if lam is None:
+        raise InputError("is a combination of lam: give lam, too", field="wrench")
+    if not np.isfinite(lam).all():
+        return "lam is not finite"
+    wrench = checked_numbers(wrench, "wrench")
+    right = rounded_wrenches(step.contacts, lam[: step.offsets[-1]], step.h, step.cone)
+    if len(wrench) != len(right):
+        return f"wrench has {len(wrench)} rows; the step wants {len(right)}"
+    wrong = (wrong_bits(f"wrench[{j}]", wrench[j], row) for j, row in enumerate(right))
+    return next(filter(None, wrong), "")
 
 
 def wrong_sign(

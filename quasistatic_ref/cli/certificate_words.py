@@ -1,7 +1,8 @@
 """What a certificate claims, in words."""
 
 from quasistatic_ref.certify.curved_cone import curved_cone
-from quasistatic_ref.certify.solution import Certificate
+from quasistatic_ref.certify.optimum import Certificate
+from quasistatic_ref.step.cones import cone
 
 
 def in_words(certificate: Certificate) -> str:
@@ -16,9 +17,8 @@ def in_words(certificate: Certificate) -> str:
         return "nothing is certified"
     step = certificate.step
     assert step is not None
-    curved = curved_cone(step)
-    if curved is not None:
-        return curved.in_words(certificate)
+    if not cone(step.cone).polyhedral:
+        return curved_cone(step).in_words(certificate)
     words = [
         "exact: the optimum of the step, correctly rounded",
         f"working set: {len(certificate.active)} of {step.m} rows",

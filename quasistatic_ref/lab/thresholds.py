@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from quasistatic_ref.certify.solution import UNKNOWN
+from quasistatic_ref.certify.optimum import UNKNOWN
 from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.parts import check_there, doctors

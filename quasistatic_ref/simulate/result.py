@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.contact.separations import SAYS, UNIQUE_NORMAL
@@ -93,7 +93,7 @@ class StepResult(Plain, Shown):
         ------
         InputError
             If the result is from a pickle, which has no scene; or as of
-            :attr:`~quasistatic_ref.certify.solution.StepSolution.forces`.
+            :attr:`~quasistatic_ref.certify.optimum.StepSolution.forces`.
         """
         contacts, scene = self._contacts()
         forces = wrenches.pair_forces(contacts, contact_layout(scene.pairs).names)

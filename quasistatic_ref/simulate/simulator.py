@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.groups import flat_rows
-from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.contact.all_pairs import AllPairs
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry

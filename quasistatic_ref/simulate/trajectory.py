@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref import parts
-from quasistatic_ref.certify.solution import UNKNOWN, ContactForces
+from quasistatic_ref.certify.optimum import UNKNOWN, ContactForces
 from quasistatic_ref.errors import InputError, MissingKey, check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
@@ -184,7 +184,7 @@ class Trajectory(Plain, HasPage):
     def forces(self) -> Array:
         """Forces of single contacts in each step, shape (steps, n_c, 4) [N, N m].
 
-        They are those of :attr:`~quasistatic_ref.certify.solution.StepSolution.forces`. A record of
+        They are those of :attr:`~quasistatic_ref.certify.optimum.StepSolution.forces`. A record of
         forces holds them. Of a full record they are formed when they are first read, in some
         milliseconds a step.
 
@@ -203,7 +203,7 @@ class Trajectory(Plain, HasPage):
     def imbalance(self) -> Array:
         """The share of the load that the forces of each step do not balance, (steps,) [-].
 
-        That of :class:`~quasistatic_ref.certify.solution.ContactForces`.
+        That of :class:`~quasistatic_ref.certify.optimum.ContactForces`.
 
         Raises
         ------

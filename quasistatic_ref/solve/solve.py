@@ -6,26 +6,37 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.certify.active_set import basic_rows, warm_rows
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
-from quasistatic_ref.certify.exact import ExactOptimum, check_length, optimum_by_groups
+from quasistatic_ref.certify.degeneracy import Degeneracy, step_degeneracy
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.solution import Certificate, SolverStatistics, StepSolution
+from quasistatic_ref.certify.groups import contact_rows
+from quasistatic_ref.certify.norm import check_length, correct_digits
+from quasistatic_ref.certify.optimum import (
+    Certificate,
+    ExactOptimum,
+    SolverStatistics,
+    StepSolution,
+    optimum_by_groups,
+)
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.plain import Late
 from quasistatic_ref.numbers.arrays import Array, all_finite, positive_number, without_warnings
 from quasistatic_ref.numbers.precision import check_arithmetic
 from quasistatic_ref.parts import extended_step
 from quasistatic_ref.solve.backends import NONE, Certify, check_certify
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.proved import answer_residuals, exact_certificate, proof_statistics
 from quasistatic_ref.solve.solver import FREE, Reply, Solver
-from quasistatic_ref.solve.units import ScaledStep, in_natural, in_si, out_of_range
+from quasistatic_ref.solve.units import ScaledStep, in_natural, in_si, natural_form, out_of_range
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.extension import StepExtension
+from quasistatic_ref.step.standard_form import StandardForm, Units, standard_form
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
 
 FEW = 100
@@ -86,7 +97,7 @@ def solve_step(
     StepIllPosed
         With ``"full"``, if the exact optimum is more than 1e6 times longer than any step that its
         loads or its penetration ask for alone; see
-        :func:`~quasistatic_ref.certify.exact.relative_length`.
+        :func:`~quasistatic_ref.certify.norm.relative_length`.
     StepNotSolved
         With ``"residual"`` and ``"off"``, if the backend claims anything but a full solution; with
         ``"residual"`` also if the judge of residuals refuses its answer. With ``"full"`` only in
@@ -216,8 +227,8 @@ def proved(
 ) -> StepSolution:
     """The proved optimum. The backend's answer, right or wrong, is only where its search starts.
 
-    If the backend fails, the exact method (certify/exact.py) starts elsewhere: the same answer. In
-    a curved cone, where no enclosure of the optimum is found, the backend's answer is judged.
+    If the backend fails, the exact method (certify/optimum.py) starts elsewhere: the same answer.
+    In a curved cone, where no enclosure of the optimum is found, the backend's answer is judged.
 
     Parameters
     ----------
@@ -238,14 +249,13 @@ def proved(
     claimed = reply if reply is not None and reply.solved else None
     begin = time.perf_counter()
     answer = None if reply is None else in_si(*reply.answer, scaled.units)
-    curved = curved_cone(step)
     optimum: Enclosed | ExactOptimum | None
-    if curved is None:
+    if cone(step.cone).polyhedral:
         begins = starts(scaled, solver, claimed, start)
         optimum = optimum_by_groups(step, scaled.groups, begins, solver.proofs)
     else:
         check_arithmetic()  # a backend may have changed it
-        optimum = curved.optimum(step, None if claimed is None else answer)
+        optimum = curved_cone(step).optimum(step, None if claimed is None else answer)
         if optimum is None and claimed is not None:
             return judged(scaled, solver, claimed, "residual")
         if optimum is None:
@@ -334,3 +344,158 @@ def judged(scaled: ScaledStep, solver: Solver, reply: Reply, certify: Certify) -
     certificate = Certificate("residual", dict(vars(residuals)), step=step)
     statistics = replace(statistics, proof_time=time.perf_counter() - begin)
     return StepSolution(delta_q, lam, step, certificate, statistics)
+
+
+class _ByGroups(ScaledStep):
+    """A step whose standard form is built group by group, in natural units."""
+
+    @cached_property
+    def natural_by_group(self) -> list[StandardForm]:
+        """The standard form of each group in the natural units of the step."""
+        units = self.units
+        return [
+            natural_form(standard_form(part), units._replace(coordinate=units.coordinate[of_step]))
+            for (of_step, *_), part in self.groups
+        ]
+
+
+class ExactCertificate(Late, Certificate):
+    """The certificate of an exact optimum; its other fields are computed when they are read.
+
+    Attributes
+    ----------
+    working_set : tuple of int
+        Rows of the step.
+    units : Units
+        Its natural units.
+    delta_q, lam : ndarray, shapes (n_v,) and (m,)
+        The answer [m, rad], [N s].
+    """
+
+    formed = (
+        "active",
+        "residuals",
+        "multipliers_unique",
+        "differentiable",
+        "smallest_inactive_slack",
+    )
+    kept_instead = ("working_set", "units", "delta_q", "lam")
+    working_set: tuple[int, ...]
+    step: StepData
+    units: Units
+    delta_q: Array
+    lam: Array
+
+    @cached_property
+    def active(self) -> tuple[tuple[int, int], ...]:
+        """Contact and row of each member of the working set."""
+        return contact_rows(self.step, self.working_set)
+
+    @cached_property
+    def residuals(self) -> dict[str, float]:
+        """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at the rounded answer, in natural units [-]."""
+        return without_warnings(answer_residuals, self.step, self.units, self.delta_q, self.lam)
+
+    @cached_property
+    def degeneracy(self) -> Degeneracy:
+        """Whether multipliers are unique and delta_q is differentiable at the optimum."""
+        return without_warnings(step_degeneracy, self.step, self.working_set)
+
+    @property
+    def multipliers_unique(self) -> bool:
+        """Whether lam may be compared component by component."""
+        return self.degeneracy.multipliers_unique
+
+    @property
+    def differentiable(self) -> bool:
+        """Whether delta_q is differentiable with respect to the forces and targets (g)."""
+        return self.degeneracy.differentiable
+
+    @property
+    def smallest_inactive_slack(self) -> float | None:
+        """Smallest slack [m] of the rows that are not strictly active."""
+        return self.degeneracy.smallest_inactive_slack
+
+
+def exact_certificate(step: StepData, optimum: ExactOptimum, units: Units) -> Certificate:
+    """The certificate of an exact optimum.
+
+    Parameters
+    ----------
+    step : StepData
+    optimum : ExactOptimum
+        That of the step.
+    units : Units
+        Natural units of the step.
+    """
+    certificate: Certificate = ExactCertificate.unchecked(
+        kind="exact",
+        working_set=optimum.working_set,
+        smallest_active_multiplier=optimum.smallest_active_multiplier,
+        error_bound=0.0,
+        gap=None,
+        step=step,
+        units=units,
+        delta_q=optimum.delta_q,
+        lam=optimum.lam,
+    )
+    return certificate
+
+
+class ProofStatistics(Late, SolverStatistics):
+    """The statistics of a solver whose answer can be compared with the optimum.
+
+    Attributes
+    ----------
+    step : StepData
+    answer, delta_q : ndarray, shape (n_v,)
+        The solver's displacement and the optimum [m, rad].
+    """
+
+    formed = ("digits",)
+    kept_instead = ("step", "answer", "delta_q")
+    step: StepData
+    answer: Array
+    delta_q: Array
+
+    @cached_property
+    def digits(self) -> float:
+        """Correct digits of the backend's delta_q, 0 to 16."""
+        return without_warnings(correct_digits, self.step, self.answer, self.delta_q)
+
+
+def proof_statistics(
+    statistics: SolverStatistics, seconds: float, step: StepData, answer: Array, delta_q: Array
+) -> SolverStatistics:
+    """Statistics of a solver that gave an answer, with the time of the proof and the digits.
+
+    Parameters
+    ----------
+    statistics : SolverStatistics
+    seconds : float
+        Wall time of the proof [s].
+    step : StepData
+    answer, delta_q : ndarray, shape (n_v,)
+        Its answer, and the optimum [m, rad].
+    """
+    fields = vars(statistics) | {"proof_time": seconds}
+    del fields["digits"]
+    complete: SolverStatistics = ProofStatistics.unchecked(
+        **fields, step=step, answer=answer, delta_q=delta_q
+    )
+    return complete
+
+
+def answer_residuals(step: StepData, units: Units, delta_q: Array, lam: Array) -> dict[str, float]:
+    """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at an answer [-], by name.
+
+    Parameters
+    ----------
+    step : StepData
+    units : Units
+        Its natural units.
+    delta_q, lam : ndarray, shapes (n_v,) and (m,)
+        [m, rad], [N s].
+    """
+    scaled = _ByGroups(step, units)
+    return dict(vars(scaled.residuals(*in_natural(delta_q, lam, units))))

@@ -11,8 +11,8 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from quasistatic_ref.certify.exact import Proofs
 from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref.certify.optimum import Proofs
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.numbers.arrays import Array, Mask, all_finite

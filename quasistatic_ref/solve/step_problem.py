@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import cvxpy as cp
 import numpy as np
 
-from quasistatic_ref.certify.curved_cone import curved_cone
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import BackendError, InputError, StepDataError, check_kind
 from quasistatic_ref.numbers.arrays import Array, positive_number
@@ -104,13 +103,9 @@ class StepProblem:
         self.delta_q = page.delta_q
         self.contact_motion = page.contact_motion
         self.contact_rows = page.contact_rows
-        curved = curved_cone(template)
-        if curved is not None:
-            self.contact_rows = curved.constraints(self.contact_motion)
-        elif template.cone != PYRAMID:
-            sides = cone(template.cone).function(*self.contact_motion)
-            masked = zip(sides, template.mask.T, strict=True)
-            self.contact_rows = [side[has] >= 0 for side, has in masked if has.any()]
+        if template.cone != PYRAMID:  # the page's own
+            kind = cone(template.cone)
+            self.contact_rows = kind.constraints(self.contact_motion, template.mask)
         self.extra: list[cp.Constraint] = []
         if template.extra.names:
             A_extra = cp.Parameter(template.extra.A.shape, "A_extra")
@@ -230,15 +225,8 @@ class StepProblem:
         if solution is None or any(row.id not in solution.dual_vars for row in rows):
             return None
         template = self.template
-        curved = curved_cone(template)
-        if curved is not None:
-            lam = curved.multipliers(self.contact_rows, template.contacts.mu)
-        else:
-            mask = template.mask
-            of_rows = np.zeros(mask.shape)
-            for i, row in zip(np.flatnonzero(mask.any(axis=0)), self.contact_rows, strict=True):
-                of_rows[mask[:, i], i] = row.dual_value
-            lam = of_rows[mask]
+        mu = template.contacts.mu
+        lam = cone(template.cone).multipliers(self.contact_rows, template.mask, mu)
         return np.concatenate([lam, *(row.dual_value for row in self.extra)])
 
 

@@ -17,16 +17,20 @@ from functools import cached_property
 
 import numpy as np
 
-from quasistatic_ref.certify.curved_cone import judge_of
 from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.norm import energy_norm, joined, single_lengths
-from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
+from quasistatic_ref.certify.verification import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array, Mask, all_finite
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import row_constants
-from quasistatic_ref.step.standard_form import StandardForm, standard_form
-from quasistatic_ref.step.units import Units, ends_within
+from quasistatic_ref.step.standard_form import (
+    StandardForm,
+    Units,
+    ends_within,
+    row_constants,
+    standard_form,
+)
 from quasistatic_ref.tolerances import UNMOVED
 
 SMALLEST = 2.0**-960
@@ -223,9 +227,12 @@ class ScaledStep:
         The unit of size is at least the step that targets, tau_a or tau_u would cause alone: at
         rest they cancel but for rounding, and the size of the step is that of noise.
         """
+        judges = [cone(part.cone).judge(part.contacts.mu) for _, part in self.groups]
         each = [
-            optimality_residuals(form, x[group.coordinates], lam[group.rows], judge_of(part))
-            for (group, part), form in zip(self.groups, self.natural_by_group, strict=True)
+            optimality_residuals(form, x[group.coordinates], lam[group.rows], judge)
+            for (group, _), form, judge in zip(
+                self.groups, self.natural_by_group, judges, strict=True
+            )
         ]
         worst = np.array([[*vars(residuals).values()] for residuals in each])
         residuals = Residuals(*worst.max(axis=0).tolist())

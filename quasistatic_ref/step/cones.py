@@ -9,7 +9,7 @@ only adds, subtracts and multiplies by float64 numbers. Therefore it returns
 - given numbers, the slacks of Eq. :eq:`eq-10`;
 - given CVXPY expressions, the left sides of the constraints, Eq. :eq:`eq-4`;
 - given the rows J_n, mu_v J_1, mu_v J_2 and mu_omega J_w, the rows of A, Eq. :eq:`eq-8`, in floats
-  or in exact numbers (``friction_rows`` in step/friction.py);
+  or in exact numbers (``friction_rows`` in step/standard_form.py);
 - given n~, mu_v d1, mu_v d2 and [0; mu_omega], the directions n~ + d~_i of Eqs.
   :eq:`eq-5`-:eq:`eq-7`.
 
@@ -21,10 +21,10 @@ contact whose ``rows`` is 4 does not use mu_omega: it has the leading rows only,
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -34,8 +34,14 @@ from quasistatic_ref.numbers.angles import cos_sin_of_turn
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.parts import ellipsoid_cone
 
+if TYPE_CHECKING:
+    import cvxpy as cp
+
 Rows: TypeAlias = "tuple[Any, ...]"
 ConeFunction: TypeAlias = "Callable[[Any, Any, Any, Any], Rows]"
+Violations: TypeAlias = tuple[Array, Array, Array]
+Judge: TypeAlias = Callable[[Array, Array], Violations]
+Claims: TypeAlias = Mapping[str, tuple[str, ...]]
 
 PYRAMID = "pyramid"
 ELLIPSOID = "ellipsoid"
@@ -63,6 +69,8 @@ class FrictionCone(ABC):
     row_names: tuple[str, ...]
     without_torsion: int
     function: ConeFunction
+    claims: ClassVar[Claims]
+    """The kinds of certificate in it, each with its further fields in a solution file."""
 
     @property
     @abstractmethod
@@ -86,15 +94,96 @@ class FrictionCone(ABC):
     def row_coefficients(self, mu: Array) -> Array:
         """Factors of the slips and the spin in A, (n_c, 3) [-, -, m], from friction `mu`."""
 
+    @abstractmethod
+    def judge(self, mu: Array) -> Judge:
+        """A function that measures the violation of Eqs. :eq:`eq-10`-:eq:`eq-12`.
+
+        Parameters
+        ----------
+        mu : ndarray, shape (n_c, 3)
+            As of contacts.
+
+        Returns
+        -------
+        callable
+            As :func:`row_violations`, of all rows of A.
+        """
+
+    @abstractmethod
+    def constraints(self, motion: Rows, mask: Mask) -> list[cp.Constraint]:
+        """The constraints on CVXPY's gap, slip_1, slip_2 and spin [m], each (n_c,).
+
+        Parameters
+        ----------
+        motion : tuple of cvxpy.Expression
+        mask : ndarray of bool, shape (n_c, R)
+            Which of the cone's rows each contact has.
+        """
+
+    @abstractmethod
+    def multipliers(self, constraints: Sequence[cp.Constraint], mask: Mask, mu: Array) -> Array:
+        """Lam of solved :meth:`constraints`, contact-major, shape (m,); `mu` as of contacts."""
+
 
 class PolyhedralCone(FrictionCone):
     """A cone that its rows describe: the core proves its optima by exact rows."""
 
     polyhedral = True
+    claims: ClassVar[Claims] = {
+        "exact": (
+            "active", "multipliers_unique", "differentiable", "smallest_inactive_slack",
+            "smallest_active_multiplier", "error_bound",
+        ),
+        "residual": (),
+        "none": (),
+    }  # fmt: skip
 
     def row_coefficients(self, mu: Array) -> Array:
         """The coefficients of friction `mu` (n_c, 3) [-, -, m], unchanged."""
         return mu
+
+    def judge(self, mu: Array) -> Judge:
+        """The judge of rows: :func:`row_violations`, whatever `mu`, (n_c, 3) [-, -, m], is."""
+        return row_violations
+
+    def constraints(self, motion: Rows, mask: Mask) -> list[cp.Constraint]:
+        """One constraint for each row, on the contacts that have it; none where no contact has.
+
+        Parameters
+        ----------
+        motion : tuple of cvxpy.Expression
+            gap, slip_1, slip_2 and spin [m], each (n_c,).
+        mask : ndarray of bool, shape (n_c, R)
+        """
+        rows = zip(self.function(*motion), mask.T, strict=True)
+        return [row[has] >= 0 for row, has in rows if has.any()]
+
+    def multipliers(self, constraints: Sequence[cp.Constraint], mask: Mask, mu: Array) -> Array:
+        """Lam of solved constraints, shape (m,) [N s]; `mask` (n_c, R) and `mu` (n_c, 3)."""
+        of_rows = np.zeros(mask.shape)
+        for i, row in zip(np.flatnonzero(mask.any(axis=0)), constraints, strict=True):
+            of_rows[mask[:, i], i] = row.dual_value
+        return of_rows[mask]
+
+
+def row_violations(slack: Array, lam: Array) -> Violations:
+    """The violation of Eqs. :eq:`eq-10`-:eq:`eq-12` in each row.
+
+    Parameters
+    ----------
+    slack, lam : ndarray, shape (m,)
+        A delta_q - b [m], and the multipliers [N s].
+
+    Returns
+    -------
+    short, pull, work : ndarray
+        How far the conditions on slacks [m] and on multipliers [N s] are violated, negative where
+        they hold; and slack times multiplier [N m s].
+    """
+    short = -slack  # Eq. (10): slack >= 0
+    pull = -lam  # Eq. (11): lam >= 0
+    work = slack * lam  # Eq. (12): zero, row by row
+    return short, pull, work
 
 
 def has_torsion(rows: Indices) -> Mask:

@@ -1,4 +1,4 @@
-"""Rows and wrenches of contacts in their friction cone (:mod:`~quasistatic_ref.step.cones`)."""
+"""Wrenches of contacts from the multipliers of their friction cone."""
 
 from typing import Any
 
@@ -8,60 +8,6 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import row_layout
-
-
-def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, Array]:
-    """J_n, J_1, J_2 and J_w: J of Eq. :eq:`eq-3` in the contact's frame.
-
-    Parameters
-    ----------
-    contacts : Contacts
-    J : ndarray, shape (n_c, 4, w)
-        Any columns of J: all of them, or those of blocks.
-
-    Returns
-    -------
-    tuple of ndarray, each of shape (n_c, w)
-        The motion along n, d1 and d2 [m] and about n [rad], per unit of delta_q.
-    """
-    # Not `@`: BLAS sums in another order on another processor, and the last bits would differ.
-    axes = np.array([contacts.n, contacts.d1, contacts.d2])
-    parts = axes[..., None] * J[:, :3]
-    J_n, J_1, J_2 = parts[:, :, 0] + parts[:, :, 1] + parts[:, :, 2]
-    return J_n, J_1, J_2, J[:, 3]
-
-
-def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
-    """The rows [J'(n~ + d~_i)]' of Eq. :eq:`eq-4`: for each contact all rows of the cone.
-
-    Parameters
-    ----------
-    contacts : Contacts
-    name : str
-        The cone. A curved one has no inequality rows: J_n, J_1, J_2 and J_w.
-
-    Returns
-    -------
-    ndarray, shape (n_c, R, n_v)
-        [m] per unit of delta_q. A contact uses those of ``StepData.mask``: with the paper's
-        cone six, or the first four.
-    """
-    J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
-    friction_cone = cone(name)
-    mu_v, _, mu_omega = friction_cone.row_coefficients(contacts.mu).T[:, :, None]
-    rows = friction_cone.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)
-    # np.stack(rows, axis=1) takes twice as long.
-    return np.concatenate(rows, axis=1).reshape(len(J_n), len(rows), J_n.shape[1])
-
-
-def row_constants(contacts: Contacts, name: str = PYRAMID) -> Array:
-    """The constant term of each row [m]: phi; in a curved cone phi in the row J_n, otherwise 0.
-
-    Returns
-    -------
-    ndarray, shape (n_c, R)
-    """
-    return np.asarray(contacts.phi[:, None] * cone(name).matrix[:, 0])
 
 
 def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:

@@ -13,7 +13,7 @@ import scipy.sparse as sp
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.units import FAR, Units, ends_within, si_units
+from quasistatic_ref.step.standard_form import FAR, Units, ends_within, si_units
 
 
 @dataclass(eq=False)
@@ -151,7 +151,7 @@ def set_values(page: Page, step: StepData, units: Units | None = None, far: floa
         In which the parameters are to be; SI units by default.
     far : float
         How far the contacts, and ends of own rows, may be in other units than SI units [-]: see
-        :func:`~quasistatic_ref.step.units.ends_within`.
+        :func:`~quasistatic_ref.step.standard_form.ends_within`.
     """
     S, ell, rho = si_units(step.n_v) if units is None else units
     S_a = S[: step.n_a]

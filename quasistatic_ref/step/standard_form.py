@@ -1,17 +1,29 @@
-r"""Eq. :eq:`eq-13` as the matrices H, g, A, b that solvers see.
+r"""Eq. :eq:`eq-13` as the matrices H, g, A, b that solvers see, in SI units or in others.
 
 .. math:: \min_{\delta q} \tfrac12 \delta q^T H \delta q - g^T \delta q
           \quad\text{s.t.}\quad A\,\delta q \ge b
+
+With :math:`\delta q = \rho\,S\,x` and lengths in units of :math:`\rho\,\ell`, Eqs. :eq:`eq-13` and
+:eq:`eq-4` keep their form.
 """
 
-from typing import NamedTuple
+import math
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import product
+from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, check_step
-from quasistatic_ref.step.friction import friction_rows, row_constants
+
+FAR: Final = 100.0
+"""Distance, in natural units [-], beyond which a contact is as good as infinitely far.
+
+The unconstrained step has a length of about one. Solvers lose digits where 1e6 and 1 stand
+together; a row that is put at 100 stays inactive, and the judge, who has the true distance, would
+notice if it did not."""
 
 
 class StandardForm(NamedTuple):
@@ -74,3 +86,113 @@ def linear_term(step: StepData) -> Array:
     g: Array = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])
     cost = step.extra.cost
     return g if cost is None else g + cost[1]
+
+
+def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, Array]:
+    """J_n, J_1, J_2 and J_w: J of Eq. :eq:`eq-3` in the contact's frame.
+
+    Parameters
+    ----------
+    contacts : Contacts
+    J : ndarray, shape (n_c, 4, w)
+        Any columns of J: all of them, or those of blocks.
+
+    Returns
+    -------
+    tuple of ndarray, each of shape (n_c, w)
+        The motion along n, d1 and d2 [m] and about n [rad], per unit of delta_q.
+    """
+    # Not `@`: BLAS sums in another order on another processor, and the last bits would differ.
+    axes = np.array([contacts.n, contacts.d1, contacts.d2])
+    parts = axes[..., None] * J[:, :3]
+    J_n, J_1, J_2 = parts[:, :, 0] + parts[:, :, 1] + parts[:, :, 2]
+    return J_n, J_1, J_2, J[:, 3]
+
+
+def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
+    """The rows [J'(n~ + d~_i)]' of Eq. :eq:`eq-4`: for each contact all rows of the cone.
+
+    Parameters
+    ----------
+    contacts : Contacts
+    name : str
+        The cone. A curved one has no inequality rows: J_n, J_1, J_2 and J_w.
+
+    Returns
+    -------
+    ndarray, shape (n_c, R, n_v)
+        [m] per unit of delta_q. A contact uses those of ``StepData.mask``: with the paper's
+        cone six, or the first four.
+    """
+    J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
+    friction_cone = cone(name)
+    mu_v, _, mu_omega = friction_cone.row_coefficients(contacts.mu).T[:, :, None]
+    rows = friction_cone.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)
+    # np.stack(rows, axis=1) takes twice as long.
+    return np.concatenate(rows, axis=1).reshape(len(J_n), len(rows), J_n.shape[1])
+
+
+def row_constants(contacts: Contacts, name: str = PYRAMID) -> Array:
+    """The constant term of each row [m]: phi; in a curved cone phi in the row J_n, otherwise 0.
+
+    Returns
+    -------
+    ndarray, shape (n_c, R)
+    """
+    return np.asarray(contacts.phi[:, None] * cone(name).matrix[:, 0])
+
+
+class Units(NamedTuple):
+    """Units of one step.
+
+    Parameters
+    ----------
+    coordinate : ndarray, shape (n_v,)
+        Diagonal of S [m or rad, per (N m s)^0.5].
+    length : float
+        ell [m per (N m s)^0.5].
+    size : float
+        rho [(N m s)^0.5].
+    """
+
+    coordinate: Array
+    length: float
+    size: float
+
+
+def si_units(n_v: int) -> Units:
+    """SI units for a step of n_v coordinates: all factors are one."""
+    return Units(np.ones(n_v), 1.0, 1.0)
+
+
+def ends_within(step: StepData, units: Units, far: float = FAR) -> tuple[Array, Array]:
+    """Gaps of the contacts and ends of the user's rows; those out of reach put nearer.
+
+    They bear nothing, and numbers of very different size cost solvers digits.
+
+    Parameters
+    ----------
+    step : StepData
+    units : Units
+    far : float
+        How far is out of reach, in these units [-], of rows of at most unit length; of longer ones
+        so many times farther.
+
+    Returns
+    -------
+    phi : ndarray, shape (n_c,)
+        In these units [-], as b.
+    b : ndarray, shape (e,)
+    """
+    S, ell, rho = units
+    phi = step.contacts.phi / (rho * ell)
+    b = step.extra.b / (rho * ell)
+    if far < math.inf:
+        phi = np.minimum(phi, far * _lengths(step.contacts.J * (S / ell)))
+        b = np.maximum(b, -far * _lengths(step.extra.A[:, None] * (S / ell)))
+    return phi, b
+
+
+def _lengths(J: Array) -> Array:
+    """The Frobenius norm of each matrix of J, (n, rows, n_v), and at least 1, shape (n,) [-]."""
+    return np.asarray(np.maximum(1.0, np.sqrt(np.einsum("cij,cij->c", J, J))))

@@ -7,7 +7,7 @@ from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.lab.scenes.at_random import random_frames
 from quasistatic_ref.lab.scenes.contacts import contacts_of, point_jacobian
 from quasistatic_ref.lab.thresholds import exact
-from quasistatic_ref.step.friction import friction_rows
+from quasistatic_ref.step.standard_form import friction_rows
 from tests.analytic.instances import INFEASIBLE, INSTANCES, instances, near
 from tests.contact.still import in_world
 from tests.oracles.random_steps import mixed_step

@@ -9,9 +9,10 @@ from quasistatic_ref import (
     StepInfeasible,
     contact_forces,
 )
-from quasistatic_ref.certify.exact import ILL_POSED, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.groups import group_steps, groups
+from quasistatic_ref.certify.norm import ILL_POSED
+from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.lab.scenes.contacts import X, contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from tests.helpers import two_bodies

@@ -7,7 +7,6 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref import Extra, StepData
-from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.norm import (
     correct_digits,
     digits_of_error,
@@ -15,6 +14,7 @@ from quasistatic_ref.certify.norm import (
     error_length,
     single_loads,
 )
+from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step
 from tests.closeness import assert_relative, assert_within

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, StepDataError, solve_step, verify, verify_answer
-from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.groups import contact_rows, flat_rows
+from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.files.solution import solution_text
 from quasistatic_ref.lab.scenes.grasps import grasp_step
-from quasistatic_ref.solve.proved import exact_certificate
+from quasistatic_ref.solve.solve import exact_certificate
 from quasistatic_ref.solve.units import ScaledStep
 from tests.helpers import point_on_floor, resting_point
 

@@ -6,12 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, InputError, solve_step
-from quasistatic_ref.files.solution import (
-    load_solution,
-    rounded_wrenches,
-    solution_text,
+from quasistatic_ref import (
+    Extra,
+    InputError,
+    StepInfeasible,
+    save_step,
+    solve_step,
+    verify,
+    verify_answer,
 )
+from quasistatic_ref.certify.verification import rounded_wrenches
+from quasistatic_ref.files.solution import infeasible_text, load_solution, solution_text
 from quasistatic_ref.step.text import step_text
 from tests.cases import cases, refusal
 from tests.closeness import assert_same, assert_within
@@ -39,6 +44,42 @@ def test_a_solution_read_back_is_the_same_bits(tmp_path, certify, kind):
     # Both are the same combination; the file's is rounded once.
     size = np.abs(solution.wrench).max()
     assert_within(back.wrench, solution.wrench, ROUNDING * size)
+
+
+@pytest.mark.parametrize("cone", ["pyramid", "ellipsoid"])
+def test_a_forged_wrench_is_refused_by_every_check(tmp_path, cli, cone):
+    """Of a force of 1e6 N, all else being right: by verify, by verify_answer, by the command."""
+    step = point_on_floor(force=(0.5, 0.0, -3.0)).replace(cone=cone)
+    solution = solve_step(step)
+    record = json.loads(solution_text(solution))
+    record["wrench"][0][2] = 1e6
+    file = tmp_path / "solution.json"
+    file.write_text(json.dumps(record))
+    claim = load_solution(file, step)
+    reason = verify(claim).reason
+    assert reason.startswith("wrench[0][2] is 1000000.0; the exact one rounds to")
+    certificate = claim.certificate
+    answer = (step, claim.delta_q, certificate.active, claim.lam, certificate)
+    assert verify_answer(*answer, wrench=claim.wrench).reason == reason
+    assert verify_answer(*answer)
+    said = cli("verify", save_step(tmp_path / "step.json", step), file, status=1).out
+    assert said == f"refuted: {reason}\n"
+    with pytest.raises(InputError, match="wrench: is a combination of lam: give lam, too"):
+        verify_answer(step, claim.delta_q, certificate.active, wrench=claim.wrench)
+
+
+def test_a_proof_that_there_is_no_solution_is_one_answer_of_a_file(tmp_path):
+    """What the error of the step carries, written and read, is verified; a forged one is not."""
+    walls = Extra(("up", "down"), np.eye(5)[:1] * [[1], [-1]], [1e-3, 1e-3])
+    step = PLAIN.replace(extra=walls)
+    with pytest.raises(StepInfeasible) as failure:
+        solve_step(step)
+    file = tmp_path / "solution.json"
+    for exact in (failure.value.farkas.exact, ("1",) * step.m):
+        file.write_text(infeasible_text(step, exact))
+        claim = load_solution(file, step)
+        assert claim.delta_q is None
+        assert bool(verify(claim)) == (exact == failure.value.farkas.exact)
 
 
 SOLUTION_REFUSED = {

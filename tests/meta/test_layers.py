@@ -125,7 +125,7 @@ def test_the_judge_runs_without_cvxpy():
         "sys.modules['cvxpy'] = sys.modules['qpsolvers'] = None",
         "import numpy as np",
         "from tests.helpers import planted_step",
-        "from quasistatic_ref.certify.residuals import optimality_residuals",
+        "from quasistatic_ref.certify.verification import optimality_residuals",
         "from quasistatic_ref.step.standard_form import standard_form",
         "step, delta_q, lam = planted_step(1)",
         "print(optimality_residuals(standard_form(step), delta_q, lam).worst < 1e-9)",

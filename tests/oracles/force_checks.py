@@ -15,7 +15,7 @@ from quasistatic_ref import (
     contact_forces,
     solve_step,
 )
-from quasistatic_ref.certify.exact import step_optimum
+from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.optional.forces.forces import WRENCH, defined_optimum
 from quasistatic_ref.step.cones import PYRAMID

@@ -5,9 +5,9 @@ import numpy as np
 from quasistatic_ref import StepIllPosed, StepInfeasible
 from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.degeneracy import form_degeneracy, step_degeneracy
-from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.optimum import form_optimum, step_optimum
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.at_random import divided
 from tests.oracles.random_steps import mixed_step

@@ -1,4 +1,4 @@
-"""A second exact check of `certify/exact.py`, by enumeration, sharing no code with it.
+"""A second exact check of `certify/optimum.py`, by enumeration, sharing no code with it.
 
 Every subset of independent rows is solved in `fractions`; one whose multipliers and slacks are
 >= 0 is the optimum, and if none is the problem is infeasible. Small integers make ties common.
@@ -14,7 +14,7 @@ import numpy as np
 
 from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.degeneracy import form_degeneracy
-from quasistatic_ref.certify.exact import exact_slack, form_optimum
+from quasistatic_ref.certify.optimum import exact_slack, form_optimum
 from tests.oracles.forms import exact_form_of
 from tests.oracles.rational_kkt import (
     exact,

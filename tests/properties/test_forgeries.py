@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Certificate, solve_step
-from quasistatic_ref.certify.solution import CLAIMS
 from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.files.solution import load_solution, solution_text
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
-from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
+from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
 from tests.oracles.forged_scenes import between_walls, scenes
 from tests.oracles.forgeries import at_random, good_file, is_refused, outcomes
 from tests.oracles.records import places
@@ -69,7 +68,7 @@ def test_every_kind_and_every_claim_of_a_certificate_is_forged():
     """A kind without a scene, or a claim that is in no kind of file, would not be attacked."""
     in_files = {"kind"}
     for name, claims, label in (
-        (PYRAMID, CLAIMS, ""),
+        (PYRAMID, cone(PYRAMID).claims, ""),
         (ELLIPSOID, ELLIPSOID_CONE.claims, " in the ellipsoid"),
     ):
         for kind, names in claims.items():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, StepDataError, StepNotSolved, load_scenario, solve_step
-from quasistatic_ref.certify.exact import step_optimum
+from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
 from quasistatic_ref.solve.choice import solver_for

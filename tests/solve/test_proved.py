@@ -10,10 +10,10 @@ import pytest
 from quasistatic_ref import load_scenario, solve_step, verify
 from quasistatic_ref.certify.form import ExactForm
 from quasistatic_ref.certify.norm import correct_digits
-from quasistatic_ref.certify.solution import Certificate, SolverStatistics
+from quasistatic_ref.certify.optimum import Certificate, SolverStatistics
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.grasps import grasp_step
-from quasistatic_ref.solve import proved
+from quasistatic_ref.solve import solve
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def test_a_run_does_not_ask_how_rows_touch(monkeypatch):
     def refused(*_):
         raise AssertionError("asked")
 
-    monkeypatch.setattr(proved, "step_degeneracy", refused)
+    monkeypatch.setattr(solve, "step_degeneracy", refused)
     before = len(forms_alive())
     run = load_scenario("stack", steps=2).run(progress=False)
     assert run["digits"].min() > 0

@@ -10,7 +10,7 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.solve.units import ScaledStep
-from quasistatic_ref.step.units import FAR, ends_within
+from quasistatic_ref.step.standard_form import FAR, ends_within
 from tests.cases import cases
 from tests.closeness import assert_relative, assert_same
 from tests.helpers import (

@@ -10,8 +10,8 @@ from quasistatic_ref import Extra, StepDataError, StepProblem, load_scenario, so
 from quasistatic_ref.solve import step_problem
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.solve.units import ScaledStep
-from quasistatic_ref.step.friction import friction_rows
 from quasistatic_ref.step.problem import paper_problem, set_values
+from quasistatic_ref.step.standard_form import friction_rows
 from tests.closeness import assert_close, assert_relative, assert_within
 from tests.helpers import (
     PAPER,

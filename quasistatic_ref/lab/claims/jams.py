@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step, rigid_step

@@ -13,7 +13,7 @@ from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import pyramid
-from quasistatic_ref.step.friction import friction_rows
+from quasistatic_ref.step.standard_form import friction_rows
 
 # Random heaps of bodies, as MJCF for MuJoCo and as URDF for us.
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.lab.reality.outline import rotation
 from quasistatic_ref.lab.reality.push import FINGER, Pushed
 from quasistatic_ref.numbers.arrays import Array

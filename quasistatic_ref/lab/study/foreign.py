@@ -13,8 +13,7 @@ from quasistatic_ref.lab.study.solvers import settings_of, solvers_of
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.qp.answer import ExactQP, QPInfeasible
 from quasistatic_ref.solve.units import units_of
-from quasistatic_ref.step.standard_form import StandardForm
-from quasistatic_ref.step.units import Units
+from quasistatic_ref.step.standard_form import StandardForm, Units
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,7 @@ from typing import NamedTuple, Protocol
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.units import natural_form
-from quasistatic_ref.step.standard_form import StandardForm
-from quasistatic_ref.step.units import Units
+from quasistatic_ref.step.standard_form import StandardForm, Units
 
 
 class Program(NamedTuple):

@@ -11,7 +11,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify.groups import row_owners
-from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.nearby import Changes, End, Nearby

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.groups import flat_rows
-from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.model.state import State
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.numbers.ordered import crossed

@@ -18,7 +18,7 @@ from quasistatic_ref.optional.doctor.slow import Slow
 from quasistatic_ref.optional.doctor.start import least
 from quasistatic_ref.optional.doctor.stopped import Part, Scene
 from quasistatic_ref.optional.doctor.undecided import NO_ANSWER, TOO_MANY, Undecided, failure
-from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.standard_form import frame_jacobian
 
 if TYPE_CHECKING:
     from quasistatic_ref.numbers.arrays import Array, Indices, Mask

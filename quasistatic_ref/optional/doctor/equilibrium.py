@@ -20,7 +20,7 @@ from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.standard_form import frame_jacobian
 from quasistatic_ref.tolerances import SAME_NORMAL
 
 AROUND = 72

@@ -12,7 +12,7 @@ from quasistatic_ref.optional.doctor.stopped import Scene, missing
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.optional.doctor.tolerances import SLIPPED
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.standard_form import frame_jacobian
 
 CLOSED = 0.45
 """Length of the least mean of normals, with weights, of a grip that is closed [-]."""

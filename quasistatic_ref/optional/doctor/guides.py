@@ -18,7 +18,7 @@ from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.standard_form import frame_jacobian
 from quasistatic_ref.tolerances import REPEATED, SAME_NORMAL
 
 CRAWL: Final = 0.1

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
@@ -34,7 +34,7 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
-    from quasistatic_ref.certify.solution import ContactForces
+    from quasistatic_ref.certify.optimum import ContactForces
     from quasistatic_ref.step.contacts import Contacts
 
 NOTED = ("tau", "moved", "momentum", "gives")

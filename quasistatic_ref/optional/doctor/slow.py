@@ -27,8 +27,8 @@ from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import ScaledStep, in_si
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian
-from quasistatic_ref.step.units import Units
+from quasistatic_ref.step.friction import contact_wrenches
+from quasistatic_ref.step.standard_form import Units, frame_jacobian
 from quasistatic_ref.tolerances import ACCURACY
 
 SLOWLY = 10.0

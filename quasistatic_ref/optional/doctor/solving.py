@@ -22,7 +22,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 
 if TYPE_CHECKING:
-    from quasistatic_ref.certify.solution import ContactForces
+    from quasistatic_ref.certify.optimum import ContactForces
 
 BORNE: Final = 1e-4
 """Share of the load [-] that forces of single contacts may leave without a finding."""

@@ -22,7 +22,7 @@ from quasistatic_ref.optional.doctor.tolerances import SLIPPED, SUNK
 from quasistatic_ref.optional.doctor.undecided import Undecided
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Shape
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.standard_form import frame_jacobian
 from quasistatic_ref.tolerances import FILLED
 
 LAGS: Final = 0.1

@@ -15,9 +15,9 @@ from quasistatic_ref.certify.curved_cone import CurvedCone
 from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
 from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.minimiser import rounded_quotients
-from quasistatic_ref.certify.residuals import Judge, Violations, largest
-from quasistatic_ref.certify.solution import Certificate, Claims, Verdict, wrong_bits, wrong_claim
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.certify.optimum import Certificate
+from quasistatic_ref.certify.verification import Verdict, largest, wrong_bits, wrong_claim
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.apex import apex
 from quasistatic_ref.optional.ellipsoid.enclosure import (
@@ -33,7 +33,7 @@ from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.optional.ellipsoid.tolerances import ENCLOSED, IMPULSES
 from quasistatic_ref.optional.gap import duality_gap, fractions
-from quasistatic_ref.step.cones import ELLIPSOID, Rows
+from quasistatic_ref.step.cones import ELLIPSOID, Claims, Judge, Rows, Violations
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
@@ -59,14 +59,14 @@ class EllipsoidCone(CurvedCone):
         """1, (n_c, 3): the rows of a contact are J_n, J_1, J_2 and J_w [-]; `mu` is the cone's."""
         return np.ones_like(mu)
 
-    def constraints(self, motion: Rows) -> list[cp.Constraint]:
+    def constraints(self, motion: Rows, mask: Mask) -> list[cp.Constraint]:
         """All contacts in one second-order cone constraint; arguments as of the base [m]."""
         import cvxpy as cp  # it takes its time
 
         gap, *slips = motion
         return [cp.SOC(gap, cp.vstack(slips))] if gap.size else []
 
-    def multipliers(self, constraints: Sequence[cp.Constraint], mu: Array) -> Array:
+    def multipliers(self, constraints: Sequence[cp.Constraint], mask: Mask, mu: Array) -> Array:
         """Impulses (n, d1, d2, spin) of each contact, shape (4 n_c,) [N s, N m s]."""
         if not constraints:
             return np.zeros(0)

@@ -10,7 +10,7 @@ the step, too. CVXPY is imported for terms alone: rows and rises are numbers alr
 from collections.abc import Callable
 from typing import Any
 
-from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.errors import BackendError, InputError, StepDataError
 from quasistatic_ref.optional.extensions.extension import checked_extension, none
 from quasistatic_ref.optional.extensions.own_rows import joined, with_numbers

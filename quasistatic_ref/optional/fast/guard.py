@@ -14,8 +14,7 @@ from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.units import coordinate_units, natural_form
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.standard_form import StandardForm, standard_form
-from quasistatic_ref.step.units import Units
+from quasistatic_ref.step.standard_form import StandardForm, Units, standard_form
 
 
 class SomeColumns(ColumnMap):

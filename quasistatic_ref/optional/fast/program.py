@@ -15,8 +15,7 @@ from quasistatic_ref.optional.fast.steps import Steps
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.solver import Reply
 from quasistatic_ref.solve.units import coordinate_units
-from quasistatic_ref.step.standard_form import StandardForm
-from quasistatic_ref.step.units import Units
+from quasistatic_ref.step.standard_form import StandardForm, Units
 
 STATUS = {1: "optimal", 2: "soft optimal", -1: "infeasible", -2: "cycling", -3: "unbounded",
           -4: "iteration limit", -5: "not convex", -6: "overdetermined"}  # fmt: skip

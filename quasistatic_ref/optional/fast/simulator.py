@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.groups import group_step, linked
-from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, StepDataError

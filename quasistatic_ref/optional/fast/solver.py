@@ -16,8 +16,7 @@ from quasistatic_ref.solve.solver import BackendSolver, Reply, Solver
 from quasistatic_ref.solve.units import ScaledStep, of_group, out_of_range
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.standard_form import StandardForm
-from quasistatic_ref.step.units import Units
+from quasistatic_ref.step.standard_form import StandardForm, Units
 
 DAQP = "daqp"
 

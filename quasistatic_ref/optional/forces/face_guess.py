@@ -20,8 +20,7 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.forces.faces import Rows, face, rows_of
 from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.step.standard_form import linear_term
+from quasistatic_ref.step.standard_form import frame_jacobian, linear_term
 
 ROUNDING: Final = 2.0**-44
 """By how much a condition of a face may be missed, relative to the lengths z."""

@@ -38,13 +38,12 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.active_set import dual_active_set
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
-from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.failures import StepInfeasible, StepNotSolved
 from quasistatic_ref.certify.form import EXACT, MatrixForm, StepForm, columns, exact_matrix
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.certify.solution import ContactForces
+from quasistatic_ref.certify.optimum import ContactForces, ExactOptimum, step_optimum
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.numbers.precision import working_precision
@@ -53,8 +52,10 @@ from quasistatic_ref.optional.forces.face_guess import guessed_faces
 from quasistatic_ref.optional.forces.faces import cone_rows
 from quasistatic_ref.optional.forces.of_group import NOTHING_MOVES, group_compliance
 from quasistatic_ref.optional.friction import scaled_by
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, check_step
-from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian
+from quasistatic_ref.step.friction import contact_wrenches
+from quasistatic_ref.step.standard_form import frame_jacobian
 
 WRENCH: Final = [1, 2, 0, 3]
 """Where (f_d1, f_d2, f_n, tau_n) stand in p."""
@@ -139,9 +140,8 @@ def _one_of(compliances: Array) -> float:
 def _without_compliance(step: StepData) -> tuple[Array, Array]:
     """delta_q, shape (n_v,), and wrenches, shape (n_c, 4) [N, N m], of the step itself."""
     optimum: Enclosed | ExactOptimum | None
-    curved = curved_cone(step)
-    if curved is not None:
-        optimum = curved.optimum(step, None)
+    if not cone(step.cone).polyhedral:
+        optimum = curved_cone(step).optimum(step, None)
         if optimum is None:
             raise StepNotSolved("none", "no enclosure of the optimum was found", step, 0.0)
     else:
@@ -152,9 +152,8 @@ def _without_compliance(step: StepData) -> tuple[Array, Array]:
 
 def _of_group(step: StepData, c: float, near: tuple[Array, Array]) -> ContactForces:
     """The forces of a step by itself, or of a group of one, by one compliance [m/N]."""
-    curved = curved_cone(step)
-    if curved is not None:
-        wrench, delta_q = curved.forces(step, c, near)
+    if not cone(step.cone).polyhedral:
+        wrench, delta_q = curved_cone(step).forces(step, c, near)
     else:
         faces = without_warnings(guessed_faces, step, c, near[1])
         p, delta_q = eliminated_optimum(step, c, faces) or defined_optimum(step, c)

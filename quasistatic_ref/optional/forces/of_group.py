@@ -27,7 +27,7 @@ from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.standard_form import frame_jacobian
 
 COMPLIANCE: Final = 2e-9
 """Compliance of a group's contacts over the least mobility of what they touch [-].

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.tolerances import FORCES_AGREE, STEADY

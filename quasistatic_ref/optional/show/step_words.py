@@ -8,7 +8,7 @@ from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.optional.show.show import Page, direction, number
 
 if TYPE_CHECKING:
-    from quasistatic_ref.certify.solution import Certificate
+    from quasistatic_ref.certify.optimum import Certificate
     from quasistatic_ref.step.data import StepData
 
 CONTACT = ("contact", "gap [m]", "normal", "mu_v", "mu_omega [m]", "rows")

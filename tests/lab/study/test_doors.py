@@ -13,7 +13,7 @@ from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.lab.study.run import study
 from quasistatic_ref.lab.study.solvers import Solver, function_solver
 from quasistatic_ref.solve.backends import BACKENDS
-from quasistatic_ref.step.units import Units
+from quasistatic_ref.step.standard_form import Units
 from tests.lab.study import broken
 
 RETURNED = {

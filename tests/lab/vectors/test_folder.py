@@ -8,7 +8,7 @@ from jsonschema import Draft202012Validator
 
 from quasistatic_ref import InputError, verify_answer
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.certify.solution import Certificate
+from quasistatic_ref.certify.optimum import Certificate
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.lab.vectors.agreed import PROGRAM
 from quasistatic_ref.lab.vectors.files import expected_read

@@ -15,8 +15,8 @@ from quasistatic_ref import (
     verify,
     verify_answer,
 )
-from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.lab.scenes.contacts import Y, frames_about
 from quasistatic_ref.lab.scenes.grasps import grasp_step

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.certify.exact import exact_slack, optimum_by_groups
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.groups import group_steps
+from quasistatic_ref.certify.optimum import exact_slack, optimum_by_groups
 from quasistatic_ref.lab.scenes.rigid import program_step
 from quasistatic_ref.lab.study.problems.problem import EXACT, Answer
 from quasistatic_ref.step.standard_form import StandardForm

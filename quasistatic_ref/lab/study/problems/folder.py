@@ -20,7 +20,7 @@ from quasistatic_ref.files.content import LARGEST_TEXT, bytes_read, json_read
 from quasistatic_ref.files.npz import npz_arrays
 from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.lab.study.problems.problem import ENCLOSED, EXACT, Answer, Problem
-from quasistatic_ref.step.units import Units
+from quasistatic_ref.step.standard_form import Units
 
 FORMAT = "quasistatic-ref/problem-set"
 VERSION = 1

@@ -11,8 +11,7 @@ from quasistatic_ref.certify.norm import digits_of_error, energy_norm
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.step.standard_form import StandardForm
-from quasistatic_ref.step.units import Units, si_units
+from quasistatic_ref.step.standard_form import StandardForm, Units, si_units
 
 QP, SOCP = "qp", "socp"
 """Rows A x >= b; or blocks of four, (A x - b)_0 >= |(A x - b)_1:3|."""

@@ -6,9 +6,9 @@ the package encloses it.
 
 import numpy as np
 
-from quasistatic_ref.certify.exact import optimum_by_groups
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.groups import group_steps
+from quasistatic_ref.certify.optimum import optimum_by_groups
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
 from quasistatic_ref.lab.vectors.trees import Json

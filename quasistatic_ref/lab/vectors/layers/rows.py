@@ -8,7 +8,7 @@ from quasistatic_ref.lab.scenes.contacts import NUMBERS
 from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Contacts
-from quasistatic_ref.step.friction import friction_rows, row_constants
+from quasistatic_ref.step.standard_form import friction_rows, row_constants
 
 
 def row_count(name: str, rows: int) -> int:

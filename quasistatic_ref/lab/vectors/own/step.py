@@ -9,7 +9,7 @@ import numpy as np
 
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.groups import group_steps
-from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair

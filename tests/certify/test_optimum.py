@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario, solve_step
-from quasistatic_ref.certify import exact
-from quasistatic_ref.certify.exact import exact_slack, form_optimum, step_optimum
+from quasistatic_ref.certify import optimum
 from quasistatic_ref.certify.groups import group_steps
+from quasistatic_ref.certify.optimum import exact_slack, form_optimum, step_optimum
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.solve.choice import solver_for
@@ -47,13 +47,13 @@ def test_what_stays_where_it_is_needs_no_fractions(monkeypatch):
 def proofs_made(monkeypatch):
     """Of each proof that is made, the number of rows of its program."""
     made = []
-    form_optimum = exact.form_optimum
+    form_optimum = optimum.form_optimum
 
     def counted(form, *arguments):
         made.append(form.m)
         return form_optimum(form, *arguments)
 
-    monkeypatch.setattr(exact, "form_optimum", counted)
+    monkeypatch.setattr(optimum, "form_optimum", counted)
     return made
 
 
@@ -86,9 +86,9 @@ def test_a_group_that_rests_is_kept_beside_one_that_moves(proofs_made):
 def test_what_differs_in_one_bit_or_starts_elsewhere_is_proved(proofs_made):
     step = point_on_floor(force=(0.1, 0.0, -1.0))
     (part,) = group_steps(step)
-    kept = exact.Proofs()
+    kept = optimum.Proofs()
     for one, start in [(step, [0]), (step.replace(), [0]), (step.replace(), [1])]:
-        exact.optimum_by_groups(one, [(part[0], one)], [start], kept)
+        optimum.optimum_by_groups(one, [(part[0], one)], [start], kept)
     assert len(proofs_made) == 2
     for name, value in {
         "h": np.nextafter(step.h, 1),
@@ -98,5 +98,5 @@ def test_what_differs_in_one_bit_or_starts_elsewhere_is_proved(proofs_made):
     }.items():
         other = step.replace(**{name: value})
         assert not other.same_as(step)
-        exact.optimum_by_groups(other, [(part[0], other)], [[0]], kept)
+        optimum.optimum_by_groups(other, [(part[0], other)], [[0]], kept)
     assert len(proofs_made) == 6

@@ -1,23 +1,240 @@
-"""The answer of one step: its certificate, the forces of its contacts, the verdict on a claim."""
+"""The exact optimum of a step, rounded correctly to float64.
+
+Numbers are computed as balls (a midpoint with a rigorous bound of its error) and, only where a ball
+leaves a sign or a rounding open, as fractions.
+
+delta_q and A'lam are unique, and correct rounding leaves no choice: they have the same bits
+whatever the warm start was. lam and the working set are one of several possible choices where the
+multipliers are not unique.
+"""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
+from quasistatic_ref.certify.active_set import (
+    Combination,
+    EnteringRule,
+    dual_active_set,
+    most_violated,
+)
+from quasistatic_ref.certify.failures import StepInfeasible
+from quasistatic_ref.certify.farkas import farkas_vector
+from quasistatic_ref.certify.form import ExactForm, StepForm
+from quasistatic_ref.certify.groups import Group, group_steps
+from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.certify.norm import Parts, check_length
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.formats.shown import HasPage, Shown
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
 from quasistatic_ref.parts import contact_forces
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.text import step_sha256
+
+
+@dataclass(frozen=True, eq=False)
+class ExactOptimum:
+    """The optimum of min 1/2 x'Hx - g'x s.t. Ax >= b; every number is rounded correctly.
+
+    Parameters
+    ----------
+    delta_q : ndarray, shape (n_v,)
+        [m, rad].
+    lam : ndarray, shape (m,)
+        Basic multipliers [N s]: zero outside of the working set, positive on it, but those of
+        equations.
+    net : ndarray, shape (n_v,)
+        A'lam [N s, N m s].
+    working_set : tuple of int
+        Rows in increasing order, independent, with positive multipliers where no equations.
+    smallest_active_multiplier : float or None
+        Smallest of lam [N s] on the working set, equations left out; None if there is no other.
+    walks : int
+        Violated rows that were added to the warm start: zero if it was right.
+    """
+
+    delta_q: Array
+    lam: Array
+    net: Array
+    working_set: tuple[int, ...]
+    smallest_active_multiplier: float | None
+    walks: int
+
+
+def form_optimum(
+    form: ExactForm, warm: Sequence[int] = (), entering_row: EnteringRule = most_violated
+) -> ExactOptimum | Combination:
+    """The exact optimum, or an exact proof that there is none.
+
+    Parameters
+    ----------
+    form : ExactForm
+    warm : sequence of int
+        Rows that a solver found active, in order of preference; any rows will do.
+    entering_row : callable
+        Chooses the violated row that is added next: this may change lam, the working set, the
+        smallest multiplier on that and the number of walks, but nothing else of an optimum.
+
+    Returns
+    -------
+    ExactOptimum or Combination
+
+    """
+    end = dual_active_set(form, warm, entering_row)
+    return end if isinstance(end, Combination) else rounded_optimum(form, end)
+
+
+def rounded_optimum(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
+    """The optimum at which the exact method ended, rounded correctly to float64."""
+    working = minimiser.working
+    lam = np.zeros(form.m)
+    lam[list(working)] = minimiser.rounded(lambda m: m.y, form.h)
+    pressed = [i for i in working if i >= form.equations]
+    return ExactOptimum(
+        delta_q=minimiser.rounded(lambda m: m.x),
+        lam=lam,
+        net=minimiser.rounded(lambda m: m.net.entries(), form.h),
+        working_set=tuple(sorted(working)),
+        smallest_active_multiplier=float(lam[pressed].min()) if pressed else None,
+        walks=minimiser.walks,
+    )
+
+
+def exact_slack(form: ExactForm, working_set: Sequence[int]) -> Array:
+    """A x - b at the minimiser on a working set, each entry rounded correctly, shape (m,) [m].
+
+    Parameters
+    ----------
+    form : ExactForm
+    working_set : sequence of int
+        Independent rows.
+    """
+    minimiser = Minimiser(form, tuple(working_set))
+    inactive = minimiser.inactive
+    slack = np.zeros(form.m)
+    slack[inactive] = minimiser.rounded(lambda m: form.slacks(inactive.tolist(), m.z))
+    return slack
+
+
+def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
+    """The exact optimum of Eq. :eq:`eq-13`, sought and proved for each of its groups by itself.
+
+    Parameters
+    ----------
+    step : StepData
+        SI units.
+    warm : sequence of int
+        Rows that a solver found active; see :func:`~quasistatic_ref.certify.active_set.warm_rows`.
+
+    Returns
+    -------
+    ExactOptimum
+
+    Raises
+    ------
+    InputError
+        If the cone is no polyhedron.
+    StepInfeasible
+        If no displacement satisfies the rows, with the proof.
+    StepIllPosed
+        If the optimum of a group is absurdly long.
+    """
+    if not cone(step.cone).polyhedral:
+        raise InputError("has no rational optimum", field="cone", value=step.cone)
+    parts = group_steps(step)
+    starts = [group.within(warm) for group, _ in parts]
+    optimum = optimum_by_groups(step, parts, starts)
+    without_warnings(check_length, step, optimum.delta_q, parts)
+    return optimum
+
+
+def optimum_by_groups(
+    step: StepData,
+    parts: Parts,
+    starts: Sequence[Sequence[int]],
+    proofs: Proofs | None = None,
+) -> ExactOptimum:
+    """The exact optimum of a step, computed group by group, without a limit on its length.
+
+    Parameters
+    ----------
+    step : StepData
+    parts : sequence of (Group, StepData)
+        Its groups.
+    starts : sequence of sequence of int
+        Of each group, counted in it: rows that a solver found active.
+    proofs : Proofs, optional
+        Those of the step before; they become those of this step.
+
+    Raises
+    ------
+    StepInfeasible
+    """
+    proofs = Proofs() if proofs is None else proofs
+    optima: list[tuple[Group, ExactOptimum]] = []
+    for i, ((group, part), start) in enumerate(zip(parts, starts, strict=True)):
+        optimum = proofs.kept(i, part, start)
+        if optimum is None:
+            form = StepForm(part)
+            end = form_optimum(form, start)
+            if isinstance(end, Combination):
+                raise StepInfeasible(step, farkas_vector(step, form, end, group.rows))
+            optimum = end
+            proofs.keep(i, part, start, optimum)
+        if part is step:
+            return optimum
+        optima.append((group, optimum))
+    delta_q = np.zeros(step.n_v)
+    net = np.zeros(step.n_v)
+    lam = np.zeros(step.m)
+    working: list[int] = []
+    for group, optimum in optima:
+        delta_q[group.coordinates] = optimum.delta_q
+        net[group.coordinates] = optimum.net
+        lam[group.rows] = optimum.lam
+        working += group.rows[list(optimum.working_set)].tolist()
+    each = [optimum for _, optimum in optima]
+    multipliers = [optimum.smallest_active_multiplier for optimum in each]
+    return ExactOptimum(
+        delta_q=delta_q,
+        lam=lam,
+        net=net,
+        working_set=tuple(sorted(working)),
+        smallest_active_multiplier=min((v for v in multipliers if v is not None), default=None),
+        walks=sum(optimum.walks for optimum in each),
+    )
+
+
+class Proofs:
+    """A cache of the last step's proofs, by group: equal data and start give the same proof.
+
+    What it gives depends on nothing else, and so on no step before.
+    """
+
+    def __init__(self) -> None:
+        # Of each group: what it was as a step, the rows that its search started from, the end.
+        self._last: dict[int, tuple[StepData, list[int], ExactOptimum]] = {}
+
+    def kept(self, i: int, part: StepData, start: Sequence[int]) -> ExactOptimum | None:
+        """The kept optimum of group i, if its data and start equal those of the last step."""
+        if i not in self._last:
+            return None
+        last, begun, optimum = self._last[i]
+        return optimum if begun == [*start] and part.same_as(last) else None
+
+    def keep(self, i: int, part: StepData, start: Sequence[int], optimum: ExactOptimum) -> None:
+        """Replace the kept proof of group i."""
+        for array in (optimum.delta_q, optimum.lam, optimum.net):
+            read_only(array)
+        self._last[i] = part, [*start], optimum
+
 
 UNKNOWN = "are not known: a step holds no costs or nonlinear constraints"
 
@@ -131,7 +348,7 @@ class StepSolution(Plain, Shown):
     def imbalance(self) -> float:
         """The share of the load that the forces do not balance [-], mostly below 1e-6.
 
-        That of :class:`~quasistatic_ref.certify.solution.ContactForces`.
+        That of :class:`~quasistatic_ref.certify.optimum.ContactForces`.
         """
         return self.compliant.imbalance
 
@@ -177,20 +394,6 @@ class StepSolution(Plain, Shown):
     def status(self) -> str:
         """Always ``"optimal"``: a step without an accepted answer raises ``StepNotSolved``."""
         return "optimal"
-
-
-Claims = Mapping[str, tuple[str, ...]]
-"""The kinds of certificate in a cone, each with its further fields in a solution file."""
-
-CLAIMS: Claims = {
-    "exact": (
-        "active", "multipliers_unique", "differentiable", "smallest_inactive_slack",
-        "smallest_active_multiplier", "error_bound",
-    ),
-    "residual": (),
-    "none": (),
-}  # fmt: skip
-"""Those of a polyhedral cone."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -294,61 +497,3 @@ class ContactForces(Shown):
     def __post_init__(self) -> None:
         for array in (self.wrench, self.delta_q, self.compliance):
             read_only(array)
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """Whether a certificate holds.
-
-    Parameters
-    ----------
-    ok : bool
-    reason : str
-        Why not, in plain words; empty if it holds.
-
-    Examples
-    --------
-    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> qr.verify_answer(step, np.zeros(6), []).reason
-    'row +d1 of floor(floor, sphere/sphere#0)/0 is violated by the minimiser on the working set'
-    """
-
-    ok: bool
-    reason: str = ""
-
-    def __bool__(self) -> bool:
-        return self.ok
-
-
-def wrong_bits(name: str, numbers: Array, right: Array) -> str:
-    """What is wrong with numbers that must be right to the last bit; empty if nothing.
-
-    Parameters
-    ----------
-    name : str
-    numbers, right : ndarray, of the same shape (k,)
-        What is judged, and what it must be [of one unit].
-    """
-    numbers = np.array(numbers, dtype=np.float64)
-    if numbers.shape != right.shape:
-        return f"{name} has shape {numbers.shape}; the step wants {right.shape}"
-    wrong = np.flatnonzero(numbers.view(np.int64) != right.view(np.int64))
-    if not wrong.size:
-        return ""
-    at = int(wrong[0])
-    return f"{name}[{at}] is {float(numbers[at])!r}; the exact one rounds to {float(right[at])!r}"
-
-
-def wrong_claim(name: str, claimed: object, right: object) -> str:
-    """What is wrong with a claim that must be right to the last bit; empty if nothing.
-
-    Parameters
-    ----------
-    name : str
-    claimed, right : object
-        What is said, and what is true; -0.0 is not 0.0.
-    """
-    signs = {math.copysign(1.0, v) for v in (claimed, right) if isinstance(v, float)}
-    if claimed == right and len(signs) < 2:
-        return ""
-    return f"{name} is claimed to be {clipped(repr(claimed))}; it is {right!r}"
