@@ -28,7 +28,7 @@ from quasistatic_ref.tolerances import ACCURACY, CREEP
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
 
-    from quasistatic_ref.certify.solution import StepSolution
+    from quasistatic_ref.certify.optimum import StepSolution
     from quasistatic_ref.step.data import StepData
 
 SHORT = 0.01
