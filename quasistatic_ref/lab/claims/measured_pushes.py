@@ -1,17 +1,11 @@
 """Measured pushes, predicted with friction that was identified from measured loads alone."""
 
-from functools import cache
-
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, within
-from quasistatic_ref.lab.reality.errors import pose_errors
-from quasistatic_ref.lab.reality.identify import identified_ratio
-from quasistatic_ref.lab.reality.measurements import loads_read, pairs_read, pushes_read
-from quasistatic_ref.lab.reality.predict import prediction
-from quasistatic_ref.lab.reality.push import pushed_scene
+from quasistatic_ref.lab.reality.measurements import pairs_read
+from quasistatic_ref.lab.reality.run import PROOFS, predicted_pushes
 from quasistatic_ref.lab.reality.settings import Settings
-from quasistatic_ref.numbers.arrays import Array
 
 EVERY, ADVANCE = 100, 2e-3
 """Of the pushes of each pair; the finger's way in a step [m]."""
@@ -26,42 +20,21 @@ WORSE = 1.5
 two cones apart, since the mean of either scatters by a tenth."""
 
 
-@cache
-def errors(cone: str) -> tuple[Array, Array, int]:
-    """Mean errors over pairs of the model and of the published simulator, and steps unproved.
+def record_of(cone: str) -> tuple[list[float], list[float], int]:
+    """Mean errors of the model and of the published simulator, over pairs, and steps unproved.
 
-    Returns
-    -------
-    ours, other : ndarray, shape (2,)
-        Of place and angle [mm, deg].
-    unproved : int
+    Errors are of the place and of the angle [mm, deg].
     """
-    pairs = pairs_read()
-    loads = loads_read(pairs)
-    pushes = pushes_read(pairs)
-    ours = []
-    other = []
-    unproved = 0
-    for pair in pairs:
-        ratio = identified_ratio(loads[pair.name], pair.outline.gyration)
-        some = pushes[pair.name].every(EVERY)
-        scene = pushed_scene(Settings(cone=cone, advance=ADVANCE), pair, ratio)
-        ways = zip(some.before, some.path, strict=True)
-        ends = [prediction(scene, before, path) for before, path in ways]
-        unproved += sum(n for e in ends for kind, n in e.kinds.items() if kind not in PROOFS)
-        ours.append(pose_errors(np.array([end.pose for end in ends]), some.after).mean(0))
-        other.append(pose_errors(some.published, some.after).mean(0))
-    units = np.array([1e3, np.degrees(1.0)])
-    return units * np.mean(ours, axis=0), units * np.mean(other, axis=0), unproved
-
-
-PROOFS = ("exact", "enclosure")
+    record, _ = predicted_pushes(Settings(cone=cone, advance=ADVANCE), pairs_read(), EVERY)
+    errors = record["pairs"]["all"]
+    unproved = sum(count for kind, count in record["steps"].items() if kind not in PROOFS)
+    return errors["error"]["mean"], errors["published"]["mean"], unproved
 
 
 def evidence() -> list[Comparison]:
     """A hundredth of the pushes in two cones."""
-    ours, other, unproved = errors("ellipsoid")
-    pyramid, _, also = errors("pyramid")
+    ours, other, unproved = record_of("ellipsoid")
+    pyramid, _, also = record_of("pyramid")
     return [
         comparison("steps without a proof [-]", [unproved, also], 0.0, 0.0),
         within("mean error of the place less the published simulator's [mm]",

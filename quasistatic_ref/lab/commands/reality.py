@@ -1,14 +1,12 @@
 """``validate reality``: measured pushes, predicted with friction identified from measured loads."""
 
 import argparse
-from functools import partial
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.content import text_written, writable_folder
 from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.lab.reality.settings import Settings
-from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 
 NAME = "reality"
@@ -63,41 +61,22 @@ def run(options: argparse.Namespace) -> int:
 
 def _exit_status(options: argparse.Namespace, settings: Settings, every: int) -> int:
     from quasistatic_ref.lab.parallel import workers
-    from quasistatic_ref.lab.reality.identify import identified_ratio
-    from quasistatic_ref.lab.reality.measurements import loads_read, pairs_read, pushes_read
-    from quasistatic_ref.lab.reality.predict import prediction
-    from quasistatic_ref.lab.reality.push import pushed_scene
-    from quasistatic_ref.lab.reality.report import (
-        certified_words,
-        error_rows,
-        predictions_text,
-        reality_record,
-    )
+    from quasistatic_ref.lab.reality.measurements import pairs_read, pushes_read
+    from quasistatic_ref.lab.reality.report import certified_words, error_rows, predictions_text
+    from quasistatic_ref.lab.reality.run import PROOFS, predicted_pushes
 
     pairs = pairs_read(options.sets.split(",") if options.sets else ())
-    loads = loads_read(pairs)
-    ratios = {p.name: identified_ratio(loads[p.name], p.outline.gyration) for p in pairs}
-    pushes = {key: value.every(every) for key, value in pushes_read(pairs).items()}
-    if min(len(some.before) for some in pushes.values()) < 2:
+    if min(len(some.every(every).before) for some in pushes_read(pairs).values()) < 2:
         problem = "leaves a pair fewer than two pushes"
         raise InputError(problem, field="--fraction", value=options.fraction)
     folder = writable_folder(options.out)
     with workers(options.jobs) as executor:
-        many = map if executor is None else partial(executor.map, chunksize=5)
-        under_way = {}
-        for pair in pairs:
-            predict = partial(prediction, pushed_scene(settings, pair, ratios[pair.name]))
-            some = pushes[pair.name]
-            under_way[pair.name] = many(predict, some.before, some.path)
-        ends = {
-            key: list(progress_bar(predictions, total=len(pushes[key].before), words=key,
-                                   unit="push", shown=not options.quiet))
-            for key, predictions in under_way.items()
-        }  # fmt: skip
-    record = reality_record(settings, ratios, every, pushes, ends)
+        record, ends = predicted_pushes(
+            settings, pairs, every, executor, progress=not options.quiet
+        )
     summary = text_written(folder / "reality.json", json_text(record) + "\n")
     text_written(folder / "reality.csv", predictions_text(ends, every))
-    good = set(record["steps"]) <= {"exact", "enclosure"}
+    good = set(record["steps"]) <= {*PROOFS}
     if options.json:
         shared.print_json(record)
         return 0 if good else 1
