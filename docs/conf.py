@@ -1,8 +1,8 @@
 """How the documentation is built: ``python -m sphinx -W -n docs OUT``, without network.
 
 Nothing that a page loads comes from elsewhere: MathJax is a Python package whose files are copied,
-and the theme brings its own fonts and scripts. ``python -m validation.tools.check_site OUT`` proves
-it.
+and the theme brings its own fonts and scripts. ``python -m validation.tools.check_in_browser OUT``
+proves it.
 """
 
 import pkgutil
