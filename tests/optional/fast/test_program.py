@@ -105,6 +105,28 @@ def test_a_warm_start_that_fails_is_followed_by_a_cold_one(rng, monkeypatch):
     assert calls == [True, False]
 
 
+CORNERS = {
+    "square": ([0.0, 1.0, 1.0], np.eye(3)),
+    "nearly flat": (
+        [-1.0, 1.0, 0.0],
+        [[-(2.0**-16), -1.0, -1.0], [0.0, 1.0, 0.0], [0.0, 1.0, 1.0]],
+    ),
+}
+"""Loads f and rows of walls A x >= 0; x = 0 is the answer, as f is A' of multipliers >= 0."""
+
+
+def test_a_workspace_that_had_no_finite_answer_is_set_up_again():
+    """DAQP has NaN in the second corner after the first, and would have it from then on."""
+    f, A, b, H = np.zeros(3), np.zeros((3, 3)), np.zeros(3), np.eye(3)
+    f[:], A[:] = CORNERS["square"]
+    workspace = Workspace(H, f, A, b, {})
+    for corner in ("square", "nearly flat", "square"):
+        f[:], A[:] = CORNERS[corner]
+        reply = workspace.reply(H)
+        assert reply.solved
+        assert np.abs(reply.answer[0]).max() < ACTIVE_SET
+
+
 def test_a_step_that_couples_what_the_step_before_did_not_is_solved(rng):
     """J of a kept solver may have entries where it had zeros."""
     scene = boxes(2)
