@@ -43,3 +43,17 @@ def test_what_is_said_of_statics_is_right_by_hand(case):
                 number, off = value
                 right = pytest.approx(number, rel=off, abs=0.0 if number else off)
                 assert abs(said[name].numbers[key]) == right
+
+
+@pytest.mark.parametrize("backend", ["clarabel", "osqp", "none"])
+@pytest.mark.parametrize("what", ["a rod slips", "a cube that a finger pushes at 0.1"])
+def test_findings_do_not_depend_on_the_backend(what, backend):
+    """Contacts share loads in many ways, and backends differ in theirs."""
+    (case,) = [each.values[0] for each in CASES if each.values[0]["what"].startswith(what)]
+    run = scene_of(case).run(progress=False)
+    other = scene_of(case, fast=False, solver={"backend": backend}).run(progress=False)
+    assert other.header.not_looked_at == run.header.not_looked_at == ""
+    said = {one.name: one for one in other.findings}
+    assert said.keys() == case["hand"].keys()
+    for one in run.findings:
+        assert said[one.name].numbers == pytest.approx(one.numbers, rel=1e-6, abs=1e-6)

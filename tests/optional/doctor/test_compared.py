@@ -1,9 +1,12 @@
 """What an artifact changes is said with both numbers; where nothing changes, nothing is."""
 
+import re
+
 import numpy as np
 import pytest
 
-from quasistatic_ref import Sphere
+from quasistatic_ref import Sphere, load_scenario
+from quasistatic_ref.lab.grasp import grasp_report
 from tests.files.urdf.urdf_texts import link, robot
 from tests.optional.doctor.words import (
     block,
@@ -130,3 +133,18 @@ def test_a_pile_that_collapses_in_the_corners_of_the_pyramid():
     for cone in ("pyramid", "ellipsoid"):
         names = {finding.name for finding in found(pile(0.3, cone))}
         assert names - {"corners"} == {"equilibrium"}
+
+
+@pytest.mark.parametrize(
+    ("mu_omega", "h"),
+    [(1.7e-3, 0.01), pytest.param(2e-3, 0.005, marks=pytest.mark.long), (2.05e-3, 0.005)],
+)
+def test_a_turn_by_drag_is_that_of_the_whole_run(mu_omega, h):
+    """Of the bunny, by some degrees; before it settles by a tenth of one as its grip closes."""
+    changes = {"contacts.grip.mu_omega": mu_omega, "h": h, "steps": round(3 / h)}
+    scenario = load_scenario("bunny_grasp", changes, fast=True)
+    run = scenario.run(progress=False)
+    (turns,) = run.findings
+    way = float(re.search(r"turns by ([\d.]+) deg in the run, because of drag", turns.cause)[1])
+    assert way == pytest.approx(grasp_report(scenario, run)["rotation_deg"], abs=0.12)
+    assert run.header.not_looked_at == ""
