@@ -169,6 +169,8 @@ INDEXED = {
 CITED_RESULT = re.compile(r"\((R\d+)\)")
 NAMED_EQUATIONS = re.compile(r"\bEqs?\. \(\d+\)(?:(?: to |, | and )\(\d+\))*")
 WORK = re.compile(r"\[[^\]]*\]\([./]*references\.bib#(\w+)\)")
+SENTENCE = 20
+"""Letters from which on a cell of a table holds more than a name or a number."""
 TABLES = re.compile(r"^\[The tables\]\((\S+)\)$", re.MULTILINE)
 """A line that leads to committed tables, which stand on the site in its place."""
 OUTSIDE = re.compile(r"\[([^\]]+)\]\(((?:\.\./)+(?:validation|slides)/[^)#]+\.md)\)")
@@ -190,6 +192,7 @@ def setup(app):
     app.connect("source-read", _expanded)
     app.connect("doctree-read", _plain_listings)
     app.connect("doctree-read", _thumbnails_named)
+    app.connect("doctree-read", _prose_tables_marked)
     app.connect("autodoc-process-docstring", _kept, priority=400)  # napoleon's is 500
     app.connect("autodoc-process-docstring", _mended, priority=600)
     app.connect("missing-reference", _public)
@@ -218,7 +221,7 @@ def _expanded(app, docname, source):
     text = text.replace("<!-- contents -->", _contents())
     if docname in INDEXED:
         heading, words = INDEXED[docname]
-        text = text.replace(f"{heading}\n", f"{heading}\n\n```{{index}} {words}\n```\n", 1)
+        text = text.replace(f"{heading}\n", f"{heading}\n\n```{{index}} ! {words}\n```\n", 1)
     text = text.replace(f"]({up}gallery/README.md)", f"]({up}scripts/index.rst)")
     text = text.replace("\n% fields of a scenario\n", "\n" + reference_page(SCENARIO))
     text = text.replace("\n% arrays of a trajectory\n", "\n" + arrays_page())
@@ -262,6 +265,16 @@ def _thumbnails_named(app, doctree):
     for image in doctree.findall(nodes.image):
         name = re.sub(r"^sphx_glr_(\w+)_thumb$", r"\1", Path(image["uri"]).stem)
         image["alt"] = f"figure of the script: {name.replace('_', ' ')}"
+
+
+def _prose_tables_marked(app, doctree):
+    """Tables of sentences in many columns: on a phone their columns are wide, and scroll."""
+    for table in doctree.findall(nodes.table):
+        for row in table.findall(nodes.row):
+            lengths = [len(entry.astext()) for entry in row.findall(nodes.entry)]
+            if len(lengths) > 3 and sorted(lengths[-3:])[1] > SENTENCE:
+                table["classes"].append("sentences")
+                break
 
 
 _navigations = {}
