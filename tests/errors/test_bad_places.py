@@ -117,14 +117,6 @@ def test_an_option_of_solve_is_named_and_the_step_is_not_blamed(tmp_path, refuse
     assert refused("solve", tmp_path / "step.json", *option).startswith(f"{' '.join(option)}: ")
 
 
-@pytest.mark.parametrize("option", [("--settle", "-1"), ("--tolerance", "-1"), ("--keyframe", "x")])
-def test_an_option_of_an_opinion_is_named_and_the_scene_is_not_blamed(tmp_path, refused, option):
-    scene = tmp_path / "scene.xml"
-    ball = '<body><freejoint/><geom size="0.1"/></body>'
-    scene.write_text(f"<mujoco><worldbody>{ball}</worldbody></mujoco>", "utf-8")
-    assert refused("opinion", scene, *option).startswith(f"{' '.join(option)}: ")
-
-
 @pytest.mark.parametrize("name", ["clarable", "", "a\nb", "qpsolvers:"])
 @pytest.mark.parametrize("command", ["run", "solve"])
 def test_an_unknown_backend_is_refused_before_anything_is_done(tmp_path, refused, name, command):
