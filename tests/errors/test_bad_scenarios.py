@@ -186,11 +186,11 @@ def test_numbers_at_the_ends_of_the_range_run_or_are_refused_in_a_sentence(
 ):
     """Any warning of NumPy's, as of an overflow, is an error here.
 
-    All of them by the plain path, two of them in turn by the fast one.
+    Two of them in turn in a fast run, the others by the plain path.
     """
     scene = ROUND if field.startswith(OF_SHAPES) else PLAIN
-    some = (AT_THE_ENDS[(first + k) % 4] for k in range(2 if fast else 4))
-    for number in some:
+    for k in (0, 1) if fast else (2, 3):
+        number = AT_THE_ENDS[(first + k) % 4]
         try:
             load_scenario(changed(scene, (field, number)), steps=1, fast=fast).run()
         except QuasistaticError as error:
