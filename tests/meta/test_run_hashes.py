@@ -34,7 +34,10 @@ def hashes():
 
 @pytest.mark.parametrize(
     "settings",
-    [{"OPENBLAS_CORETYPE": "Haswell"}, {"OPENBLAS_CORETYPE": "Nehalem", **WITHOUT}],
+    [
+        pytest.param({"OPENBLAS_CORETYPE": "Haswell"}, marks=pytest.mark.long),
+        {"OPENBLAS_CORETYPE": "Nehalem", **WITHOUT},
+    ],
     ids=["Haswell", "Nehalem, no vector code"],
 )
 def test_other_kernels_and_no_vector_code_end_at_the_same_bits(settings):

@@ -7,10 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Body, Recorder, Sphere, System, load_scenario
-from quasistatic_ref.lab.bench.scenes import boxes
-from quasistatic_ref.model import system as system_module
 from quasistatic_ref.simulate.recorder import PACKED
-from quasistatic_ref.simulate.rollout import rollout
 from tests.processes import python
 
 GROWTH = """
@@ -66,34 +63,6 @@ def test_a_recorder_holds_what_its_trajectory_does_and_a_few_numbers_more():
     n = scenario.system.n_v + scenario.system.n_u
     more = 8 * (n + 6 * simulator.layout.rows.size + 2 + 6)
     assert grown < arrays + STEPS * (more + APIECE)
-
-
-@pytest.mark.extra("fast")
-def test_runs_and_findings_of_many_bodies_form_no_whole_arrays(monkeypatch):
-    """J has 4 n_c n_v entries, and M_u n_u^2: of 1000 boxes that is 0.8 and 0.3 GB."""
-    from quasistatic_ref.optional.fast import joined
-    from quasistatic_ref.optional.fast import simulator as of_fast
-
-    monkeypatch.setattr(of_fast, "MOST", 1)  # of larger steps units are not compared
-    scene = boxes(50)
-    n_v = len(scene.force)
-    wholes = []
-    for module, name in ((joined, "spread"), (joined, "whole"), (system_module, "whole")):
-        form = getattr(module, name)
-
-        def noted(*arguments, form=form):
-            array = form(*arguments)
-            wholes.extend([array.shape] if array.shape[-1] == n_v else [])
-            return array
-
-        monkeypatch.setattr(module, name, noted)
-    simulator = scene.simulator("off", True)
-    options = {"force": scene.force, "record": "light", "progress": False, "findings": False}
-    run = rollout(simulator, scene.q, np.zeros(0), 2, **options)
-    assert {finding.name for finding in run.findings} >= {"equilibrium"}
-    assert simulator.by_c
-    assert not wholes
-    monkeypatch.undo()
 
 
 def test_loads_of_many_bodies_form_no_jacobian_of_all_links():
