@@ -9,13 +9,13 @@ Links without inertia and shapes that only connect joints of links with mass are
 M_u is definite depends on the axes of these joints, and is found from M_u itself.
 """
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection
 
 import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.tree import NO_INERTIA, Defect, Tree, TreeLink
+from quasistatic_ref.model.tree import BASE, NO_INERTIA, Defect, Tree, TreeLink
 from quasistatic_ref.numbers.arrays import Array
 
 INERTIA_TRIANGLE = 1e-6
@@ -77,71 +77,39 @@ def checked_inertias(
     ModelError
         If an un-actuated joint moves a group of links whose inertia no rigid body can have.
     """
-    poses = _poses(model)
-    mover = _movers(tree, unactuated, base)
-    loaded = _loaded(tree)
     notes = []
-    for first, links in _rigid_groups(tree).items():
+    groups: dict[int, list[TreeLink]] = {}  # the links that each joint carries as one body
+    for link in tree.links.values():
+        frame = model.getFrameId(link.name, pin.FrameType.BODY)
+        groups.setdefault(model.frames[frame].parentJoint, []).append(link)
+    for joint, links in groups.items():
+        first = links[0].name
+        mover = _mover(tree, model, joint, unactuated, base)
         defects = [(link.name, link.defect) for link in links if link.defect is not None]
-        connects = first in loaded and not any(
-            link.mass or link.defect or link.shapes for link in links
-        )
-        if mover[first] is not None and not connects:
-            heavy = [link for link in links if link.mass]
-            if not heavy and links[0].defect is None:
+        carries = any(model.inertias[other].mass for other in model.subtrees[joint])
+        connects = carries and not any(link.mass or link.defect or link.shapes for link in links)
+        if mover is not None and not connects:
+            mass = model.inertias[joint].mass
+            if not mass and links[0].defect is None:
                 problem = (
-                    f"is missing, but {mover[first]} moves this link: it needs a mass, or an "
+                    f"is missing, but {mover} moves this link: it needs a mass, or an "
                     "actuator at that joint (actuated)"
                 )
                 raise ModelError(problem, field=f"link[{first}].inertial")
             if NO_INERTIA in (link.defect for link in links):
                 name = next(link.name for link in links if link.defect == NO_INERTIA)
-                problem = f"is missing, but {mover[first]} moves this link, whose mass needs it"
+                problem = f"is missing, but {mover} moves this link, whose mass needs it"
                 raise ModelError(problem, field=f"link[{name}].inertial.inertia")
-            defect = inertia_defect(_welded(heavy, poses).inertia, max(x.digit for x in links))
+            inertia = model.inertias[joint].inertia if mass else np.zeros((3, 3))
+            defect = inertia_defect(inertia, max(link.digit for link in links))
             if defect is not None:
                 name, (field, problem, value) = defects[0] if defects else (first, defect)
                 raise ModelError(problem, field=f"link[{name}].inertial.{field}", value=value)
         notes += [
-            f"link[{name}].inertial.{defect[0]}: {defect[1]}; {_accepted(defect, mover[first])}"
+            f"link[{name}].inertial.{defect[0]}: {defect[1]}; {_accepted(defect, mover)}"
             for name, defect in defects
         ]
     return tuple(notes)
-
-
-def _poses(model: pin.Model) -> dict[str, pin.SE3]:
-    """Where each link is at position zero, in the frame of the root link."""
-    data = model.createData()
-    pin.framesForwardKinematics(model, data, pin.neutral(model))
-    return {frame.name: data.oMf[i].copy() for i, frame in enumerate(model.frames)}
-
-
-def _rigid_groups(tree: Tree) -> dict[str, list[TreeLink]]:
-    """The links of each rigid group, by the name of its first."""
-    first = {tree.root: tree.root}
-    groups = {tree.root: [tree.links[tree.root]]}
-    for joint in tree.moved_by.values():  # parents before children
-        name = first[joint.parent] if joint.kind == "fixed" else joint.child
-        first[joint.child] = name
-        groups.setdefault(name, []).append(tree.links[joint.child])
-    return groups
-
-
-def _welded(links: Sequence[TreeLink], poses: Mapping[str, pin.SE3]) -> pin.Inertia:
-    """Links as one body, in the frame of the root link."""
-    total = pin.Inertia.Zero()
-    for link in links:
-        total += poses[link.name].act(link_inertia(link))
-    return total
-
-
-def _loaded(tree: Tree) -> set[str]:
-    """The links that carry a link with mass."""
-    loaded: set[str] = set()
-    for joint in reversed(tree.moved_by.values()):  # children before parents
-        if tree.links[joint.child].mass or joint.child in loaded:
-            loaded.add(joint.parent)
-    return loaded
 
 
 def _accepted(defect: Defect, mover: str | None) -> str:
@@ -153,13 +121,13 @@ def _accepted(defect: Defect, mover: str | None) -> str:
     return f"{accepted}; {lost}" if defect[0] == "mass" else accepted
 
 
-def _movers(tree: Tree, unactuated: Collection[str], base: str) -> dict[str, str | None]:
-    """For every link, an un-actuated joint that moves it, in words, or None."""
-    joints = {joint.name for joint in tree.joints}
-    root = next((name for name in unactuated if name not in joints), None)
-    mover: dict[str, str | None] = {tree.root: f"the {base} base" if root else None}
-    for joint in tree.moved_by.values():
-        source = joint.mimic.of if joint.mimic else joint.name
-        label = f"joint {joint.name!r}" if joint.kind != "fixed" and source in unactuated else None
-        mover[joint.child] = label or mover[joint.parent]
-    return mover
+def _mover(
+    tree: Tree, model: pin.Model, joint: int, unactuated: Collection[str], base: str
+) -> str | None:
+    """The nearest un-actuated joint that moves what a joint carries, in words."""
+    leaders = {follower.name: mimic.of for follower, mimic in tree.mimics}
+    names = [model.names[above] for above in model.supports[joint] if above]
+    for name in reversed(names):
+        if leaders.get(name, name) in unactuated:
+            return f"the {base} base" if name == BASE and base != "fixed" else f"joint {name!r}"
+    return None

@@ -20,6 +20,9 @@ MOST_COORDINATES = 250
 """Most coordinates of the joints of a tree: pinocchio takes memory with the cube of their number,
 1 GiB for these; a humanoid has 60."""
 
+BASE = "base"
+"""Name of the joint of a base that moves."""
+
 Defect = tuple[str, str, object]
 """What is wrong with an inertia: ``"mass"`` or ``"inertia"``, the problem, the value."""
 

@@ -8,11 +8,8 @@ import pinocchio as pin
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.model.inertia import checked_inertias, link_inertia
 from quasistatic_ref.model.joints import BASES, JOINTS
-from quasistatic_ref.model.tree import Tree, TreeLink
+from quasistatic_ref.model.tree import BASE, Tree, TreeLink
 from quasistatic_ref.shapes.placed_shape import PlacedShape
-
-BASE = "base"
-"""Name of the joint of a base that moves."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,8 +22,8 @@ from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import QUATERNION, Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.model.tree import Tree
-from quasistatic_ref.model.tree_model import BASE, TreeModel, body_frame, tree_model
+from quasistatic_ref.model.tree import BASE, Tree
+from quasistatic_ref.model.tree_model import TreeModel, body_frame, tree_model
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import urdf_tree
 from quasistatic_ref.shapes.placed_shape import PlacedShape

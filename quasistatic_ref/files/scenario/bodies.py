@@ -25,7 +25,7 @@ from quasistatic_ref.model.coordinates import no_coordinate
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.model.tree_model import BASE
+from quasistatic_ref.model.tree import BASE
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.pivots import positive_definite
 from quasistatic_ref.simulate.stiffness import stiffness_block
