@@ -33,10 +33,15 @@ from dataclasses import dataclass
 import numpy as np
 from flint import arb, fmpq
 
-from quasistatic_ref.certify.form import PRECISION, ExactForm, fraction
+from quasistatic_ref.certify.form import (
+    PRECISION,
+    ExactForm,
+    combination,
+    fraction,
+    independent_rows,
+)
 from quasistatic_ref.certify.minimiser import Line, Minimiser
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.dependence import combination, independent_rows
 from quasistatic_ref.numbers.precision import working_precision
 
 

@@ -28,11 +28,10 @@ from functools import cached_property, lru_cache
 from typing import Final, TypeAlias
 
 import numpy as np
-from flint import arb, arb_mat, fmpq, fmpz
+from flint import arb, arb_mat, fmpq, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.groups import labels
 from quasistatic_ref.numbers.arrays import Array, Indices
-from quasistatic_ref.numbers.dependence import implied
 from quasistatic_ref.numbers.precision import check_arithmetic, working_precision
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, row_layout
@@ -441,3 +440,62 @@ def _block_inverse(H: arb_mat) -> arb_mat:
                 return H.inv()
             except ZeroDivisionError:
                 precision *= 2
+
+
+def implied(held: Sequence[Sequence[fmpz]], rows: Sequence[Sequence[fmpz]]) -> list[bool]:
+    """Which rows are combinations of those that are `held`, which are independent."""
+    columns, _, rank = _eliminated([*held, *rows])
+    k = len(held)
+    return [not any(column[k:rank]) for column in columns[k:]]
+
+
+def null_space(rows: Sequence[Sequence[fmpz]], size: int) -> fmpz_mat:
+    """A basis of all z with row z = 0 for each row, as columns, shape (size, d).
+
+    Whatever the rows imply holds for it: a row is a combination of them if and only if it vanishes
+    on the basis.
+
+    Parameters
+    ----------
+    rows : sequence of list of fmpz
+    size : int
+        Of a row.
+    """
+    matrix = fmpz_mat(len(rows), size, [v for row in rows for v in row])
+    basis, d = matrix.nullspace()
+    return fmpz_mat(size, d, [v for row in basis.tolist() for v in row[:d]])
+
+
+def independent_rows(form: ExactForm, candidates: Sequence[int]) -> tuple[int, ...]:
+    """The rows of A, in order of preference, that do not depend on earlier ones."""
+    columns, _, rank = _eliminated([row[:-1] for row in form.integers(candidates)])
+    chosen: list[int] = []
+    for i, column in zip(candidates, columns, strict=True):
+        if len(chosen) < rank and column[len(chosen)]:
+            chosen.append(i)
+    return tuple(chosen)
+
+
+def combination(form: ExactForm, working: Sequence[int], p: int) -> list[fmpq] | None:
+    """The c of a_p = sum_j c_j A[working[j]]; None if a_p is independent of these rows.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+        Independent rows.
+    p : int
+    """
+    columns, denominator, rank = _eliminated([row[:-1] for row in form.integers([*working, p])])
+    if rank > len(working):
+        return None
+    return [fmpq(v, denominator) for v in columns[-1][:rank]]
+
+
+def _eliminated(rows: Sequence[Sequence[fmpz]]) -> tuple[list[list[fmpz]], fmpz, int]:
+    """Rows as columns of a matrix in reduced echelon form, times a denominator; and its rank."""
+    if not (rows and rows[0]):
+        return [[] for _ in rows], fmpz(1), 0
+    matrix = fmpz_mat(len(rows), len(rows[0]), [v for row in rows for v in row])
+    reduced, denominator, rank = matrix.transpose().rref()
+    return reduced.transpose().tolist(), denominator, rank

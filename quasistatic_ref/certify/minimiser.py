@@ -29,8 +29,11 @@ from quasistatic_ref.certify.form import (
     UNIT,
     ExactForm,
     columns,
+    combination,
     exact_matrix,
     fraction,
+    implied,
+    null_space,
     whole_numbers,
 )
 from quasistatic_ref.certify.working_set import (
@@ -40,7 +43,6 @@ from quasistatic_ref.certify.working_set import (
     fraction_point,
 )
 from quasistatic_ref.numbers.arrays import Array, Indices
-from quasistatic_ref.numbers.dependence import combination, implied, null_space
 from quasistatic_ref.numbers.precision import all_nearest, nearest, working_precision
 
 

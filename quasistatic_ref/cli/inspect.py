@@ -13,8 +13,8 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.ignored import ignored_lines
 from quasistatic_ref.cli.named_fields import field_lines, named_fields
 from quasistatic_ref.contact.all_pairs import closest_points
+from quasistatic_ref.contact.normals import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.contact.separations import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario

@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.contact.normals import TURNED
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope
-from quasistatic_ref.contact.tied_faces import TURNED
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated

@@ -7,7 +7,7 @@ order, though its distances change in the last bit from step to step. The distan
 not rounded.
 
 A cloud on a solid: the k points of the cloud that rank first are the contacts. Of a cloud on a
-convex mesh most points are dropped before their gaps are formed: near_points.py says why none of
+convex mesh most points are dropped before their gaps are formed: ranks.py says why none of
 them could be among the k.
 
 Two solids:
@@ -31,10 +31,19 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.crossings import crossings
-from quasistatic_ref.contact.near_points import near_points
+from quasistatic_ref.contact.normals import (
+    BISECTOR,
+    FAR,
+    TURNED,
+    UNIQUE_NORMAL,
+    Surface,
+    cloud_surface,
+    corner_surface,
+    pair_normal,
+    rounding,
+)
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.ranks import closest, rounded_gaps
-from quasistatic_ref.contact.separations import BISECTOR, FAR, UNIQUE_NORMAL, pair_normal, rounding
+from quasistatic_ref.contact.ranks import closest, near_points, rounded_gaps
 from quasistatic_ref.contact.shape_in_world import (
     Pose,
     ShapeInWorld,
@@ -42,7 +51,6 @@ from quasistatic_ref.contact.shape_in_world import (
     on_plane,
     poses_in_world,
 )
-from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
@@ -76,7 +84,7 @@ class ClosestPoints(NamedTuple):
         Index of the cloud's point; for two solids the number of the candidate, or 0 if only
         one is kept; contacts that fill the number follow the closest pair's.
     tie : ndarray of int, shape (n_c,)
-        How the normal was chosen, as :mod:`~quasistatic_ref.contact.separations` counts it.
+        How the normal was chosen, as :mod:`~quasistatic_ref.contact.normals` counts it.
     """
 
     phi: Array

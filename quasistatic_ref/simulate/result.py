@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.normals import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import contact_layout
-from quasistatic_ref.contact.separations import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown

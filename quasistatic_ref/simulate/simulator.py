@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import FrozenInstanceError, replace
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,7 +27,14 @@ from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mechanism import Mechanism, StepSystem
 from quasistatic_ref.model.state import State
 from quasistatic_ref.model.system import System
-from quasistatic_ref.numbers.arrays import Array, Mask, checked_array, without_warnings
+from quasistatic_ref.numbers.arrays import (
+    Array,
+    Mask,
+    checked_array,
+    checked_numbers,
+    read_only,
+    without_warnings,
+)
 from quasistatic_ref.parts import coulomb_solution, extended_solution, findings_of_scene
 from quasistatic_ref.simulate.distances import Distances, measured_pairs
 from quasistatic_ref.simulate.finding import Finding
@@ -36,7 +43,6 @@ from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
-from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import DEFAULT, NONE, Certify, spares
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step, solved
@@ -46,7 +52,13 @@ from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, hessian, seconds
 from quasistatic_ref.step.extension import ExtensionOfQ
 
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.result import StepResult
+
+
 GRAVITY = (0.0, 0.0, -9.81)
+FROM_LOADS = 'system.load(q, "BODY", force=(1, 0, 0)) makes it from a force in world axes'
+NO_FORCE = read_only(np.zeros(()))
 
 
 @contextmanager
@@ -88,6 +100,23 @@ def _checked_acts(acts: ArrayLike, n_a: int) -> Mask:
         raise StepDataError(problem, field="gravity_acts", value=acts)
     checked: Mask = checked_array(entries.astype(np.float64), "gravity_acts", (n_a,)) != 0
     return checked
+
+
+def checked_force(system: System, force: ArrayLike | None) -> Array:
+    """A generalised force, shape (n_v,) or () [N, N m]; zero where None.
+
+    Raises
+    ------
+    StepDataError
+        If it has another shape, or is no array of numbers.
+    """
+    if force is None or (type(force) is float and force == 0):
+        return NO_FORCE
+    tau = None if isinstance(force, Mapping) else checked_numbers(force, "force")
+    if tau is None or (tau.shape != (system.n_v,) and not (tau.shape == () and tau == 0)):
+        problem = f"must be numbers of shape ({system.n_v},), in the order of delta_q; {FROM_LOADS}"
+        raise StepDataError(problem, field="force", value=force if tau is None else tau.shape)
+    return tau
 
 
 def _remade(kind: type[Simulator], settings: dict[str, Any]) -> Simulator:

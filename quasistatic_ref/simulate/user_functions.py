@@ -10,16 +10,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.model.configuration import surely_configurations
 from quasistatic_ref.model.named import Values
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, checked_numbers, read_only
+from quasistatic_ref.simulate.simulator import FROM_LOADS, checked_force
 from quasistatic_ref.simulate.target import Targets
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.result import StepResult
+
 
 Value = ArrayLike | Values
 OfTime = Callable[[float], Value]
@@ -30,8 +32,6 @@ Checked = Callable[[float, Array, "StepResult | None"], Array]
 Target = OfTime | OfTimeAndQ | OfTimeQAndLast | Value
 Force = OfTime | OfTimeAndQ | OfTimeQAndLast | ArrayLike
 NAMED = (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)
-FROM_LOADS = 'system.load(q, "BODY", force=(1, 0, 0)) makes it from a force in world axes'
-NO_FORCE = read_only(np.zeros(()))
 ANY_NUMBER = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
@@ -107,23 +107,6 @@ def force_function(system: System, force: Force | None) -> Checked:
         return _returning(function, lambda tau: tau, (system.n_v,), "force")
     constant = checked_force(system, force) + np.zeros(system.n_v)
     return lambda t, q, last: constant
-
-
-def checked_force(system: System, force: ArrayLike | None) -> Array:
-    """A generalised force, shape (n_v,) or () [N, N m]; zero where None.
-
-    Raises
-    ------
-    StepDataError
-        If it has another shape, or is no array of numbers.
-    """
-    if force is None or (type(force) is float and force == 0):
-        return NO_FORCE
-    tau = None if isinstance(force, Mapping) else checked_numbers(force, "force")
-    if tau is None or (tau.shape != (system.n_v,) and not (tau.shape == () and tau == 0)):
-        problem = f"must be numbers of shape ({system.n_v},), in the order of delta_q; {FROM_LOADS}"
-        raise StepDataError(problem, field="force", value=force if tau is None else tau.shape)
-    return tau
 
 
 def with_all_arguments(function: Callable[..., Value], name: str) -> OfTimeQAndLast:

@@ -49,6 +49,6 @@ def solver_for(
     if name.startswith(QPSOLVERS):
         return qpsolvers_solver(step, name)
     # CVXPY takes longer to import than a short run.
-    from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+    from quasistatic_ref.solve.step_problem import CvxpySolver
 
     return CvxpySolver(step, name)

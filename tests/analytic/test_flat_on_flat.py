@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Box, ContactError
-from quasistatic_ref.contact.separations import BISECTOR, OF_PAIR, SAYS, UNIQUE_NORMAL
+from quasistatic_ref.contact.normals import BISECTOR, OF_PAIR, SAYS, UNIQUE_NORMAL
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.closeness import assert_within
 from tests.oracles.bodies_by_hand import (

@@ -6,10 +6,9 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.form import StepForm, implied, independent_rows
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.working_set import NearSets, ball_point
-from quasistatic_ref.numbers.dependence import implied, independent_rows
 from tests.helpers import resting_point
 from tests.oracles.forms import exact_form_of
 

@@ -9,8 +9,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref import Box, PointCloud, convex_hull
 from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.distance import in_world, search
-from quasistatic_ref.contact.near_points import MANY, near_points
-from quasistatic_ref.contact.ranks import closest, rounded_gaps
+from quasistatic_ref.contact.ranks import MANY, closest, near_points, rounded_gaps
 from quasistatic_ref.shapes import facets
 from tests.contact.still import pair, placed_shape, standing_links
 

@@ -13,8 +13,8 @@ from quasistatic_ref.contact.distance import (
     ClosestPoints,
     repeated,
 )
+from quasistatic_ref.contact.normals import OF_CLOUD
 from quasistatic_ref.contact.pairs import RANKED
-from quasistatic_ref.contact.separations import OF_CLOUD
 from quasistatic_ref.tolerances import REPEATED
 from tests.closeness import assert_within
 from tests.contact.still import found_for, pair, placed_shape, standing_links

@@ -18,7 +18,7 @@ from quasistatic_ref.solve.backends import (
     installed_backends,
 )
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.solve.step_problem import CvxpySolver
 from tests.cases import cases
 from tests.closeness import assert_same, assert_within
 from tests.helpers import (

@@ -63,7 +63,7 @@ def test_clarabel_takes_steps_on_which_the_default_backend_fails(failed, monkeyp
 
 
 def test_a_failure_of_a_backend_that_is_named_is_that_backend_s(monkeypatch):
-    from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+    from quasistatic_ref.solve.step_problem import CvxpySolver
 
     monkeypatch.setattr(CvxpySolver, "reply", lambda *_: FAILED)
     settings = ["solver.certify=off", "solver.backend=piqp"]

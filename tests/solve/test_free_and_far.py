@@ -7,7 +7,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import DEFAULT, installed_backends
 from quasistatic_ref.solve.solver import FREE, Reply
-from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.solve.step_problem import CvxpySolver
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import pinch, random_step, sphere_on_floor
 

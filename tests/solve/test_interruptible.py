@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
-from quasistatic_ref.solve.through_cvxpy import cvxpy_reply
+from quasistatic_ref.solve.step_problem import cvxpy_reply
 from quasistatic_ref.step.standard_form import StandardForm
 
 ENDLESS = {

@@ -18,11 +18,11 @@ from quasistatic_ref import (
 from quasistatic_ref.optional.fast.program import Workspaces
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import QpsolversSolver
-from quasistatic_ref.solve import through_cvxpy
+from quasistatic_ref.solve import step_problem
 from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backends
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solver import NoSolver
-from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.solve.step_problem import CvxpySolver
 from quasistatic_ref.solve.units import ScaledStep
 from tests.closeness import assert_same
 from tests.helpers import (
@@ -201,10 +201,10 @@ def test_a_backend_of_studies_only_is_no_backend_of_steps():
 def test_a_step_that_cvxpy_would_compile_for_minutes_is_proved_without_its_answer(
     step, monkeypatch
 ):
-    monkeypatch.setattr(through_cvxpy, "MOST_CONTACTS", 3)
+    monkeypatch.setattr(step_problem, "MOST_CONTACTS", 3)
     asked = solve_step(step)
     assert asked.statistics.status == "optimal"
-    monkeypatch.setattr(through_cvxpy, "MOST_CONTACTS", 2)  # of its three
+    monkeypatch.setattr(step_problem, "MOST_CONTACTS", 2)  # of its three
     proved = solve_step(step)
     assert proved.statistics.status.startswith("failed: not called: CVXPY takes too long")
     assert proved.certificate.kind == "exact"

@@ -8,7 +8,7 @@ from numpy.testing import assert_array_equal
 
 from quasistatic_ref import Extra, StepDataError, StepProblem, load_scenario, solve_step
 from quasistatic_ref.solve import step_problem
-from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.solve.step_problem import CvxpySolver
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.problem import paper_problem, set_values
 from quasistatic_ref.step.standard_form import friction_rows

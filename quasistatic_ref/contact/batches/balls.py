@@ -12,8 +12,8 @@ import numpy as np
 
 from quasistatic_ref.contact.batches.batch import Batch
 from quasistatic_ref.contact.distance import ClosestPoints, contacts_over
+from quasistatic_ref.contact.normals import FAR, TIED_FACES, UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.separations import FAR, TIED_FACES, UNIQUE_NORMAL
 from quasistatic_ref.contact.shape_in_world import Pose, on_plane
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.ordered import dot, product, rotated

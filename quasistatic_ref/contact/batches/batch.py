@@ -6,8 +6,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.normals import FAR
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.separations import FAR
 from quasistatic_ref.contact.shape_in_world import Pose, poses_in_world
 from quasistatic_ref.numbers.arrays import Array, Mask
 

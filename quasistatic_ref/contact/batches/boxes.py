@@ -7,12 +7,11 @@ import numpy as np
 from quasistatic_ref.contact.batches.batch import Batch
 from quasistatic_ref.contact.crossings import bearing, crossing_number, lines_crossed
 from quasistatic_ref.contact.distance import SPANNED, ClosestPoints, contacts_over, repeated
+from quasistatic_ref.contact.normals import TIED_FACES, TURNED, UNIQUE_NORMAL, corner_surface
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.separations import TIED_FACES, UNIQUE_NORMAL
 from quasistatic_ref.contact.shape_in_world import Pose, Witnesses
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope, stacked
 from quasistatic_ref.contact.solids.polytope_pair import padded, polytope_pairs
-from quasistatic_ref.contact.tied_faces import TURNED, corner_surface
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import dot, norm, product, rotated
 from quasistatic_ref.shapes.placed_shape import Box, Shape

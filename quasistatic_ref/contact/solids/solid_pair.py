@@ -19,7 +19,7 @@ def solid_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     """Closest points of two solids in the world frame.
 
     Where the normal is not unique, it is any one; a contact's is chosen by
-    :func:`~quasistatic_ref.contact.separations.pair_normal`.
+    :func:`~quasistatic_ref.contact.normals.pair_normal`.
 
     Parameters
     ----------

@@ -60,7 +60,7 @@ def call_of(solver: Solver) -> Call:
 
 def _by_cvxpy(name: str) -> Call:
     from quasistatic_ref.lab.study.compiled_problems import CompiledProblem  # heavy: CVXPY
-    from quasistatic_ref.solve.through_cvxpy import cvxpy_reply
+    from quasistatic_ref.solve.step_problem import cvxpy_reply
 
     last: CompiledProblem | None = None
 

@@ -19,7 +19,7 @@ from typing import Final, NamedTuple
 import coal
 import numpy as np
 
-from quasistatic_ref.contact.separations import gaps
+from quasistatic_ref.contact.normals import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.errors import ContactError, ModelError
 from quasistatic_ref.numbers.arrays import Array, Indices

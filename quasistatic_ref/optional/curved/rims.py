@@ -18,8 +18,8 @@ from quasistatic_ref.contact.crossings import (
     every,
     line,
 )
+from quasistatic_ref.contact.normals import TURNED
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.contact.tied_faces import TURNED
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import crossed, dot, product, rotated
 from quasistatic_ref.shapes.placed_shape import Cone, Cylinder, Shape

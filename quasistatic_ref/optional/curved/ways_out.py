@@ -9,7 +9,7 @@ from functools import cache
 
 import numpy as np
 
-from quasistatic_ref.contact.separations import gaps
+from quasistatic_ref.contact.normals import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.numbers.arrays import Array, Indices

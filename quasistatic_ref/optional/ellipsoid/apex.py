@@ -15,10 +15,9 @@ from typing import NamedTuple
 
 from flint import fmpq, fmpq_mat
 
-from quasistatic_ref.certify.form import EXACT, ExactForm, fraction
+from quasistatic_ref.certify.form import EXACT, ExactForm, fraction, independent_rows
 from quasistatic_ref.certify.working_set import Point, fraction_point
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.dependence import independent_rows
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks, inside, outside_of_cones
 from quasistatic_ref.optional.gap import fractions, rational

@@ -6,8 +6,8 @@ import numpy as np
 
 from quasistatic_ref.contact.all_pairs import AllPairs
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.normals import UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.separations import UNIQUE_NORMAL
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses

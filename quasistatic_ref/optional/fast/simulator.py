@@ -31,8 +31,7 @@ from quasistatic_ref.optional.fast.sums import Sums
 from quasistatic_ref.simulate.distances import check_closed
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.simulator import Simulator, by_one_thread, stopwatch
-from quasistatic_ref.simulate.user_functions import checked_force
+from quasistatic_ref.simulate.simulator import Simulator, by_one_thread, checked_force, stopwatch
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import ScaledStep

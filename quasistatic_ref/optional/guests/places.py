@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.normals import UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.separations import UNIQUE_NORMAL
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Capsule, convex_hull
-from quasistatic_ref.contact.separations import rounding, tied_normals
+from quasistatic_ref.contact.normals import rounding, tied_normals
 from quasistatic_ref.contact.solids import near_features, polytope_pair
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps

@@ -6,7 +6,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Cone, ContactError, Ellipsoid, ModelError, convex_hull
-from quasistatic_ref.contact.separations import gaps
+from quasistatic_ref.contact.normals import gaps
 from quasistatic_ref.optional.curved import by_coal
 from quasistatic_ref.optional.curved.by_coal import coal_witness
 from quasistatic_ref.optional.curved.ways_out import REACH, rival_directions

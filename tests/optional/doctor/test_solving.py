@@ -8,7 +8,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.solve.step_problem import CvxpySolver
 from tests.files.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
 
 STEPS = 8

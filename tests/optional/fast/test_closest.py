@@ -15,7 +15,7 @@ from quasistatic_ref import (
     HalfSpace,
     PointCloud,
 )
-from quasistatic_ref.contact.separations import OF_CLOUD, TIED_FACES
+from quasistatic_ref.contact.normals import OF_CLOUD, TIED_FACES
 from quasistatic_ref.formats.plain import bits
 from tests.contact.solids_of_tests import SHAPES
 from tests.contact.still import one_by_one, pair, placed_shape, standing_links

@@ -7,8 +7,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.optional.guests.compiler import compiled_model
-from quasistatic_ref.solve.step_problem import is_large
-from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.solve.step_problem import CvxpySolver, is_large
 
 BOX = '<geom {}type="box" size="0.05 0.05 0.05" mass="1"{}/>'
 FREE = '<body name="box" pos="{}"><freejoint/>{}</body>'

@@ -11,8 +11,8 @@ from quasistatic_ref.lab.vectors.trees import Json
 
 def own(case_input: Json) -> Json:
     """The package's answer, from :func:`quasistatic_ref.contact.distance.closest`."""
+    from quasistatic_ref.contact.normals import TURNED
     from quasistatic_ref.contact.ranks import closest
-    from quasistatic_ref.contact.tied_faces import TURNED
 
     k = case_input["k"]
     indices = []

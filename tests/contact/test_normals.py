@@ -5,12 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Capsule, ContactError, Sphere
-from quasistatic_ref.contact.separations import (
-    BISECTOR,
-    UNIQUE_NORMAL,
-    pair_normal,
-    rounding,
-)
+from quasistatic_ref.contact.normals import BISECTOR, UNIQUE_NORMAL, pair_normal, rounding
 from tests.closeness import assert_within
 from tests.contact.still import in_world as at
 from tests.tolerances import CLOSED_FORM
