@@ -201,20 +201,6 @@ def test_joints_keep_the_model_s_order_and_axes():
     assert [joint.name for joint in system.joints] == [f"r/{letter}" for letter in "zyxwvu"]
 
 
-def test_a_model_of_mjcf_is_a_body(tmp_path):
-    path = tmp_path / "arm.xml"
-    inertial = '<inertial mass="1" pos="0 0 .1" diaginertia=".01 .02 .02"/>'
-    path.write_text(
-        '<mujoco><worldbody><body name="a" pos="0 0 1"><joint name="j" type="hinge" axis="0 1 0" '
-        f'pos="0 0 .2"/>{inertial}<geom name="g" type="capsule" size=".05 .2"/><body name="b" '
-        f'pos=".3 0 0" quat=".9 .1 .2 .3"><joint name="s" type="slide" axis="1 0 0"/>{inertial}'
-        '<geom name="h" type="box" size=".1 .2 .3"/></body></body></worldbody></mujoco>'
-    )
-    model = pin.buildModelFromMJCF(str(path))
-    geometry = pin.buildGeomFromMJCF(model, str(path), pin.GeometryType.COLLISION)
-    assert_as_in_pinocchio(model, geometry)
-
-
 def test_without_mimic_its_joints_are_free_ones():
     system = System([Body.of_pinocchio("r", pin.buildModelFromXML(CHAIN))])
     assert not system.mimics
