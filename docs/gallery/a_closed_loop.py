@@ -52,6 +52,6 @@ curve.plot(np.append(0, run.t), 1e3 * x, color="black", label=f"ends at {1e3 * x
 curve.axhline(1e3 * expected, color="0.6", linewidth=3, zorder=0, label="expected end")
 curve.axhline(1e3 * goal, color="black", linestyle=":", label="goal")
 curve.set(xlabel="time t [s]", ylabel="x [mm]")
-curve.set_title("The block stops short of its goal")
+curve.set_title("It stops short of its goal")
 curve.legend()
 plt.show()

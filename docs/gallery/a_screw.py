@@ -40,6 +40,6 @@ for share in np.linspace(0, 1, 6):
 turned = 1e3 * (outline @ R.T + [ahead, 0, 0])[:, :2].T
 axes.fill(*turned, fill=False, linestyle=":", label="straight, then turned")
 axes.set(xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
-axes.set_title(f"The path is an arc, which ends at ({1e3 * end[0]:.1f}, {1e3 * end[1]:.1f}) mm")
+axes.set_title(f"An arc, to ({1e3 * end[0]:.1f}, {1e3 * end[1]:.1f}) mm")
 figure.legend(loc="outside lower center", ncols=2)
 plt.show()

@@ -49,6 +49,6 @@ for axes, (cone, friction) in zip(panels, left.items(), strict=True):
     axes.fill(*(friction * edge), color="0.8", label="with it")
     axes.plot([0, 0.97 * limit], [0, 0], color="tab:red", label="the push")
     axes.set(aspect="equal", xlabel="$f_{d_1}$ [N]", ylabel="$f_{d_2}$ [N]")
-    axes.set_title(f"{cone}: {friction:.0%} of friction left")
+    axes.set_title(f"{cone}: {friction:.0%} left")
 figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3)
 plt.show()

@@ -64,7 +64,7 @@ tangent = end(side) + slope * reach
 axes.plot(1e3 * (side + reach), 1e3 * tangent, label=f"derivative: {slope:.4f}")
 point = {"fillstyle": "none", "markersize": 9, "label": "its point"}
 axes.plot(1e3 * side, 1e3 * end(side), "ko", **point)
-axes.set_title("The derivative is the slope of the steps")
+axes.set_title("The derivative is their slope")
 axes.set(xlabel="y of the finger [mm]", ylabel="y of the ball after the step [mm]")
 axes.legend()
 plt.show()

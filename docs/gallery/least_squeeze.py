@@ -67,6 +67,6 @@ for (cone, forces), line in zip(least.items(), ("-", "--", "-."), strict=True):
     axes.plot(1e3 * levers, 0.97 * forces, "kv", markerfacecolor="none",
               label="a step slips" if last else None)  # fmt: skip
 axes.set(xlabel="lever d [mm]", ylabel="squeeze of each finger [N]")
-axes.set_title("In the pyramid the weight and its torque add up")
+axes.set_title("In the pyramid both loads add up")
 figure.legend(loc="outside right center")
 plt.show()

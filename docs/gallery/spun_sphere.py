@@ -35,6 +35,6 @@ formula = 1e3 * mu_omega * turn
 axes.plot(torque / limit, formula, color="0.6", linewidth=3, label=r"$\mu_\omega \theta$")
 axes.plot(torque / limit, 1e3 * lift, "k.", markersize=4, label="lift of the sphere")
 axes.set(xlabel=r"torque / ($\mu_\omega m g$) [-]", ylabel="height above the floor [mm]")
-axes.set_title("Beyond the limit of friction the sphere hovers")
+axes.set_title("Beyond the limit the sphere hovers")
 axes.legend()
 plt.show()

@@ -34,6 +34,6 @@ for block, side in (("rough", 1), ("smooth", -1)):
     (state,) = {contact.state for contact in last.contacts if side * contact.beta[1] > 0}
     curves.plot(np.append(0, run.t), 1e3 * paths[block], label=f"{block}: contacts are {state}")
 curves.set(xlabel="time t [s]", ylabel="way down the slope [mm]")
-curves.set_title(f"The smooth block slides {1e6 * formula:.1f} µm a step")
+curves.set_title(f"Smooth: {1e6 * formula:.1f} µm a step")
 curves.legend()
 plt.show()
