@@ -10,7 +10,7 @@ import sys
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, Scenario, load_scenario, load_trajectory
+from quasistatic_ref import InputError, load_scenario, load_trajectory
 from quasistatic_ref.lab.processes import descendants
 from quasistatic_ref.lab.sweep import TABLE, simulate_many, swept_values
 from tests.optional.doctor.mistake_scenes import scenes_written
@@ -109,21 +109,6 @@ def test_on_two_workers_of_dask_the_runs_are_the_same(two_of_dask, tmp_path):
     there = simulate_many("block_incline", values, tmp_path / "there", executor=two_of_dask)
     assert there == swept("block_incline", tmp_path / "here", **values)
     assert (tmp_path / "there" / TABLE).read_text() == (tmp_path / "here" / TABLE).read_text()
-
-
-def test_an_interrupted_sweep_has_a_table_of_what_is_done(tmp_path, monkeypatch):
-    swept("block_incline", tmp_path / "whole", h=[0.01, 0.02], steps=[2])
-    run = Scenario.run
-
-    def interrupted(scenario, **more):
-        if scenario.h == 0.02:
-            raise KeyboardInterrupt
-        return run(scenario, **more)
-
-    monkeypatch.setattr(Scenario, "run", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        swept("block_incline", tmp_path / "map", h=[0.01, 0.02], steps=[2])
-    assert table(tmp_path / "map") == table(tmp_path / "whole")[:1]
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.3])
