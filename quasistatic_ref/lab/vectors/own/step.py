@@ -154,18 +154,13 @@ def _pair(pair: Json, shapes: Json, mine: OwnSystem) -> ContactPair:
 
 
 def wrench_force(case: Json, mine: OwnSystem, q: Array) -> Array:
-    """Generalised force of the wrenches, shape (n_v,).
-
-    Each acts at its body's centre of mass, or at the origin of a body that has none.
-    """
-    bodies = {body["name"]: body for body in case["mechanism"]["bodies"]}
-    kinematics = mine.system.kinematics(q)
-    force = np.zeros(mine.system.n_v)
+    """Generalised force of the wrenches, shape (n_v,); what holds a fixed body is none."""
+    system = mine.system
+    force = np.zeros(system.n_v)
     for wrench in case.get("wrenches", []):
         link = mine.links[wrench["body"]]
-        arm = kinematics.R[link] @ np.array(bodies[wrench["body"]].get("com", (0, 0, 0)))
-        torque = np.array(wrench["torque"]) + np.cross(arm, wrench["force"])
-        force += kinematics.J[link].T @ np.concatenate([wrench["force"], torque])
+        if system.column_map.moves[link].any():
+            force += system.load(q, system.links[link], wrench["force"], wrench["torque"])
     return force
 
 
