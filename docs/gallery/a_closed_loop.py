@@ -2,11 +2,11 @@
 A closed loop
 =============
 
-A finger, a ball on springs, pushes a block. Its target depends on where the block is: a controller
-aims into the block, the deeper the farther the block is from its goal at 30 mm.
+A finger, a ball on springs, pushes a block to a goal at 30 mm. The finger's target lies inside the
+block, and the deeper, the farther the block is from the goal.
 
-A proportional controller stops short. It ends where the force that it commands equals the friction,
-K_q 0.2 (goal - x) = mu_v m g.
+Such a proportional controller stops short of the goal, where the force that it commands equals the
+friction, K_q 0.2 (goal - x) = mu_v m g.
 """
 
 import matplotlib.pyplot as plt

@@ -2,10 +2,11 @@
 A displacement of a body is a screw
 ===================================
 
-A free body's delta_q is a twist in the body's own frame: how far along its axes, and how much about
-them. Both are done at once, q exp6(delta_q), so that "ahead" turns with the body.
+A free body's delta_q is a twist in the body's own frame: a motion along its axes and a turn about
+them. The body moves and turns at the same time, q exp6(delta_q), so "ahead" turns with the body.
 
-After d ahead and theta about z the body is at d sin(theta) / theta and d (1 - cos(theta)) / theta.
+After d ahead and a turn theta about z the body is at x = d sin(theta) / theta and
+y = d (1 - cos(theta)) / theta.
 """
 
 import matplotlib.pyplot as plt

@@ -2,10 +2,10 @@
 The drag of small steps
 =======================
 
-A plate on a spring pushes a block at one speed. How far the plate lags behind its target measures
-the force. It is friction, mu_v m g, and m v / h more, because each step starts from rest.
+A plate on a spring pushes a block at one speed. The lag of the plate behind its target measures the
+force: the friction mu_v m g, plus the drag m v / h, because each step starts from rest.
 
-Over friction this drag is the quasi-dynamic number v / (mu_v g h). It grows as steps shrink.
+Drag over friction is the quasi-dynamic number v / (mu_v g h), which grows as steps shrink.
 """
 
 import matplotlib.pyplot as plt

@@ -2,9 +2,9 @@
 The force of a finger that wipes
 ================================
 
-A spring presses a finger with K_q e = 5 N, and the finger wipes over a table at 50 mm/s. What
-slides rises by mu_v h v, against the spring: N = K_q (e + mu_v h v), (R13). By Coulomb's law it
-does not rise, and N = K_q e at every h.
+A spring presses a finger with K_q e = 5 N, and the finger wipes over a table at 50 mm/s. In this
+model a finger that slides rises by mu_v h v against its spring, so N = K_q (e + mu_v h v), (R13).
+By Coulomb's law the finger does not rise, and N = K_q e at every h.
 """
 
 import matplotlib.pyplot as plt

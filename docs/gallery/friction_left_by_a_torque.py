@@ -6,7 +6,7 @@ The rows of a contact share one normal force. In the paper's pyramid, a torque t
 what torsional friction can bear leaves 40 % of the friction along the floor. In the ellipsoid it
 leaves 80 %, and in the product of both limits all.
 
-A load is taken below and above what each cone leaves: the first does not move, the second does.
+A push just below what a cone leaves does not move the body, and a push just above it does.
 """
 
 import matplotlib.pyplot as plt

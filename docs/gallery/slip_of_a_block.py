@@ -2,11 +2,11 @@
 Slip of a block that is pulled
 ==============================
 
-A block on one contact, and a force that pulls it sideways. The smallest step with friction.
+A force F pulls a block sideways, which rests on one contact: the smallest step with friction.
 
 To slide by x, the block has to rise by mu_v x: Eqs. (5) and (6) ask for a gap of ``mu_v |x|``.
-The rise costs the weight. So nothing moves until the pull is mu_v m g. Beyond, the step moves the
-block by h^2 (F - mu_v m g) / (m (1 + mu_v^2)).
+The rise takes work against the weight, so nothing moves until F exceeds mu_v m g. A larger F moves
+the block in a step by h^2 (F - mu_v m g) / (m (1 + mu_v^2)).
 """
 
 import matplotlib.pyplot as plt

@@ -4,11 +4,12 @@ A spun sphere lifts off
 
 A sphere on the floor is spun by a torque that grows, after Figure 3 of the paper.
 
-Up to mu_omega m g it does not move at all. Beyond, it turns, and it hovers: Eq. (7) asks for a gap
-of mu_omega theta where a step turns the sphere by theta. This boundary layer is the price of a
-convex step. At the end the torque is five times the limit, and with h = 20 ms, as here, the sphere
-hovers 5.86 mm above the floor. With h = 10 ms it is a quarter of that: the angle by which a torque
-turns the sphere in a step grows with h squared.
+Up to a torque of mu_omega m g the sphere does not move at all. A larger torque turns the sphere,
+and the sphere hovers: Eq. (7) asks for a gap of mu_omega theta if a step turns the sphere by
+theta. This boundary layer is the price of a convex step. At the end the torque is five times the
+limit, and with h = 20 ms the sphere hovers 5.86 mm above the floor. With h = 10 ms the gap is a
+quarter of that, because the angle by which a torque turns the sphere in a step grows with h
+squared.
 """
 
 import matplotlib.pyplot as plt

@@ -2,11 +2,12 @@
 Step after step
 ===============
 
-A finger on a spring pushes a block along one axis. A run is a loop: where things are gives phi and
-J, the program gives delta_q, and q goes on by it.
+A finger on a spring pushes a block along one axis. A run is a loop: the configuration q gives phi
+and J, the program gives delta_q, and delta_q moves q on.
 
-While the finger's target moves at v, the finger is m v / (h K_q) behind it. When the target stops,
-so do both, soon after. The force on the block is m v / h: the drag of steps that start from rest.
+While the finger's target moves at v, the finger is m v / (h K_q) behind the target. Soon after the
+target stops, finger and block stop. The force on the block is the drag m v / h, because each step
+starts from rest.
 """
 
 import matplotlib.pyplot as plt

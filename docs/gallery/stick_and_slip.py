@@ -2,9 +2,9 @@
 Which contacts stick, and which slide
 =====================================
 
-Two blocks on a slope of 25 degrees, whose tangent is 0.466. The rough one, with mu_v = 0.6, stays.
-The smooth one, with mu_v = 0.3, slides. It first rises to its boundary layer. From then on it goes
-h^2 g (sin - mu_v cos) in each step, without acceleration, since each step starts from rest.
+Two blocks lie on a slope of 25 degrees, whose tangent is 0.466. The rough block, with mu_v = 0.6,
+stays. The smooth block, with mu_v = 0.3, slides. When it has risen to its boundary layer, it slides
+by h^2 g (sin - mu_v cos) in each step, without acceleration, since each step starts from rest.
 """
 
 import matplotlib.pyplot as plt
