@@ -4,6 +4,7 @@ import ast
 import re
 from textwrap import dedent
 
+from tests.meta.remedies import assert_among
 from validation.tools.check_site import ROOT, markdown_faults
 
 
@@ -11,6 +12,17 @@ def test_every_relative_link_of_the_repository_s_markdown_leads_to_a_file(tmp_pa
     assert list(markdown_faults(ROOT)) == []
     (tmp_path / "README.md").write_text("[a](gone.md#x)\n```\n[b](also.md)\n```\n[c](#here)\n")
     assert list(markdown_faults(tmp_path)) == ["README.md links to gone.md#x, which is not there"]
+
+
+ROLE = re.compile(r"\{[\w:]+\}`[^`]*`|^:::|^\(.*\)=$", re.MULTILINE)
+"""Marks of MyST in prose, which a code host shows as they are."""
+
+
+def test_pages_are_plain_markdown_on_a_code_host():
+    pages = [path for path in ROOT.glob("docs/**/*.md") if "included" not in path.parts]
+    raw = [f"{p.name} has {role}" for p in pages for role in ROLE.findall(p.read_text("utf-8"))]
+    words = "{}: write a link or Eq. (N), which docs/conf.py makes a role for the site"
+    assert_among(raw, (), words)
 
 
 PYTHON = re.compile(
