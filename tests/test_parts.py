@@ -20,7 +20,8 @@ from quasistatic_ref.files.scenario.scenario import load_scenario
 from quasistatic_ref.files.trajectory import load_trajectory, save_trajectory
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.optional.extensions.extension import Extension
-from quasistatic_ref.parts import file_mesh, is_there, needing
+from quasistatic_ref.parts import is_there, needing
+from quasistatic_ref.parts.files import file_mesh
 from quasistatic_ref.shapes.placed_shape import Box, Cylinder
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone

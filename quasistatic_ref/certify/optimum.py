@@ -32,7 +32,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import HasPage, Shown
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
-from quasistatic_ref.parts import contact_forces
+from quasistatic_ref.parts.certify import contact_forces
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches

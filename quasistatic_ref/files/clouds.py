@@ -17,7 +17,7 @@ from quasistatic_ref.files.mesh_files import loaded_mesh
 from quasistatic_ref.files.text import check_equal, check_points, number_or_nan, point_lines
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.parts import file_points
+from quasistatic_ref.parts.files import file_points
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.tolerances import LARGE
 

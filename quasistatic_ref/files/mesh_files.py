@@ -9,7 +9,7 @@ from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.files.mesh import Mesh
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.parts import file_mesh
+from quasistatic_ref.parts.files import file_mesh
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull, hull_of_mesh
 
 MESHES = (".stl", ".obj", ".off", ".ply", ".gltf", ".glb", ".dae")

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.formats.quoting import shown_value
-from quasistatic_ref.parts import page_html, page_text
+from quasistatic_ref.parts.shown import page_html, page_text
 
 
 class Shown:

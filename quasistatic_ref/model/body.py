@@ -16,7 +16,7 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.solid import Homogeneous, solid_tree
 from quasistatic_ref.model.tree import Tree
-from quasistatic_ref.parts import described_model
+from quasistatic_ref.parts.model import described_model
 from quasistatic_ref.shapes.frozen import finite_number, freeze_array
 
 if TYPE_CHECKING:

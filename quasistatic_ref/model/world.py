@@ -25,7 +25,7 @@ from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.tree import BASE, Tree
 from quasistatic_ref.model.tree_model import TreeModel, body_frame, tree_model
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.parts import urdf_tree
+from quasistatic_ref.parts.model import urdf_tree
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 PART = 24

@@ -5,7 +5,7 @@ from typing import Final, Literal, get_args
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import pairs_by_coal
+from quasistatic_ref.parts.simulate import pairs_by_coal
 
 CLOSED: Final = "closed"
 COAL: Final = "coal"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import finding_names
+from quasistatic_ref.parts.names import finding_names
 
 
 @dataclass(frozen=True, eq=False)

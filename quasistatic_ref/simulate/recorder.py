@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from quasistatic_ref.certify.optimum import UNKNOWN
 from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.numbers.arrays import Array, read_only
-from quasistatic_ref.parts import check_there, doctors
+from quasistatic_ref.parts import check_there
+from quasistatic_ref.parts.simulate import doctors
 from quasistatic_ref.simulate.header import RECORDS, Header, Record
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import ARRAYS, FULL, Reading, arrays_of, names_of, no_steps

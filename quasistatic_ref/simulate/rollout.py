@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError, QuasistaticError, check_kind
-from quasistatic_ref.parts import doctors
+from quasistatic_ref.parts.simulate import doctors
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.finding import check_finding_name
 from quasistatic_ref.simulate.header import Record

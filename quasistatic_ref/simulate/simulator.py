@@ -35,7 +35,7 @@ from quasistatic_ref.numbers.arrays import (
     read_only,
     without_warnings,
 )
-from quasistatic_ref.parts import coulomb_solution, extended_solution, findings_of_scene
+from quasistatic_ref.parts.simulate import coulomb_solution, extended_solution, findings_of_scene
 from quasistatic_ref.simulate.distances import Distances, measured_pairs
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB, Law

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref import parts
 from quasistatic_ref.certify.optimum import UNKNOWN, ContactForces
 from quasistatic_ref.errors import InputError, MissingKey, check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.parts.certify import contact_forces
+from quasistatic_ref.parts.simulate import contact_table, findings_of_time, step_table
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import Header
@@ -140,7 +141,7 @@ class Trajectory(Plain, HasPage):
 
     @property
     def _findings(self) -> tuple[Finding, ...]:
-        of_time = parts.findings_of_time(self) if self.seconds else ()
+        of_time = findings_of_time(self) if self.seconds else ()
         return (*self.header.findings, *of_time)
 
     def step_data(self, k: int) -> StepData:
@@ -239,7 +240,7 @@ class Trajectory(Plain, HasPage):
         step = self.step_data(k)
         delta_q = self["delta_q"][k]
         near = (delta_q, self["wrench"][k]) if step.n_v == len(delta_q) else None
-        return parts.contact_forces(step, near)
+        return contact_forces(step, near)
 
     def wrench_on(self, name: str, scene: Scene | None = None) -> Array:
         """Sum of the contact wrenches by lam on a body or a link, for each step.
@@ -326,7 +327,7 @@ class Trajectory(Plain, HasPage):
         InputError
             If pandas is not installed, or that part is missing.
         """
-        return parts.step_table(self)
+        return step_table(self)
 
     def contacts_to_pandas(self) -> DataFrame:
         """A data frame with a row for each contact of each step.
@@ -336,7 +337,7 @@ class Trajectory(Plain, HasPage):
         InputError
             As for :meth:`to_pandas`.
         """
-        return parts.contact_table(self)
+        return contact_table(self)
 
 
 def certified(trajectory: Trajectory) -> str:

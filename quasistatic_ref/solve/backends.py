@@ -21,7 +21,8 @@ from typing import Any, Literal, get_args
 
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import check_there, qpsolvers_names
+from quasistatic_ref.parts import check_there
+from quasistatic_ref.parts.names import qpsolvers_names
 from quasistatic_ref.step.cones import checked_cone
 
 Options = dict[str, Any]

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from quasistatic_ref.errors import BackendError, check_kind
-from quasistatic_ref.parts import fast_solver, function_solver, qpsolvers_solver
+from quasistatic_ref.parts.solve import fast_solver, function_solver, qpsolvers_solver
 from quasistatic_ref.solve.backends import DEFAULT, NONE, QPSOLVERS, check_backend, is_function
 from quasistatic_ref.solve.solver import NoSolver, Solver
 from quasistatic_ref.step.cones import cone

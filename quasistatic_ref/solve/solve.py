@@ -28,7 +28,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Late
 from quasistatic_ref.numbers.arrays import Array, all_finite, positive_number, without_warnings
 from quasistatic_ref.numbers.precision import check_arithmetic
-from quasistatic_ref.parts import extended_step
+from quasistatic_ref.parts.solve import extended_step
 from quasistatic_ref.solve.backends import NONE, Certify, check_certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solver import FREE, Reply, Solver

@@ -32,7 +32,7 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.numbers.angles import cos_sin_of_turn
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
-from quasistatic_ref.parts import ellipsoid_cone
+from quasistatic_ref.parts.step import ellipsoid_cone
 
 if TYPE_CHECKING:
     import cvxpy as cp

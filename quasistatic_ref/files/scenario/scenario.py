@@ -38,7 +38,7 @@ from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import total
-from quasistatic_ref.parts import extended_bodies, fast_backend, fast_simulator
+from quasistatic_ref.parts.files import extended_bodies, fast_backend, fast_simulator
 from quasistatic_ref.simulate.distances import check_closed
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import Record

@@ -24,7 +24,9 @@ from quasistatic_ref.optional.doctor.measures import (
     touching,
 )
 from quasistatic_ref.optional.doctor.start import Start
-from quasistatic_ref.parts import contact_forces, is_there, posed
+from quasistatic_ref.parts import is_there
+from quasistatic_ref.parts.certify import contact_forces
+from quasistatic_ref.parts.solve import posed
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.recorder import POINTS

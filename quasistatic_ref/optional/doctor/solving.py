@@ -13,7 +13,7 @@ from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.run import Run, RunStep
-from quasistatic_ref.parts import contact_forces
+from quasistatic_ref.parts.certify import contact_forces
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.trajectory import Trajectory

@@ -23,7 +23,7 @@ from quasistatic_ref.certify.groups import Group, group_step, groups
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor.slow import SLOWLY, STRAIGHT, Rung, Slow
 from quasistatic_ref.optional.doctor.undecided import NO_ANSWER, TOO_MANY, failure
-from quasistatic_ref.parts import posed
+from quasistatic_ref.parts.solve import posed
 
 if TYPE_CHECKING:
     from quasistatic_ref.contact.distance import ClosestPoints

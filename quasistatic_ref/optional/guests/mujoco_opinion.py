@@ -20,7 +20,7 @@ from quasistatic_ref.optional.guests.mujoco_state import MujocoState, awake, muj
 from quasistatic_ref.optional.guests.opinion import MOVES, Opinion
 from quasistatic_ref.optional.guests.overlaps import misplaced, unlisted
 from quasistatic_ref.optional.guests.settled import run, velocities, window
-from quasistatic_ref.parts import coulomb_solution
+from quasistatic_ref.parts.simulate import coulomb_solution
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.tolerances import ACCURACY, CREEP

@@ -25,7 +25,7 @@ from quasistatic_ref.optional.guests.mujoco import default_cone, first_equality
 from quasistatic_ref.optional.guests.places import overlapped_children
 from quasistatic_ref.optional.guests.settled import settled
 from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
-from quasistatic_ref.parts import fast_backend, fast_simulator
+from quasistatic_ref.parts.files import fast_backend, fast_simulator
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.limits import Limits
