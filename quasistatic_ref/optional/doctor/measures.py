@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints.joint import Joint
@@ -300,6 +299,8 @@ def _motion(joint: Joint, q: Array, hands: Sequence[Joint]) -> Motion:
 
 def _angle_in(body: Joint, hand: Joint, q: Array) -> Array:
     """Angle [rad] by which a free body has turned in the frame of a free hand since the start."""
+    from scipy.spatial.transform import Rotation  # takes as long as a short run
+
     of_body, of_hand = (Rotation.from_quat(q[:, one.q][:, one.lengths :]) for one in (body, hand))
     seen = of_hand.inv() * of_body
     return _turned((seen * seen[0].inv()).as_rotvec())

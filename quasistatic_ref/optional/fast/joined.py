@@ -41,6 +41,11 @@ class JoinedContacts(Late, Contacts):
         contact, k = np.nonzero(self.own_J.any(axis=1))
         return contact, self.column[contact, k]
 
+    @property
+    def moved_by_all(self) -> bool:
+        """Whether each coordinate that can move a contact does."""
+        return bool((self.own_J.any(axis=1) | (self.column == self.n_v)).all())
+
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
         moved = np.concatenate([delta_q, [0.0]])[self.column]
@@ -78,6 +83,11 @@ class Masses:
         self.h = h
         self.K_q = K_q
         self.blocks = blocks
+
+    @property
+    def constant(self) -> bool:
+        """Whether these are blocks, which all steps have."""
+        return self.blocks.ndim == 3
 
     @cached_property
     def M_u(self) -> Array:
@@ -144,6 +154,11 @@ class JoinedStep(Late, StepData):
     def coupled_entries(self) -> tuple[Indices, Indices]:
         """Row and column of each entry that a term of H may have, (k,): no cost has a part."""
         return self.of_masses.entries
+
+    @property
+    def couples_all(self) -> bool:
+        """Whether the groups of the step are known to be those of all steps of its simulator."""
+        return self.of_masses.constant and self.contacts.moved_by_all
 
     def masses(self, some: Indices) -> Array:
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""

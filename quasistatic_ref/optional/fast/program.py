@@ -38,10 +38,13 @@ class Program:
         Of all groups, one after the other; f = -g.
     parts : list of (ndarray, ndarray, ndarray)
         f (n,), A (m, n) and b (m,) of each group: views.
+    within : list of Group
+        Each group, counted in itself.
     """
 
     def __init__(self, groups: Sequence[Group]) -> None:
         self.groups = [*groups]
+        self.within = [Group._make(np.arange(len(of)) for of in group) for group in groups]
         self.coordinates = np.concatenate([group.coordinates for group in groups])
         self.rows = np.concatenate([group.rows for group in groups])
         self.widths = np.array([len(group.coordinates) for group in groups])

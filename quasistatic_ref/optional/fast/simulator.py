@@ -22,6 +22,7 @@ from quasistatic_ref.model.state import State
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.optional.fast.guard import Plainly, program_is_plain
+from quasistatic_ref.optional.fast.joined import JoinedStep
 from quasistatic_ref.optional.fast.library import ffi, library, missing
 from quasistatic_ref.optional.fast.poses import Poses
 from quasistatic_ref.optional.fast.program import NaturalProgram
@@ -229,7 +230,7 @@ class FastSimulator(Simulator):
         lap("integrate")
         return StepResult(q_next, step, solution, points, times, q, self)
 
-    def _scaled(self, step: StepData) -> FormedStep:
+    def _scaled(self, step: JoinedStep) -> FormedStep:
         """The step with its units, and its program written into DAQP's."""
         solver = self.solver
         natural = self._natural

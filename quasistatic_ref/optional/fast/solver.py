@@ -9,6 +9,7 @@ import numpy as np
 
 from quasistatic_ref.certify.groups import Group, group_step, group_steps, groups
 from quasistatic_ref.numbers.arrays import Array, all_finite
+from quasistatic_ref.optional.fast.joined import JoinedStep
 from quasistatic_ref.optional.fast.program import Program, Workspaces
 from quasistatic_ref.solve.backends import Options, check_backend
 from quasistatic_ref.solve.choice import solver_for
@@ -43,7 +44,7 @@ class FormedStep(ScaledStep):
 
     Parameters
     ----------
-    step : StepData
+    step : JoinedStep
     units : Units
         Its natural units.
     blocks : list of ndarray, shape (n, n)
@@ -53,9 +54,10 @@ class FormedStep(ScaledStep):
     """
 
     def __init__(
-        self, step: StepData, units: Units, blocks: Sequence[Array], program: Program
+        self, step: JoinedStep, units: Units, blocks: Sequence[Array], program: Program
     ) -> None:
         super().__init__(step, units)
+        self.step: JoinedStep = step
         self.blocks = blocks
         self.program = program
 
@@ -71,6 +73,12 @@ class FormedStep(ScaledStep):
         Each with the number of that, counted in that, counted in the step, and as a step.
         """
         parts = []
+        if self.step.couples_all:
+            both = zip(self.program.groups, self.program.within, strict=True)
+            return [
+                (i, part, group, group_step(self.step, group))
+                for i, (group, part) in enumerate(both)
+            ]
         for i, group in enumerate(self.program.groups):
             whole = group_step(self.step, group)
             for part, step in group_steps(whole):

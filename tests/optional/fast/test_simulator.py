@@ -21,12 +21,13 @@ from quasistatic_ref import (
     load_scenario,
     standard_form,
 )
-from quasistatic_ref.certify.groups import group_step
+from quasistatic_ref.certify.groups import group_step, groups
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.joints.axis_joint import Revolute
 from quasistatic_ref.optional.fast import library
 from quasistatic_ref.optional.fast import simulator as of_fast
 from quasistatic_ref.optional.fast.joined import JoinedStep, spread
+from quasistatic_ref.optional.fast.solver import FormedStep
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.contact.solids_of_tests import SHAPES as SOLIDS
 from tests.contact.still import placed_shape
@@ -200,6 +201,23 @@ def test_the_data_of_a_step_are_those_of_the_plain_path_wherever_it_is(cone):
         for group in fast._steps.groups:
             assert group_step(in_c, group) == group_step(step, group)
         assert bits(fast._sums.integrate(move)) == bits(system.integrate(q, move))
+
+
+@needs_compiler
+def test_groups_of_a_step_are_those_of_its_numbers():
+    """Whether all of J differs from zero where it can or, as of a turned joint, not."""
+    seen = set()
+    for name in ("bunny_grasp", "stack", "two_finger_pinch", "door"):
+        run = load_scenario(name, ["record=light"], fast=True)
+        simulator = run.simulator()
+        q = run.system.q_start
+        for _ in range(4):
+            step = simulator.step(q, q[: run.system.n_q_a]).step
+            formed = FormedStep(step, None, [], simulator.solver.program)
+            assert bits([group for group, _ in formed.groups]) == bits(groups(step))
+            seen.add((name, step.couples_all))
+            q = run.system.integrate(q, np.linspace(-1e-6, 1e-6, run.system.n_v))
+    assert {couples_all for _, couples_all in seen} == {False, True}
 
 
 @needs_compiler
