@@ -40,7 +40,7 @@ def test_every_finding_is_on_its_page():
         names_of_findings("doctor"),
         GRAVE,
         'The finding "{}" has no row: add | `{}` | ... to docs/findings.md, and a scene to '
-        "tests/optional/doctor/finding_scenes.py",
+        "tests/optional/doctor/cases/findings.toml",
         'docs/findings.md tells of the finding "{}", which no code gives: remove its row',
     )
     file = "docs/guides/does_my_contact_hold.md"

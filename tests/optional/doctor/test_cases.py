@@ -1,4 +1,4 @@
-"""Scenes of statics: each number by hand, and nothing else is said (cases/*.toml)."""
+"""Scenes, each with what is right by hand, and nothing else is said of it (cases/*.toml)."""
 
 import copy
 import tomllib
@@ -6,52 +6,95 @@ from pathlib import Path
 
 import pytest
 
-from quasistatic_ref import Body, Box, Sphere, load_scenario
+from quasistatic_ref import (
+    Body,
+    Box,
+    Capsule,
+    Cylinder,
+    RunFailed,
+    Sphere,
+    load_scenario,
+)
+from tests.optional.doctor.mistake_scenes import GRAVE
 
 HERE = Path(__file__).with_name("cases")
-CASES = [
-    pytest.param(case, id=case["what"], marks=pytest.mark.long if "long" in case else ())
+ROWS = [
+    case
     for file in sorted(HERE.glob("*.toml"))
     for case in tomllib.loads(file.read_text("utf-8"))["case"]
 ]
+CASES = [
+    pytest.param(case, id=case["what"], marks=pytest.mark.long if "long" in case else ())
+    for case in ROWS
+]
+SOLIDS = {"box": lambda *size: Box(size=size), "sphere": Sphere, "cylinder": Cylinder}
+SOLIDS["capsule"] = Capsule
 
 
-def scene_of(case, **more):
+@pytest.fixture(autouse=True)
+def in_the_folder(monkeypatch):
+    """Files of a case are beside it."""
+    monkeypatch.chdir(HERE)
+
+
+def scene_of(scene, changes=(), **more):
     """The scenario of a case, whose simple bodies are made here."""
-    table = copy.deepcopy(case["scene"]) | {"fast": True} | more
-    for body in table["bodies"].values():
-        kind, *numbers = body["urdf"].split()
-        sizes = [float(x) for x in numbers]
-        if numbers:
-            shape = Box(size=sizes[:-1]) if kind == "box" else Sphere(*sizes[:-1])
-            body["urdf"] = Body.of_shape("solid", shape, sizes[-1]).urdf
-        else:
-            body["urdf"] = str(HERE / kind)
-    return load_scenario(table)
+    tables = {"fast": True} | copy.deepcopy(scene) | more
+    for key, value in dict(changes).items():
+        *path, last = key.split(".")
+        inner = tables
+        for part in path:
+            inner = inner[part]
+        inner[last] = value
+    for body in tables["bodies"].values():
+        kind, *sizes = body["urdf"].split()
+        if sizes:
+            *sizes, mass = map(float, sizes)
+            body["urdf"] = Body.of_shape("solid", SOLIDS[kind](*sizes), mass).urdf
+    return load_scenario(tables)
+
+
+def found(scenario):
+    """What is found of a run, though it may end early."""
+    try:
+        return scenario.run(progress=False).findings
+    except RunFailed as failure:
+        return failure.trajectory.findings
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_what_is_said_of_statics_is_right_by_hand(case):
-    said = {one.name: one for one in scene_of(case).run(progress=False).findings}
-    said.pop("uncertain-forces", None)
-    assert said.keys() == case["hand"].keys()
-    for name, numbers in case["hand"].items():
+def test_what_is_said_is_right_by_hand(case):
+    """A remedy that is applied ends what asked for it."""
+    scenario, hand = scene_of(case["scene"]), case["hand"]
+    findings = scenario.findings() if "before" in case else found(scenario)
+    said = {one.name: one for one in findings}
+    if "uncertain-forces" not in hand:
+        said.pop("uncertain-forces", None)
+    assert said.keys() == hand.keys()
+    for one in findings:
+        assert one.grave is GRAVE[one.name]
+        assert one.sentence.startswith(one.cause)
+    for name, numbers in hand.items():
         for key, value in numbers.items():
             if isinstance(value, str):  # words of the cause, or of the remedy
-                assert value in getattr(said[name], key)
+                assert any(value in getattr(x, key) for x in findings if x.name == name)
             else:
                 number, off = value
                 right = pytest.approx(number, rel=off, abs=0.0 if number else off)
                 assert abs(said[name].numbers[key]) == right
+    for remedy, changes in case.get("after", {}).items():
+        mended = {one.name for one in findings if one.remedy == remedy}
+        assert mended
+        assert mended.isdisjoint(one.name for one in found(scene_of(case["scene"], changes)))
 
 
 @pytest.mark.parametrize("backend", ["clarabel", "osqp", "none"])
 @pytest.mark.parametrize("what", ["a rod slips", "a cube that a finger pushes at 0.1"])
 def test_findings_do_not_depend_on_the_backend(what, backend):
     """Contacts share loads in many ways, and backends differ in theirs."""
-    (case,) = [each.values[0] for each in CASES if each.values[0]["what"].startswith(what)]
-    run = scene_of(case).run(progress=False)
-    other = scene_of(case, fast=False, solver={"backend": backend}).run(progress=False)
+    (case,) = [case for case in ROWS if case["what"].startswith(what)]
+    run = scene_of(case["scene"]).run(progress=False)
+    other = scene_of(case["scene"], fast=False, solver={"backend": backend}).run(progress=False)
     assert other.header.not_looked_at == run.header.not_looked_at == ""
     said = {one.name: one for one in other.findings}
     assert said.keys() == case["hand"].keys()

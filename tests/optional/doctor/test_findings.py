@@ -1,61 +1,30 @@
-"""Scenes of each finding are named with their cause; healthy ones have nothing grave."""
+"""Each finding of the page has a scene, and each note one that only just lacks it."""
 
-import re
-from pathlib import Path
+from dataclasses import replace
 
+import mujoco
+import numpy as np
 import pytest
 
+from quasistatic_ref import mujoco_scenario
 from quasistatic_ref.optional.doctor.names import NAMES
 from tests.meta.remedies import assert_alike, assert_among
 from tests.optional.doctor.mistake_scenes import GRAVE, mistakes
+from tests.optional.doctor.test_cases import ROWS
+from tests.optional.doctor.words import block, free, scene
 
-FILES = [Path(__file__).with_name(f"{kind}_scenes.py") for kind in ("finding", "healthy")]
-CELLS = "\n".join(file.read_text("utf-8") for file in FILES)
+HERE = {"crossed-margin", "target-without-effect", "time-of-proof"}
+"""Findings whose scenes are in this file."""
 OF_DRAWN_SCENES = {"artifact", "corners", "equilibrium"}
-WORDS, *SCENES = re.split(r"^# %% ", CELLS, flags=re.M)
-
-
-@pytest.fixture(scope="module")
-def words():
-    """What the scenes are built with."""
-    names = {}
-    exec(WORDS, names)
-    return names
-
-
-@pytest.mark.parametrize("scene", SCENES, ids=[scene.splitlines()[0] for scene in SCENES])
-def test_a_scene_is_named_with_its_cause(words, scene):
-    title, _, code = scene.partition("\n")
-    expected = title.partition(":")[0].split(", ")
-    names = dict(words)
-    exec(code, names)
-    found = names["found"]
-    if expected == ["nothing"] or title.startswith("no "):
-        assert [str(one) for one in found if one.grave] == []
-        assert {one.name for one in found}.isdisjoint(absent(title))
-        return
-    assert {*expected} <= {one.name for one in found}
-    for one in found:
-        assert one.sentence.startswith(one.cause)
-        assert one.grave is GRAVE[one.name]
-    for remedy, later in names.get("after", {}).items():
-        mended = {one.name for one in found if one.remedy == remedy}
-        assert mended, f"no finding has this remedy: {remedy}"
-        assert mended.isdisjoint(one.name for one in later)
-
-
-def absent(title):
-    """The finding that a scene titled "no NAME: ..." only just lacks."""
-    return re.findall(r"^no ([\w-]+):", title)
 
 
 def test_each_finding_of_the_page_has_a_scene():
-    of_cells = {name for scene in SCENES for name in scene.partition(":")[0].split(", ")}
+    of_rows = {name for case in ROWS for name in case["hand"]}
     of_mistakes = {name for one in mistakes() for name in one["finding"]}
     assert_among(
         GRAVE,
-        of_cells | OF_DRAWN_SCENES | of_mistakes,
-        'No scene has the finding "{}": add a cell to tests/optional/doctor/finding_scenes.py',
+        of_rows | of_mistakes | HERE,
+        'No scene has the finding "{}": add one to tests/optional/doctor/cases/findings.toml',
     )
     assert_alike(
         GRAVE,
@@ -66,20 +35,72 @@ def test_each_finding_of_the_page_has_a_scene():
 
 
 def test_each_note_has_a_scene_that_only_just_lacks_it():
-    """A healthy scene may have notes, so its title says which one it must not have."""
     assert_among(
-        {name for name, grave in GRAVE.items() if not grave} - OF_DRAWN_SCENES,
-        {name for scene in SCENES for name in absent(scene)},
-        'No scene only just lacks "{}": add a cell "# %% no {}: ..." to '
-        "tests/optional/doctor/healthy_scenes.py",
+        {name for name, grave in GRAVE.items() if not grave} - OF_DRAWN_SCENES - HERE,
+        {case.get("lacks") for case in ROWS},
+        'No scene only just lacks "{}": add one with lacks = "{}" to '
+        "tests/optional/doctor/cases/findings.toml",
     )
 
 
 @pytest.mark.parametrize(
-    ("solve", "proof", "certify"), [(2.0, 7.9, "full"), (3.0, 9.0, "full"), (1.0, 11.0, "off")]
+    ("solve", "proof", "certify"),
+    [(1.0, 11.0, "full"), (2.0, 7.9, "full"), (3.0, 9.0, "full"), (1.0, 11.0, "off")],
 )
-def test_a_shorter_run_or_one_with_less_proof_is_not_named(words, solve, proof, certify):
-    """9.9 s are not long enough, 9 of 12 s are 75 %, and nothing is proved with off."""
-    seconds = {"solve": solve, "proof": proof}
-    tables = [("floor", "box", 0.5, 4)]
-    assert words["findings"]([words["box"]()], tables, seconds=seconds, certify=certify) == ()
+def test_a_long_run_is_told_of_its_proofs(solve, proof, certify):
+    """11 of 12 s; 9.9 s are not long enough, 9 of 12 s are 75 %, and with off nothing is proved."""
+    bodies = {"b": free(block(1.0, (0.1, 0.1, 0.1)), (0, 0, 0.05))}
+    tables = {"c": ("floor", "b", 0.5, 4)}
+    run = scene(bodies, tables, 3, solver={"certify": certify}).run(progress=False)
+    seconds = {"solve": [solve], "proof": [proof]}
+    found = replace(run, seconds={part: np.array(time) for part, time in seconds.items()}).findings
+    remedy = 'take certify = "residual", which judges each step by its residuals in less time'
+    assert [one.remedy for one in found] == [remedy] * (solve == 1.0 and certify == "full")
+
+
+def of_mujoco(world, more="", option="", **fields):
+    """What is found of a MuJoCo scene."""
+    text = f"<mujoco>{option}<worldbody>{world}</worldbody>{more}</mujoco>"
+    made = mujoco_scenario(mujoco.MjModel.from_xml_string(text), h=0.01, **fields)
+    return {one.name: one for one in made.run(progress=False).findings}
+
+
+SLIDE = '<body><joint name="j" type="slide" axis="1 0 0"/><geom size="0.1"/></body>'
+WITHOUT_EFFECT = {
+    "its group is switched off": (
+        '<option actuatorgroupdisable="3"/>', '<position joint="j" kp="9" group="3"/>',
+    ),
+    "a gain of zero": ("", '<general joint="j" gainprm="0"/>'),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("why", WITHOUT_EFFECT)
+def test_a_target_of_an_actuator_that_does_nothing_has_no_effect(why, tmp_path):
+    option, actuator = WITHOUT_EFFECT[why]
+    table = tmp_path / "targets.csv"
+    table.write_text("t,0\n0,0\n0.02,1\n")
+    more = f"<actuator>{actuator}</actuator>"
+    assert "target-without-effect" in of_mujoco(SLIDE, more, option, targets=table, steps=3)
+
+
+def test_the_unit_of_the_friction_that_mujoco_gives_by_default_is_said_once():
+    """Of six pads of 0.6 mm."""
+    pads = "".join(f'<geom size="0.0006" pos="{i / 100} 0 0"/>' for i in range(6))
+    floor = '<geom type="plane" size="1 1 0.1"/>'
+    world = f'{floor}<body pos="0 0 0.0006"><freejoint/>{pads}</body>'
+    condim = '<default><geom condim="4"/></default>'
+    unit = of_mujoco(world, option=condim, steps=1)["unit-of-mu-omega"]
+    assert unit.remedy.startswith("check the unit of the second number of friction of the geoms")
+    assert unit.cause.endswith("the smaller body, 0.0012 m (5 more pairs are as suspect)")
+
+
+@pytest.mark.parametrize(("margin", "depth"), [(0.004, [12.0]), (0.03, [])])
+def test_what_comes_from_beyond_the_margin_is_said(margin, depth):
+    """A ball 8 mm above the floor, which a force moves by h^2 f / m, 20 mm."""
+    joint = '<joint name="z" type="slide" axis="0 0 1"/><geom size=".1" mass="1"/>'
+    world = f'<geom type="plane" size="1 1 1"/><body pos="0 0 .108">{joint}</body>'
+    pull = '<actuator><motor name="down" joint="z"/></actuator>'
+    fields = {"targets": lambda t: {"down": -200.0}, "steps": 1, "margin": margin}
+    said = of_mujoco(world, pull, '<option gravity="0 0 0"/>', **fields)
+    of_margin = [one for name, one in said.items() if name == "crossed-margin"]
+    assert [one.numbers["depth_mm"] for one in of_margin] == pytest.approx(depth)
