@@ -3,6 +3,7 @@
 import pytest
 
 from quasistatic_ref.lab.vectors.check.folder import check_answers
+from quasistatic_ref.lab.vectors.check.usual import usual_sentence
 from tests.lab.vectors.committed_cases import (
     LIGHT,
     VECTORS,
@@ -11,6 +12,8 @@ from tests.lab.vectors.committed_cases import (
     cases,
     right_answers,
 )
+
+WRENCHES = right_answers("wrench")
 
 
 def test_right_answers_pass_and_layers_without_a_file_are_named(folder):
@@ -86,3 +89,25 @@ def test_a_name_of_several_lines_is_said_on_one(folder):
     report = by_layer(check_answers(folder, VECTORS, only=[name]))
     assert report["qp"].ok
     assert report["qp"].unasked.endswith(r"fields that are not looked at: a\nb")
+
+
+def test_a_missing_answer_before_a_wrong_one_hides_nothing(folder):
+    rows = right_answers("rows")
+    rows.popitem()
+    answer_file(folder, "rows", rows)
+    wrong = {name: {**o, "wrench": [[9.0] * 4] * len(o["wrench"])} for name, o in WRENCHES.items()}
+    answer_file(folder, "wrench", wrong)
+    report = check_answers(folder, VECTORS, LIGHT)
+    assert report.sentences.count(usual_sentence("wrench")) == 1
+    assert usual_sentence("rows") not in report.sentences
+
+
+def test_what_a_program_does_not_do_is_neither_wrong_nor_missing(folder):
+    first, *others = WRENCHES.items()
+    answers = [{"id": name, "output": output} for name, output in others]
+    answers.append({"id": first[0], "unsupported": True})
+    answer_file(folder, "wrench", {}, answers=answers)
+    report = check_answers(folder, VECTORS, ["wrench"])
+    assert report.status == 0
+    says = f"right: wrench {len(others)} of {len(WRENCHES)} (1 not supported)"
+    assert report.sentences[-1] == report.verdict == says
