@@ -3,7 +3,7 @@
 from quasistatic_ref.files.declared import Field, Tables
 from quasistatic_ref.files.table_reader import REQUIRED
 from quasistatic_ref.formats.json_text import json_text
-from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.markdown import markdown_table
 from quasistatic_ref.simulate.record import ARRAYS
 
 

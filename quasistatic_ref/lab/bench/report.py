@@ -12,7 +12,7 @@ from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab import machine as computer
 from quasistatic_ref.lab.bench.six import FIGURES, SCENES, figures
-from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.markdown import markdown_table
 from quasistatic_ref.optional.fast.library import missing
 
 GROWTH = ("10 boxes", "40 boxes", "200 boxes")

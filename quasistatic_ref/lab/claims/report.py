@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import HOLDS, ClaimResult, Comparison
-from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.markdown import markdown_table
 
 HEAD = """# Claims
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.content import text_written
-from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.markdown import markdown_table
 from quasistatic_ref.lab.study.problems.names import NATURAL
 from quasistatic_ref.lab.study.row import Row
 from quasistatic_ref.lab.study.saying import INFEASIBLE, OTHER, SOLVED

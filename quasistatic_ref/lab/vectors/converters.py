@@ -8,9 +8,6 @@ from quasistatic_ref.lab.program.mechanism import kinematics, slices
 from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.numbers.arrays import Array
 
-UNITS = {"floating": 3, "planar": 2, "continuous": 0}
-"""Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
-
 
 def places(mechanism: Json) -> Iterator[tuple[Json, slice, slice]]:
     """Each body with coordinates of its own, and its entries of q and delta_q."""

@@ -7,7 +7,6 @@ from quasistatic_ref.lab.vectors.trees import Json
 UPRIGHT = [0.0, 0.0, 0.0, 1.0]
 ORIGIN: Json = {"xyz": [0.0, 0.0, 0.0], "quaternion": UPRIGHT}
 GRAVITY = [0.0, 0.0, -9.81]
-FLOOR: Json = {"kind": "halfspace", "normal": [0.0, 0.0, 1.0], "offset": 0.0}
 
 
 def at(x: float, y: float, z: float) -> Json:

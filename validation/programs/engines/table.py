@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.markdown import markdown_table
 from validation.programs.engines.phenomena import PHENOMENA
 
 CROSSES = tomllib.loads((Path(__file__).parent / "crosses.toml").read_text("utf-8"))

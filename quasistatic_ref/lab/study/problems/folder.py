@@ -28,7 +28,6 @@ MANIFEST = "manifest.json"
 FACTS = "problems.jsonl"
 NUMBERS = "numbers"
 PROVED = (EXACT, ENCLOSED)
-ANSWERS = ("x", "net", "slack", "lam")
 UNREADABLE = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError,
                      RecursionError, lzma.LZMAError)  # fmt: skip
 """What reading raises of files that agree with their manifest, and are something else."""
