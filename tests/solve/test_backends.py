@@ -45,12 +45,18 @@ def test_the_solvers_of_these_tests_are_installed_so_that_green_means_ran():
     assert set(INTERFACES) | {JUDGE} <= set(installed_backends())
 
 
+@functools.cache
+def judged_steps(shape):
+    """Two steps, each with the solution of an active-set solver at 1e-12."""
+    rng = np.random.default_rng(0)
+    steps = random_step(rng, *shape), planted_step(rng, *shape)[0]
+    return [(step, solve_step(step, JUDGE, accuracy=1e-12)) for step in steps]
+
+
 @every_interface
 @pytest.mark.parametrize("shape", SHAPES, ids=str)
 def test_every_interface_agrees_with_an_active_set_solver_at_1e_12(interface, shape, capfd):
-    rng = np.random.default_rng(0)
-    for step in (random_step(rng, *shape), planted_step(rng, *shape)[0]):
-        truth = solve_step(step, JUDGE, accuracy=1e-12)
+    for step, truth in judged_steps(shape):
         answer = solve_step(step, interface, accuracy=1e-12)
         gap = error(step, answer.delta_q, truth.delta_q)
         assert_within(gap, 0.0, OPTIMUM)
