@@ -11,8 +11,15 @@ from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.thresholds import exact
 from tests.analytic.instances import INSTANCES, instances, log, near
 
+LONG = ("lift", "patch_torsion", "planar_push", "pushed_block")
+"""Claims that take a second or two."""
+EACH = [
+    pytest.param(name, marks=pytest.mark.long if name in LONG else ())
+    for name in CLAIMS["Closed forms"]
+]
 
-@pytest.mark.parametrize("name", CLAIMS["Closed forms"])
+
+@pytest.mark.parametrize("name", EACH)
 def test_a_claim_holds(name):
     claim = claim_result(CLAIMS["Closed forms"][name])
     assert claim.verdict == HOLDS, [c.what for c in claim.comparisons if not c.holds]
