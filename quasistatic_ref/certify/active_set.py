@@ -27,7 +27,7 @@ a dependence of the rows with positive multipliers changes neither A'lam nor the
 move makes one multiplier zero.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -84,14 +84,7 @@ def least_index(minimiser: Minimiser) -> int | None:
     return min((i for i, sign in minimiser.slack_signs.items() if sign < 0), default=None)
 
 
-EnteringRule = Callable[[Minimiser], int | None]
-"""Chooses the violated row that is added next; None says that all signs are decided, and none is
-negative."""
-
-
-def dual_active_set(
-    form: ExactForm, warm: Sequence[int] = (), entering_row: EnteringRule = most_violated
-) -> Minimiser | Combination:
+def dual_active_set(form: ExactForm, warm: Sequence[int] = ()) -> Minimiser | Combination:
     """The optimum of min 1/2 x'Hx - g'x s.t. Ax >= b, or a proof that there is none.
 
     Parameters
@@ -101,8 +94,6 @@ def dual_active_set(
     warm : sequence of int
         Rows that are active at the optimum, as far as a solver could tell, in order of
         preference. Any rows will do; none is a cold start.
-    entering_row : callable
-        Chooses the row to add: :func:`most_violated` or :func:`least_index`.
 
     Returns
     -------
@@ -116,7 +107,7 @@ def dual_active_set(
         return contradiction
     walks = 0
     while True:
-        p = entering_row(minimiser)
+        p = most_violated(minimiser)
         if p is None:  # All slacks are >= 0, too: the optimum.
             positive = minimiser.positive() if walks else minimiser.working
             if positive != minimiser.working:

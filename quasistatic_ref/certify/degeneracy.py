@@ -57,7 +57,9 @@ def step_degeneracy(step: StepData, working: Sequence[int]) -> Degeneracy:
         Independent rows whose multipliers at the optimum are positive, and all others zero.
     """
     parts = group_steps(step)
-    return _of_all(form_degeneracy(StepForm(part), group.within(working)) for group, part in parts)
+    return joined_degeneracy(
+        form_degeneracy(StepForm(part), group.within(working)) for group, part in parts
+    )
 
 
 def form_degeneracy(form: ExactForm, working: Sequence[int]) -> Degeneracy:
@@ -67,7 +69,7 @@ def form_degeneracy(form: ExactForm, working: Sequence[int]) -> Degeneracy:
     return Degeneracy(unique, smooth, minimiser.smallest_slack() if smooth else 0.0)
 
 
-def _of_all(every: Iterable[Degeneracy]) -> Degeneracy:
+def joined_degeneracy(every: Iterable[Degeneracy]) -> Degeneracy:
     """The degeneracy of a step, joined from the degeneracies of its groups."""
     unique, smooth, slacks = zip(*every, strict=True)
     return Degeneracy(

@@ -18,9 +18,7 @@ import numpy as np
 
 from quasistatic_ref.certify.active_set import (
     Combination,
-    EnteringRule,
     dual_active_set,
-    most_violated,
 )
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
@@ -68,9 +66,7 @@ class ExactOptimum:
     walks: int
 
 
-def form_optimum(
-    form: ExactForm, warm: Sequence[int] = (), entering_row: EnteringRule = most_violated
-) -> ExactOptimum | Combination:
+def form_optimum(form: ExactForm, warm: Sequence[int] = ()) -> ExactOptimum | Combination:
     """The exact optimum, or an exact proof that there is none.
 
     Parameters
@@ -78,16 +74,12 @@ def form_optimum(
     form : ExactForm
     warm : sequence of int
         Rows that a solver found active, in order of preference; any rows will do.
-    entering_row : callable
-        Chooses the violated row that is added next: this may change lam, the working set, the
-        smallest multiplier on that and the number of walks, but nothing else of an optimum.
 
     Returns
     -------
     ExactOptimum or Combination
-
     """
-    end = dual_active_set(form, warm, entering_row)
+    end = dual_active_set(form, warm)
     return end if isinstance(end, Combination) else rounded_optimum(form, end)
 
 
@@ -105,22 +97,6 @@ def rounded_optimum(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
         smallest_active_multiplier=float(lam[pressed].min()) if pressed else None,
         walks=minimiser.walks,
     )
-
-
-def exact_slack(form: ExactForm, working_set: Sequence[int]) -> Array:
-    """A x - b at the minimiser on a working set, each entry rounded correctly, shape (m,) [m].
-
-    Parameters
-    ----------
-    form : ExactForm
-    working_set : sequence of int
-        Independent rows.
-    """
-    minimiser = Minimiser(form, tuple(working_set))
-    inactive = minimiser.inactive
-    slack = np.zeros(form.m)
-    slack[inactive] = minimiser.rounded(lambda m: form.slacks(inactive.tolist(), m.z))
-    return slack
 
 
 def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:

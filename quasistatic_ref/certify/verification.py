@@ -23,7 +23,7 @@ from flint import arb
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.curved_cone import curved_cone
-from quasistatic_ref.certify.degeneracy import degeneracy
+from quasistatic_ref.certify.degeneracy import Degeneracy, degeneracy, joined_degeneracy
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
 from quasistatic_ref.certify.groups import flat_rows, group_steps, row_owners
 from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
@@ -428,20 +428,15 @@ def _wrong_claim(
     lam_w: Array,
 ) -> str:
     """What is wrong with the claims, from each group's form, working set and solution."""
-    unique = smooth = True
-    slacks: list[float] = []
+    of_groups = []
     for form, working, exact, slack in solved:
-        is_unique, is_smooth = unique_and_smooth(form, working, slack)
-        unique = unique and is_unique
-        smooth = smooth and is_smooth
-        inactive = [s for s in slack if not s.is_zero()]
-        slacks += rounded_quotients(inactive, exact.denominator).tolist()
-    right = {
+        unique, smooth = unique_and_smooth(form, working, slack)
+        inactive = rounded_quotients((s for s in slack if not s.is_zero()), exact.denominator)
+        least = min(inactive.tolist(), default=None) if smooth else 0.0
+        of_groups.append(Degeneracy(unique, smooth, least))
+    right = joined_degeneracy(of_groups)._asdict() | {
         "error_bound": 0.0,
         "gap": None,
-        "multipliers_unique": unique,
-        "differentiable": smooth,
-        "smallest_inactive_slack": min(slacks, default=None) if smooth else 0.0,
         "smallest_active_multiplier": min(lam_w.tolist(), default=None),
     }
     wrong = (wrong_claim(name, getattr(claims, name), value) for name, value in right.items())

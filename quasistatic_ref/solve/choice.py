@@ -3,11 +3,10 @@
 from collections.abc import Callable
 from typing import Any
 
-from quasistatic_ref.errors import BackendError, check_kind
+from quasistatic_ref.errors import check_kind
 from quasistatic_ref.parts.solve import fast_solver, function_solver, qpsolvers_solver
 from quasistatic_ref.solve.backends import DEFAULT, NONE, QPSOLVERS, check_backend, is_function
 from quasistatic_ref.solve.solver import NoSolver, Solver
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
 
@@ -35,9 +34,6 @@ def solver_for(
         If `fast` is wanted, and its folder is not there.
     """
     if callable(name) or (isinstance(name, str) and is_function(name)):
-        if not cone(step.cone).polyhedral:
-            problem = f"is a function, which takes linear rows only; not the {step.cone}"
-            raise BackendError(problem, field="backend", value=str(name))
         return function_solver(step, name)
     if fast:
         return fast_solver(step, name)

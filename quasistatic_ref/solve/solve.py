@@ -186,16 +186,8 @@ def answered(
 ) -> tuple[Reply | None, SolverStatistics]:
     """A backend's answer, its status and time; it may not call its answer a solution."""
 
-    def without(status: str, unanswered: bool = False) -> SolverStatistics:
-        return SolverStatistics(
-            solver.name,
-            status,
-            None,
-            None,
-            accuracy,
-            interface=solver.interface,
-            unanswered=unanswered,
-        )
+    def without(status: str) -> SolverStatistics:
+        return statistics_of(solver, Reply(None, None, False, status, accuracy=accuracy))
 
     if not scaled.step.m:
         return None, without(FREE)
@@ -204,7 +196,7 @@ def answered(
     try:
         reply = solver.answer(scaled, accuracy)
     except StepNotSolved as failure:
-        return None, without(f"failed: {failure.status}", unanswered=True)
+        return None, replace(without(f"failed: {failure.status}"), unanswered=True)
     if not reply.solved:
         return reply, without(f"failed: {reply.status}")
     return reply, statistics_of(solver, reply)

@@ -14,7 +14,8 @@ import numpy as np
 
 from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.degeneracy import form_degeneracy
-from quasistatic_ref.certify.optimum import exact_slack, form_optimum
+from quasistatic_ref.certify.optimum import form_optimum
+from quasistatic_ref.lab.study.problems.answers import exact_slack
 from tests.oracles.forms import exact_form_of
 from tests.oracles.rational_kkt import (
     exact,

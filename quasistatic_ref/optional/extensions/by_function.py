@@ -13,11 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.numbers.arrays import Array, Mask, with_warnings
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.solver import BackendSolver, Reply
 from quasistatic_ref.solve.units import ScaledStep
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
 Function = Callable[..., Any]
@@ -46,6 +47,9 @@ class FunctionSolver(BackendSolver):
 
     def __init__(self, template: StepData, function: Function | str) -> None:
         name = function if isinstance(function, str) else called(function)
+        if not cone(template.cone).polyhedral:
+            problem = f"is a function, which takes linear rows only; not the {template.cone}"
+            raise BackendError(problem, field="backend", value=str(function))
         super().__init__(template, name)
         self.wanted = function
         self.function = function_at(function) if isinstance(function, str) else function

@@ -5,11 +5,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.certify.failures import StepInfeasible
-from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.form import ExactForm, StepForm
 from quasistatic_ref.certify.groups import group_steps
-from quasistatic_ref.certify.optimum import exact_slack, optimum_by_groups
+from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.certify.optimum import optimum_by_groups
 from quasistatic_ref.lab.scenes.rigid import program_step
 from quasistatic_ref.lab.study.problems.problem import EXACT, Answer
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
 NONE = np.zeros(0)
@@ -39,3 +41,19 @@ def exact_answer(form: StandardForm, warm: Sequence[int] = ()) -> Answer:
     for group, part in parts:
         slack[group.rows] = exact_slack(StepForm(part), group.within(optimum.working_set))
     return Answer(EXACT, 0.0, optimum.delta_q, optimum.net, slack, optimum.lam, {})
+
+
+def exact_slack(form: ExactForm, working_set: Sequence[int]) -> Array:
+    """A x - b at the minimiser on a working set, each entry rounded correctly, shape (m,) [m].
+
+    Parameters
+    ----------
+    form : ExactForm
+    working_set : sequence of int
+        Independent rows.
+    """
+    minimiser = Minimiser(form, tuple(working_set))
+    inactive = minimiser.inactive
+    slack = np.zeros(form.m)
+    slack[inactive] = minimiser.rounded(lambda m: form.slacks(inactive.tolist(), m.z))
+    return slack
