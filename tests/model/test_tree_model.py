@@ -1,4 +1,4 @@
-"""URDF files: what is loaded is what was written, and anything else is refused in words."""
+"""Trees as pinocchio models: what is loaded is what was written, and inertias are looked at."""
 
 import numpy as np
 import pinocchio as pin
