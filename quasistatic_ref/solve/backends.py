@@ -157,7 +157,7 @@ def _piqp(accuracy: float) -> OptionSets:
 
 
 def at_accuracy(*names: str, **others: Any) -> Callable[[float], OptionSets]:
-    """One set of options: those in `names` are the accuracy, those in `others` are fixed."""
+    """A set of options: `names` are set to the accuracy, `others` are fixed."""
     return lambda accuracy: (dict.fromkeys(names, accuracy) | others,)
 
 

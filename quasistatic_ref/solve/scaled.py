@@ -161,7 +161,7 @@ class Scales(Reduction):  # type: ignore[misc]  # CVXPY has no types
 
 
 def unknown_form(solver: str) -> BackendError:
-    """The error that says that a solver's data or answers, by CVXPY's name of it, are not known."""
+    """The error for a solver whose data or answers CVXPY gives in an unknown form."""
     problem = "takes data of a form that is not known here; choose clarabel or osqp"
     return BackendError(problem, field="backend", value=solver.lower())
 

@@ -82,7 +82,7 @@ class Reply:
 
 
 def check_not_interrupted(status: str) -> None:
-    """KeyboardInterrupt if a solver says that Ctrl-C, which it took for itself, has ended it."""
+    """Raise KeyboardInterrupt if a solver's status says that Ctrl-C ended it."""
     if status.lower().startswith("interrupted"):
         raise KeyboardInterrupt
 

@@ -191,7 +191,7 @@ class ScaledStep:
 
     @cached_property
     def lengths(self) -> list[list[float]]:
-        """For each group the :func:`~quasistatic_ref.certify.norm.single_lengths`."""
+        """The `single_lengths` of each group."""
         return single_lengths(self.groups)
 
     @cached_property

@@ -90,7 +90,7 @@ def boundary_layer(run: Run) -> float:
 
 
 def gives(steps: Sequence[StepData]) -> Array:
-    """How far springs let contacts give way along their normals, shape (steps, n_c) [m/N].
+    """How much springs let contacts yield along their normals, shape (steps, n_c) [m/N].
 
     Parameters
     ----------

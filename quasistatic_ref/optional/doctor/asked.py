@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Asked:
-    """What is known of the steps of a run that were asked.
+    """The answers of the slow steps that were asked about a run's steps.
 
     Parameters
     ----------

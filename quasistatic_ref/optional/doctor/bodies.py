@@ -102,12 +102,12 @@ class Body:
     joints: tuple[Joint, ...]
 
     def amount(self, M: Array, r: Array) -> Array:
-        """Of generalised forces r, shape (..., n) [N, N m], with the inertia M, (n, n), in [N]."""
+        """The size in [N] of generalised forces r, shape (..., n), by the inertia M, (n, n)."""
         per = np.linalg.solve(M, r[..., None])[..., 0]
         return np.asarray(np.sqrt(self.mass * np.maximum(np.vecdot(r, per), 0.0)))
 
     def inertia(self, masses: Callable[[Indices], Array], n_a: int) -> Array:
-        """Its block (n, n) of the M_u that `masses` gives; n_a coordinates come before."""
+        """The body's block (n, n) of M_u, computed from `masses`."""
         return masses(self.coordinates - n_a)
 
     def missing(self, r: Array, M: Array) -> Missing:
@@ -136,7 +136,7 @@ class Body:
         return listed(joints)
 
     def moves(self, q: Array) -> tuple[float, float]:
-        """How far it gets from where q, (n, n_q), starts: [m] and [rad]."""
+        """How far the body gets from its start over the steps q, (n, n_q): [m] and [rad]."""
         far = [0.0, 0.0]
         for joint in self.joints:
             places = q[:, joint.q].tolist()

@@ -64,7 +64,7 @@ def has_own_terms(run: Run) -> str:
 
 
 def is_cut_short(run: Run) -> str:
-    """Why it is not asked whether a task was done."""
+    """Why a run does not show whether a task was done; empty if it does."""
     return "" if run.complete else "the run ended early"
 
 

@@ -107,7 +107,7 @@ class Chosen:
 
 
 def _covering(rows: list[Array]) -> list[int]:
-    """Few steps of which each row has one with much of its most, and the first and last of those.
+    """Few steps that cover the large entries of each row, and the first and last of these.
 
     One end of a fall may be in reach of what bears it.
     """

@@ -66,12 +66,12 @@ class Change(NamedTuple):
 
     @property
     def rank(self) -> tuple[float, float]:
-        """By it the largest is named: by share, and of equal shares by amount."""
+        """Sort key of a change: its share, then its amount."""
         return round(self.share, 2), max(abs(self.drag), abs(self.layer))
 
 
 def compared(run: Run, k: int) -> Iterator[Change | Undecided]:
-    """Of each pair that presses in step k, and before, what the model changes most."""
+    """For each pair that presses in step k, the largest change that the model makes."""
     slots = run.pair_of == np.arange(len(run.pairs))[:, None]
     before, now = ((slots & on).any(axis=1) for on in run.touches[[max(k - 1, 0), k]])
     stays = np.flatnonzero(before & now).tolist()
@@ -92,7 +92,7 @@ def compared(run: Run, k: int) -> Iterator[Change | Undecided]:
 
 
 def _changes(run: Run, k: int, part: Part, pairs: list[int]) -> Iterator[Change | Undecided]:
-    """The changes of some pairs of a group, unless something in it falls; QuasistaticError."""
+    """The changes of some pairs of a group; QuasistaticError if something in the group falls."""
     at = part.contacts
     before = run.touches[max(k - 1, 0)]
     slow = _landed(part.slow, (run.touches[k] & before & (k > 0))[at])
@@ -137,7 +137,7 @@ def _changes(run: Run, k: int, part: Part, pairs: list[int]) -> Iterator[Change 
 
 
 def _landed(slow: Slow, touches: Mask) -> Slow:
-    """A step from where its bodies have come down from their layers, by the shortest way.
+    """The slow step after its bodies have come down from their layers.
 
     Springs follow, and nothing rubs on the way: by Coulomb's law none rose. Else what comes down
     along something that it sticks to would be held by it.

@@ -107,7 +107,7 @@ def _volume(shape: Shape) -> float:
 
 
 def inertia(start: Start) -> Iterator[Finding]:
-    """Free links with an inertia that nothing of their mass and size has."""
+    """Findings on free links whose inertia no body of their mass and size can have."""
     for link, name, shapes in start.free_links:
         mass = float(start.system.masses[link])
         moment = start.system.inertias[link]
@@ -129,7 +129,7 @@ def inertia(start: Start) -> Iterator[Finding]:
 
 
 def centre(start: Start) -> Iterator[Finding]:
-    """Free links whose centre of mass is far outside of the hull of their shapes.
+    """Findings on free links whose centre of mass is far outside of the hull of their shapes.
 
     The body that stands on feet is above them, by their distance at most.
     """

@@ -130,7 +130,7 @@ def _cone_rows(step: StepData, touching: Mask) -> tuple[Array, Array]:
 
 @cache
 def _sphere() -> Array:
-    """(1, x), shape (R, 4), with points x on the unit sphere, and about it on its equator.
+    """Rows (1, x), shape (R, 4), for points x over the unit sphere and around its equator.
 
     Friction without torsion is right to 0.1 %, and with it to 1 %.
     """

@@ -28,7 +28,7 @@ COUNTS = 1e-3
 
 
 class Side(NamedTuple):
-    """A pair, as one of its links sees it.
+    """A pair of shapes as seen from one of its two links.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def flush(start: Start) -> Iterator[Finding]:
 
 
 def pushed_back(run: Run) -> Iterator[Finding]:
-    """After a run: the first pair of those that press most along the face on which a body lies."""
+    """After a run: the pair that pushes a body most along the face on which the body lies."""
     f_n = run["wrench"][:, :, 2]
     most = [(float(f_n[:, at].max(initial=0.0)), pair, at) for pair, at in slices(run.pairs)]
     for force, pair, at in sorted((x for x in most if x[0] > 0), key=lambda x: -x[0]):
@@ -104,7 +104,7 @@ def _finding(start: Start, ahead: Side, on: Side, how: str, numbers: dict[str, f
 def _sides(
     pairs: Iterable[tuple[ContactPair, slice]], points: ClosestPoints, counts: Mask
 ) -> Iterator[Side]:
-    """Of each pair with a contact that counts, what each of its links sees."""
+    """Both sides of each pair that has a contact which counts."""
     for pair, at in pairs:
         of = at.start + np.flatnonzero(counts[at])
         if not of.size:
@@ -117,7 +117,7 @@ def _sides(
 
 
 def _joined(ahead: Side, on: Side, kinematics: Kinematics) -> bool:
-    """Whether a body lies on a face that does not end at another shape, which pushes along it."""
+    """Whether the face under a body goes on to the shape that pushes along the face."""
     if ahead.link != on.link or ahead.other == on.other:
         return False
     if isinstance(ahead.other.shape, HalfSpace | PointCloud):

@@ -23,7 +23,7 @@ AGREES = 0.5
 
 
 def lost(run: Run) -> Iterator[Finding]:
-    """Bodies that slip or turn by much in all that grips them, whatever its tables.
+    """Findings on bodies that slip or turn by much in everything that grips them.
 
     The contacts of what is driven are asked alone: a grip is lost if they do not bear the body's
     loads, and what is missing is along the way by which the body slips.

@@ -122,7 +122,7 @@ def _between(n: Array, contacts: Indices) -> Iterator[tuple[tuple[Indices, ...],
 
 
 def _squeeze(J_n: Array, sides: tuple[Indices, ...], w: Array, clearance: Array) -> Array | None:
-    """Forces by which sides squeeze a body without moving it, that have the least sum w phi.
+    """Forces by which sides squeeze a body without moving it, of least sum w phi; or None.
 
     J_n, shape (n, n_v), holds rows of the contacts of all sides, one side after another. The forces
     of a side have the sum w of it [-]. None where they turn the body: then it is no guide.

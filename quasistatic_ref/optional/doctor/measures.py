@@ -73,7 +73,7 @@ class PairMeasures(Plain):
 
 @dataclass(frozen=True, eq=False)
 class Motion(Plain):
-    """How a body that nothing drives moved, or a joint of it.
+    """The motion of an undriven body, or of one of its joints.
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ def measures(trajectory: Trajectory, settings: Settings) -> Measures:
 
 
 def side(system: System, placed: PlacedShape) -> str:
-    """The link that a shape is fixed to, its body's name if they share it; or the world's shape."""
+    """The name of the link that carries a shape, or of its body, or of the world's shape."""
     link = system.links[placed.link]
     body, _, link_name = link.partition("/")
     if not placed.link:
@@ -230,7 +230,7 @@ def pair_measures(run: Trajectory, motion: Array | None = None) -> list[PairMeas
 
 
 def _motion_of_contacts(run: Trajectory) -> Array | None:
-    """J delta_q, shape (steps, n_c, 4) [m, m, m, rad], of a record that has it."""
+    """Motions J delta_q of contacts, shape (steps, n_c, 4) [m, m, m, rad], if recorded."""
     if "motion" in run.arrays:
         return run["motion"]
     if "J" not in run.arrays:
@@ -240,7 +240,7 @@ def _motion_of_contacts(run: Trajectory) -> Array | None:
 
 
 def touching(run: Trajectory, motion: Array | None) -> Mask:
-    """Which contacts touch, shape (steps, n_c): a row of theirs has no slack, which is unique.
+    """Mask of the contacts that touch, shape (steps, n_c): one of their rows has no slack.
 
     Of a motion J delta_q, shape (steps, n_c, 4) [m, m, m, rad]; without it those that press.
     """
@@ -283,7 +283,7 @@ def contact_slips(run: Trajectory, motion: Array) -> Array:
 
 
 def contact_mu(run: Trajectory) -> Array:
-    """(mu_v, mu_v, mu_omega) of contacts, which is 0 where it is not used, (n_c, 3) [-, -, m]."""
+    """Coefficients (mu_v, mu_v, mu_omega) of contacts, 0 where unused, (n_c, 3) [-, -, m]."""
     return friction_coefficients(run["mu_v"], run["mu_omega"], run["rows"])
 
 

@@ -52,7 +52,7 @@ def link_motion(system: System, trajectory: Trajectory, link: str) -> LinkMotion
 def relative_turn(
     system: System, trajectory: Trajectory, link: str, to: str, since: float = 0.0
 ) -> Array:
-    """How far a link has turned as another link sees it, such as an object in a hand.
+    """The rotation of a link relative to another link, such as of an object in a hand.
 
     Parameters
     ----------

@@ -68,7 +68,7 @@ class Doctor(Observer):
             return {}
 
     def end(self, recorder: Recording, trajectory: Trajectory, interrupted: bool) -> Trajectory:
-        """The trajectory with its findings: unless they are printed, they are looked for late."""
+        """The trajectory with its findings, which are computed late unless they are printed."""
         known = field_values(trajectory.header) | {
             "largest_boundary_layer": 0.0,
             "ignore": self.ignore,
@@ -112,7 +112,7 @@ def _momentum(system: System, results: Sequence[StepResult], delta_q: Array) -> 
 
 
 class LateHeader(Header):
-    """A header whose findings are looked for when they are first read, or copied.
+    """A header whose findings are computed when they are first read or copied.
 
     Attributes
     ----------

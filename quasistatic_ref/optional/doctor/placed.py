@@ -30,7 +30,7 @@ BEARING = 0.1
 
 
 def gravity(start: Start) -> Iterator[Finding]:
-    """A body that starts on the world where neither gravity presses nor friction holds it."""
+    """A body on the world that neither gravity presses down nor friction holds at the start."""
     for name, of_body in _contacts(start):
         near = [x for x in of_body if x[1] <= SUNK * least(x[0])]
         world = [x for x in near if "world" in start.bodies(x[0])]
@@ -54,7 +54,7 @@ def gravity(start: Start) -> Iterator[Finding]:
 
 
 def in_the_air(start: Start) -> Iterator[Finding | Undecided]:
-    """A body that touches nothing where it starts: how far it is above what is to bear it.
+    """A body that touches nothing at the start, and its height over what should bear it.
 
     Its height is the shortest move along gravity until a pair of it touches (``unsupported.fall``).
     """
@@ -92,7 +92,7 @@ def in_the_air(start: Start) -> Iterator[Finding | Undecided]:
 
 
 def penetration(start: Start) -> Iterator[Finding]:
-    """Of each table of contacts the deepest pair, where it is deep for its smaller shape."""
+    """The deepest pair of each contact table, if it is deep for its smaller shape."""
     deepest: dict[str, Finding] = {}
     if start.points is None:
         return
@@ -120,7 +120,7 @@ def penetration(start: Start) -> Iterator[Finding]:
 
 
 def inside(start: Start) -> Iterator[Finding]:
-    """What is driven and starts between the points or shapes of something free, touching none."""
+    """A driven shape that starts inside of something free without touching it."""
     if start.points is None:
         return
     touching = {
@@ -153,7 +153,7 @@ def inside(start: Start) -> Iterator[Finding]:
 
 
 def _clamped(start: Start, name: str) -> bool:
-    """Whether a body is touched from opposite sides: no direction of gravity would press it there.
+    """Whether opposite sides touch a body, so that no direction of gravity would press it there.
 
     Of some contacts that are near, sum w n = 0 with w >= 0.
     """
@@ -166,7 +166,7 @@ def _clamped(start: Start, name: str) -> bool:
 
 
 def _contacts(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float, float]]]]:
-    """Of each free body that weighs anything: its pairs, with their least gap [m] and upwards n."""
+    """The pairs of each free body with mass, their least gaps [m] and upward normals."""
     points = start.points
     if points is None or not start.g:
         return

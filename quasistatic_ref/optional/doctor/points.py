@@ -35,7 +35,7 @@ SHOWN = 3
 
 
 def few_points(start: Start) -> Iterator[Finding | Undecided]:
-    """Bodies whose centre is over the points of their faces, and not over the k that are kept."""
+    """Bodies whose centre lies over their faces' points, but not over the k kept points."""
     points = start.points
     if not start.g or points is None:
         return
@@ -73,7 +73,7 @@ def few_points(start: Start) -> Iterator[Finding | Undecided]:
 
 
 def _bearing(start: Start, pair: ContactPair, name: str, points: ClosestPoints) -> Array:
-    """Those of a pair's nearest points that are level and bear a body, shape (N, 3).
+    """The nearest points of a pair that are level and bear a body, shape (N, 3).
 
     None of a pair that is apart, as a body in a gripper is from the floor.
     """

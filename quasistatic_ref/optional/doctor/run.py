@@ -152,7 +152,7 @@ class Run(Start):
         return np.concatenate([ways[:1], ways]) if len(ways) else np.zeros(self.steps, dtype=bool)
 
     def inertia(self, body: Body) -> Array:
-        """The inertia of a body where it starts, shape (n, n) [kg, kg m, kg m^2]."""
+        """The inertia of a body at the start, shape (n, n) [kg, kg m, kg m^2]."""
         return body.inertia(self.masses, self.system.n_a)
 
     @cached_property
@@ -203,13 +203,13 @@ class Run(Start):
         return self.points_of(0)
 
     def points_of(self, k: int) -> ClosestPoints:
-        """The contacts that step k has recorded, but for their ties."""
+        """The recorded contacts of step k, without the record's ties."""
         fields = {name: self[name][k] for name in POINTS}
         return ClosestPoints(**fields, tie=np.zeros_like(fields["point"]))
 
     @property
     def searched(self) -> bool:
-        """Whether a step of it may be solved once more, as a convex step without an extension."""
+        """Whether steps of the run can be solved again, as convex steps without extension."""
         convex = self.simulator.law == CONVEX
         return self.small and convex and self.simulator.extension is None
 
@@ -229,7 +229,7 @@ class Run(Start):
         return self["d1"][k, contacts], self["d2"][k, contacts]
 
     def solved(self, step: StepData) -> StepSolution | None:
-        """A step, unproved; None where it is not solved."""
+        """The solution of a step, unproved; None if no backend has an answer."""
         try:
             return solve_step(step, fast=self.simulator.fast, certify="off")
         except QuasistaticError:
@@ -252,12 +252,12 @@ class RunStep:
 
     @property
     def contacts(self) -> Contacts:
-        """Its contacts."""
+        """The contacts of the step."""
         return self.step.contacts
 
     @cached_property
     def step(self) -> StepData:
-        """Its problem, up to rounding."""
+        """The problem of the step, up to rounding."""
         run = self.run
         k = self.k
         load = run.noted("tau")[k]
@@ -265,7 +265,7 @@ class RunStep:
 
     @cached_property
     def compliant(self) -> ContactForces | None:
-        """The forces of single contacts in a polyhedral cone, where they are rational.
+        """The step's contact forces by compliance; None where they are not rational.
 
         None if the run is not `searched`, or there is no optional/forces.
         """

@@ -165,7 +165,7 @@ class Slow:
         return delta_q, forces
 
     def _longest(self, delta_q: Array) -> float:
-        """The longest motion of a contact if no two parts of it cancel [m]."""
+        """The sum of the sizes of a contact's motions, at the largest contact [m]."""
         return float((self._reach @ np.abs(delta_q)).sum(axis=1).max(initial=0.0))
 
     def rung(self, T: float, start: Array, most: int = MOST) -> Rung | None:

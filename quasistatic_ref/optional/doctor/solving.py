@@ -104,7 +104,7 @@ def proofs(trajectory: Trajectory) -> Iterator[Finding]:
 
 
 def unborne(run: Run) -> Iterator[Finding]:
-    """What forces leave, and what rounding decides of them, where contacts press most.
+    """What compliant forces leave of the loads, and how much rounding changes them.
 
     What a last bit of the places of contacts may change in forces is that of the same step: next to
     a load that is rounding, any change is large.
@@ -143,7 +143,7 @@ def unborne(run: Run) -> Iterator[Finding]:
 
 
 def _noise(at: RunStep, compliant: ContactForces, bits: Array) -> float:
-    """By how much forces change if each gap is off by a drawn part of a bit, over the largest.
+    """How much forces change if each gap changes by part of a bit, relative to the largest.
 
     Of each group of contacts that share coordinates, the most [-].
     """

@@ -82,7 +82,7 @@ class Start:
 
     @cached_property
     def _M_u(self) -> Array:
-        """M_u at the start [kg, kg m, kg m^2]: (n_u, n_u), or its blocks where it is constant."""
+        """M_u at the start, (n_u, n_u), or its blocks if it is constant [kg, kg m, kg m^2]."""
         system = self.system
         return system.mass_blocks if system.constant_mass_matrix else system.M_u(self.q_start)
 
@@ -134,7 +134,7 @@ class Start:
 
     @cached_property
     def free(self) -> Mask:
-        """Which links move, and nothing actuated moves them, shape (L,)."""
+        """Mask of the links that move and that nothing actuates, shape (L,)."""
         return np.asarray(self.moves[:, self.system.n_a :].any(axis=1) & ~self.driven)
 
     @cached_property
@@ -166,7 +166,7 @@ class Start:
 
     @cached_property
     def free_bases(self) -> dict[str, Joint]:
-        """The floating bases that nothing actuates, by their bodies."""
+        """The floating bases that nothing actuates, by the names of their bodies."""
         bases = [j for j in self.system.joints if j.free and not j.actuated]
         return {base.name.removesuffix("/base"): base for base in bases}
 
@@ -182,7 +182,7 @@ class Start:
         return np.array([least(pair) for pair in self.pairs])[self.pair_of]
 
     def touching(self, phi: Array) -> Mask:
-        """Which contacts touch, as phi, (n_c,) [m]: below 1e-6 of the smaller shape it is none."""
+        """Mask of the contacts with a gap below 1e-6 of the smaller shape, from phi (n_c,) [m]."""
         return np.asarray(phi <= SHORT * self.sizes)
 
     def bodies(self, pair: ContactPair) -> set[str]:
@@ -219,7 +219,7 @@ class Start:
 
     @property
     def sides(self) -> list[PlacedShape]:
-        """Both shapes of each pair."""
+        """The two shapes of each pair."""
         return [side for pair in self.pairs for side in (pair.alpha, pair.beta)]
 
     @property

@@ -52,7 +52,7 @@ def out_of_balance(run: Run) -> Iterator[Finding | Undecided]:
 
 
 def corners(run: Run) -> Iterator[Finding | Undecided]:
-    """Bodies that the ellipsoid holds; else the one that lacks most otherwise in it."""
+    """Bodies that an ellipsoid would hold, or the body that lacks most without corners."""
     asked = run.asked
     yield from undecided("corners", asked.unknown_round)
     here = run.simulator.cone

@@ -24,7 +24,7 @@ moves [-], or turn [rad], from which on it counts as a leap."""
 
 
 def leaps(run: Run) -> Iterator[Finding]:
-    """The first step that moves a body of a pair by much of its size, or turns it by much.
+    """The first step that moves or turns a body by a large part of its size.
 
     A joint that does not start where its first waypoint is gets there in one step.
     How far a body moves that is not in equilibrium says nothing: it has a finding of its own.
@@ -76,7 +76,7 @@ def leaps(run: Run) -> Iterator[Finding]:
 
 
 def sunk(run: Run) -> Iterator[Finding]:
-    """Of each table of contacts the first that is found."""
+    """The first deep overlap of each contact table."""
     first: dict[str, Finding] = {}
     for pair, slots in slices(run.pairs):
         finding = _surprise(run, pair, slots)

@@ -202,7 +202,7 @@ def missing(
     cone: str | None = None,
     contacts: Mask | bool = True,
 ) -> dict[Body, Missing | str]:
-    """What some bodies lack if targets and loads stop after step k; where it is not known, why.
+    """What bodies lack if targets and loads stop after step k, or why that is not known.
 
     Parameters
     ----------
@@ -261,7 +261,7 @@ def missing(
 
 
 def _rungs(part: Part, members: list[Member], straight: float) -> list[Rung]:
-    """The last answer of a group that is held, else all of its climb; none if it is too large."""
+    """The slow steps of a group: the last one if it is held, else its whole climb."""
     slow = part.slow
     rungs: list[Rung] = []
     with suppress(QuasistaticError):  # no solution, or no float64

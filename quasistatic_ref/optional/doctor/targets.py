@@ -65,7 +65,7 @@ def joints_beyond(run: Run) -> Iterator[Finding]:
 
 
 def beyond_effort(run: Run) -> Iterator[Finding]:
-    """Joints whose springs push with more than their motors can."""
+    """Joints whose springs push harder than their motors can."""
     replaced = run.extension is not None and run.extension.without_stiffness
     K = stiffness(np.zeros((0, 0)) if replaced else run.simulator.K_q)
     for joint in run.system.joints:
@@ -98,7 +98,7 @@ def beyond_effort(run: Run) -> Iterator[Finding]:
 
 
 def _bears(run: Run, joint: Joint, k: int) -> float:
-    """What the spring of a joint pushes with, slowly, if it is a tenth as stiff [N, N m].
+    """The slow force of a joint's spring made ten times softer [N, N m].
 
     What it presses on is then pressed with a tenth, and what it carries is as heavy. 0 where the
     step is not solved.
@@ -118,7 +118,7 @@ def _bears(run: Run, joint: Joint, k: int) -> float:
 
 
 def _beyond(run: Run, name: str) -> Iterator[tuple[Joint, str, float, float, int]]:
-    """Of joints beyond limits at which nothing stops them: unit, position, limit and step.
+    """Joints beyond limits that nothing enforces: unit, position, limit and step.
 
     They are those of q, or of q_bar_a, that are farthest beyond. Springs give way: a joint may be
     beyond by little.

@@ -47,13 +47,13 @@ MOST = 300
 
 
 def finished(run: Run) -> bool:
-    """Whether there are waypoints, and the run goes on to the last of them."""
+    """Whether the run reaches the last of its waypoints."""
     times = [float(track.times[-1]) for track in run.tracks]
     return bool(times) and max(times) <= (run.steps + 0.5) * run.h
 
 
 def acting(run: Run) -> dict[str, list[int]]:
-    """The pairs by which something driven acts on something free, by their tables."""
+    """The pairs by which a driven body acts on a free one, by contact table."""
     by_table: dict[str, list[int]] = {}
     for i, pair in enumerate(run.pairs):
         links = [pair.alpha.link, pair.beta.link]
@@ -98,7 +98,7 @@ def late(run: Run) -> Iterator[Finding]:
 
 
 def still(run: Run) -> Iterator[Finding]:
-    """Actuated joints that are to act on something, never reach it, and have nowhere to go.
+    """Actuated joints that never reach what they are paired with, and have no target to go to.
 
     A scene of MuJoCo holds no targets, and may be run without any, to see how it stands.
     """
@@ -183,7 +183,7 @@ def _depths(run: Run, k: int, pairs: list[ContactPair], radii: dict[str, float])
 
 
 def _radius(shape: Shape | PointCloud) -> float:
-    """Of a ball about its origin that has all of it [m]."""
+    """Radius of the smallest ball about the shape's origin that contains the shape [m]."""
     if isinstance(shape, PointCloud):
         return float(np.linalg.norm(shape.points, axis=1).max())
     if not np.isfinite(shape.extent):
@@ -249,7 +249,7 @@ def idle(run: Run) -> Iterator[Finding]:
 
 
 def _astray(run: Run, pairs: list[int], others: list[int]) -> tuple[Joint, float] | None:
-    """The joint that leads a finger away from what it is to touch, and how far [m]; or None.
+    """The joint that leads a finger away from its object, and how far [m]; or None.
 
     Joints that move the fingers of `others` as well are those of an arm.
     """
@@ -278,7 +278,7 @@ def _astray(run: Run, pairs: list[int], others: list[int]) -> tuple[Joint, float
 
 
 def short(run: Run) -> Iterator[Finding]:
-    """Joints, and bases on springs, that end far from their targets and not for what they press on.
+    """Joints and sprung bases that end far from their targets, though nothing stops them.
 
     What a base carries, which has come along by half of its way, does not stop it.
     """
@@ -341,13 +341,13 @@ def _stopping(run: Run, base: Joint, along: Array, way: float, pushes: Array) ->
 
 
 def _at_a_stop(run: Run, joint: Joint) -> bool:
-    """Whether a joint ends at a limit that bears it, or at another row of an extension."""
+    """Whether a joint ends at a limit, or at another row of an extension, that bears it."""
     A = run.rows.A
     return bool(len(A) and A[run["lam_extra"][-1, : len(A)] > 0, joint.v.start].any())
 
 
 def _stalled(run: Run, contact: int, error: float, unit: str) -> bool:
-    """Whether what a contact pushes has not moved, though the target is far inside of it."""
+    """Whether a pushed body stays in place although the target lies far inside of it."""
     i = int(run.pair_of[contact])
     pair = run.pairs[i]
     table = acting(run).get(run.pair_measures[i].table)

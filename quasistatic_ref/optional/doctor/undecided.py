@@ -24,7 +24,7 @@ class Undecided(NamedTuple):
 
 
 def undecided(what: str, reasons: Mapping[str, str]) -> Iterator[Undecided]:
-    """Of each reason the names that it is of, as ``equilibrium of a and b``.
+    """The names to which each reason applies, as in ``equilibrium of a and b``.
 
     Parameters
     ----------

@@ -57,7 +57,7 @@ def alone(start: Start) -> set[str]:
 
 
 def unsupported(start: Start) -> Iterator[Finding]:
-    """Bodies that are joined to nothing, if they weigh anything."""
+    """Free bodies with mass that no contact pair can bear."""
     joint = "pair of geoms" if start.system.of_mjcf else "table"
     for name in sorted(alone(start)) if start.g else ():
         if not sinks(start, name):
@@ -75,7 +75,7 @@ def unsupported(start: Start) -> Iterator[Finding]:
 
 
 def falling(run: Run) -> Iterator[Finding]:
-    """Free bodies that nothing bears in the last step, and that move down in it."""
+    """Free bodies that move down in the last step while nothing bears them."""
     most = run.h**2 * run.g
     for name, fall in falls(run).items():
         yield Finding(
@@ -107,7 +107,7 @@ class Fall(NamedTuple):
 
 
 def falls(run: Run) -> dict[str, Fall]:
-    """Free bodies, by name, that nothing bears or holds in the last step, and that move down in it.
+    """The falls in the last step, by names of free bodies that nothing bears or holds.
 
     A force below 1e-3 of a body's weight does not bear it, but a soft spring under it does slowly.
     """
@@ -133,7 +133,7 @@ def falls(run: Run) -> dict[str, Fall]:
 
 
 def _yields(run: Run, name: str) -> bool:
-    """Whether what touches a body in the last step bears it slowly, as a soft spring does."""
+    """Whether what touches a body in the last step yields slowly, as a soft spring does."""
     if run.own_terms:
         return False
     k = run.steps - 1
@@ -155,7 +155,7 @@ def _remedy(of_body: Mask, run: Run, first: int) -> str:
 
 
 def fall(start: Start, pair: ContactPair, name: str) -> float:
-    """How far a body falls along gravity until a pair touches; infinity if it falls past [m].
+    """How far a body falls along gravity until a pair touches [m]; infinity if none does.
 
     Of convex bodies the gap along their normal shrinks by as much as they come nearer along it, and
     they do not touch before it is closed: they are moved by that, and have a new normal, until they
@@ -187,7 +187,7 @@ def fall(start: Start, pair: ContactPair, name: str) -> float:
 
 
 def held(start: Start, loose: Collection[str]) -> set[str]:
-    """Those of some free bodies that rows of an extension hold, as welds and taut tendons do.
+    """The free bodies among `loose` that rows of an extension hold, such as taut tendons.
 
     A body is held if it cannot sink by NEAR: not even while other bodies that are `loose`, and
     links on sliding joints without an actuator, are shifted along with it. Then a chain of rows
