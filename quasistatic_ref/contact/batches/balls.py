@@ -58,8 +58,10 @@ class Balls(Batch):
             and in the world [m].
         """
 
-    def of_poses(self, alpha: Pose, beta: Pose, places: Array) -> tuple[Mask, ClosestPoints]:
-        """The contacts at the n_c points that rank first, of `places` (P,) [m]."""
+    def of_poses(
+        self, alpha: Pose, beta: Pose, seen: Array, places: Array
+    ) -> tuple[Mask, ClosestPoints]:
+        """The contacts at the n_c points that rank first; `seen` and `places` are (P,) [m]."""
         solid, other = (alpha, beta)[:: self._turn]
         back = solid[0].mT
         x = rotated(product(back, other[0])[:, None], self._points)
@@ -70,7 +72,7 @@ class Balls(Batch):
         first = np.arange(len(order))[:, None], order
         surface = phi[first], normal[first], np.full(order.shape, UNIQUE_NORMAL)
         points = contacts_over(solid, other, self._points[first], self._radius, surface, order)
-        known = self.known(points.phi[:, 0], self.places(alpha, beta), places)
+        known = self.known(points.phi[:, 0], seen, places)
         return known, points if self._turn > 0 else points.swapped()
 
 

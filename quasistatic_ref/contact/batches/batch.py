@@ -44,11 +44,11 @@ class Batch(ABC):
         places = self.places(alpha, beta)
         far = ~(places < FAR * self.size)[:, None]
         if not far.any():
-            return self.of_poses(alpha, beta, places)
+            return self.of_poses(alpha, beta, places, places)
         origin, of_alpha, of_beta = self.from_near(alpha, beta)
         alpha = alpha[0], np.where(far, of_alpha, alpha[1])
         beta = beta[0], np.where(far, of_beta, beta[1])
-        known, points = self.of_poses(alpha, beta, places)
+        known, points = self.of_poses(alpha, beta, self.places(alpha, beta), places)
         far = far[:, None]
         origin = origin[:, None]
         return known, points._replace(
@@ -57,8 +57,10 @@ class Batch(ABC):
         )
 
     @abstractmethod
-    def of_poses(self, alpha: Pose, beta: Pose, places: Array) -> tuple[Mask, ClosestPoints]:
-        """Ranked contacts at poses of both shapes, whose :meth:`places` in the world are (P,) [m].
+    def of_poses(
+        self, alpha: Pose, beta: Pose, seen: Array, places: Array
+    ) -> tuple[Mask, ClosestPoints]:
+        """Ranked contacts at poses of both; :meth:`places` as `seen` and in the world, (P,) [m].
 
         Returns
         -------
@@ -68,8 +70,7 @@ class Batch(ABC):
 
     def places(self, alpha: Pose, beta: Pose) -> Array:
         """Largest coordinates of both places of the pairs at poses of both, shape (P,) [m]."""
-        one, other = (np.abs(t).max(axis=1) for _, t in (alpha, beta))
-        return np.asarray(np.maximum(one, other))
+        return np.asarray(np.maximum(np.abs(alpha[1]), np.abs(beta[1])).max(axis=1))
 
     def from_near(self, alpha: Pose, beta: Pose) -> tuple[Array, Array, Array]:
         """A point of each pair at poses of both, and both places seen from there, (P, 3) [m]."""

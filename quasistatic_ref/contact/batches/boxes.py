@@ -48,8 +48,10 @@ class Boxes(Batch):
         self._of_corners = [BoxOfEach.unchecked(half_extents=half) for half in each]
         self._corners = pairs[0].corners
 
-    def of_poses(self, alpha: Pose, beta: Pose, places: Array) -> tuple[Mask, ClosestPoints]:
-        """The candidates that rank first, of `places` (P,) [m].
+    def of_poses(
+        self, alpha: Pose, beta: Pose, seen: Array, places: Array
+    ) -> tuple[Mask, ClosestPoints]:
+        """The candidates that rank first; `seen` and `places` are (P,) [m].
 
         A pair is known where it has one normal, and where a candidate is at the place of the
         closest pair or none is as near: whether others span it is then plain.

@@ -26,8 +26,13 @@ MANY: Final = 20_000
 ROUNDED: Final = 4e-16 / ON_SURFACE
 """How far the direction of the common normal of two edges is off that are nearly parallel [-]."""
 FAR: Final = 10.0
-"""Sizes [-] beyond which bodies count as that far: there normals only choose among points that are
-as near."""
+"""Sizes [-] beyond which bodies count as that far.
+
+There a normal that is off counts only where it leads from one of the nearest points to the other,
+within OUTSIDE_FACE of the distance D: else their difference takes its place. Edges with that normal
+n and a computed gap of D have a difference d of tails with n'd = D, and |d - D n| is at most the
+bodies' sizes. With a normal that is off by r = ROUNDED the gap is off by r |d - D n| + r^2 D / 2,
+which is less than r (1 + FAR) sizes up to 4e4 sizes: such edges are not left out."""
 POINTS: Final = 40
 """Most points of a body that bound the gaps of the other's faces."""
 

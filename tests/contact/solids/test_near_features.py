@@ -84,6 +84,32 @@ def test_random_pairs_have_the_bits_of_a_search_of_all(monkeypatch, count):
     assert fewer > seed / 3
 
 
+def nearly_parallel(seed):
+    """Two meshes 10 to 1e4 sizes apart, each edge of one nearly along an edge of the other."""
+    rng = np.random.default_rng([7, seed])
+    one = random_mesh(rng)
+    size = one.extent
+    other = random_mesh(rng) if rng.random() < 0.5 else one
+    other = convex_hull(other.vertices * (size / other.extent) * rng.choice([0.5, 1.0, 1.3]))
+    R_a = np.eye(3) if rng.random() < 0.5 else Rotation.random(rng=rng).as_matrix()
+    axis = np.eye(3)[rng.integers(3)] if rng.random() < 0.6 else rng.normal(size=3)
+    R_b = R_a @ Rotation.from_rotvec(axis * 10.0 ** rng.uniform(-16, -5)).as_matrix()
+    ways = np.concatenate([np.eye(3), rng.choice(one.normals, 1), rng.normal(size=(1, 3))])
+    n = R_a @ ways[rng.integers(len(ways))]
+    aside = rng.choice([0.0, 0.3, 1.0]) * np.cross(n, rng.normal(size=3))
+    t = size * (10.0 ** rng.uniform(1, 4) * n / np.linalg.norm(n) + aside)
+    return in_world(one, np.zeros(3), R_a), in_world(other, t, R_b)
+
+
+def test_edges_that_are_nearly_parallel_and_far_apart_are_not_missed(monkeypatch, count):
+    for seed in range(count):
+        a, b = nearly_parallel(seed)
+        monkeypatch.setattr(polytope_pair, "are_fine", lambda *_: False)
+        whole = found(a, b)
+        monkeypatch.setattr(polytope_pair, "are_fine", lambda *_: True)
+        assert found(a, b) == whole, seed
+
+
 def test_a_fine_pair_is_looked_at_near_its_contact_alone(monkeypatch):
     rng = np.random.default_rng(0)
     points = rng.normal(size=(500, 3))
