@@ -19,12 +19,6 @@ extrapolated from: they are right to 1e-16 of s, and what is left of smaller one
 MEMORY: Final = 6
 """Iterates that are extrapolated from: s then has five directions in which it converges slowly."""
 
-LEAP: Final = 4.0
-"""Iterates [-] that are passed over where s creeps: each time as many times more."""
-
-SAME: Final = 1e-3
-"""Change of a residual [-] that is none."""
-
 T = TypeVar("T")
 
 
@@ -50,9 +44,7 @@ class Iterate(NamedTuple, Generic[T]):
     of: T
 
 
-def fixed_point(
-    at: Callable[[Array], Iterate[T]], s: Array, most: int, leaps: bool = False
-) -> tuple[Iterate[T], int]:
+def fixed_point(at: Callable[[Array], Iterate[T]], s: Array, most: int) -> tuple[Iterate[T], int]:
     """The fixed point that `s` leads to, or the last of `most` iterates; and how many they were.
 
     An extrapolated iterate counts only if its residual is a hundredth of that of the last one.
@@ -66,27 +58,19 @@ def fixed_point(
     s : ndarray, shape (n,)
         Where to start [any unit].
     most : int
-    leaps : bool
-        Whether s leaps ahead where residuals do not change, since it creeps.
     """
     last = at(s)
     count = 1
     kept = [last]
-    leap = LEAP
     while not last.converged and count < most:
-        off = last.image - last.s
-        change = off - (kept[-2].image - kept[-2].s) if len(kept) > 1 else off
-        creeps = leaps and bool(np.abs(change).max(initial=0.0) <= SAME * last.residual)
-        ahead = last.image + leap * off if creeps else extrapolated(kept)
+        ahead = extrapolated(kept)
         tried = None if ahead is None else at(np.maximum(ahead, 0.0))
         count += tried is not None
-        if tried is not None and tried.residual <= (1 + SAME if creeps else GAIN) * last.residual:
+        if tried is not None and tried.residual <= GAIN * last.residual:
             last = tried
-            leap *= LEAP if creeps else 1.0
         elif count < most:
             last = at(last.image)
             count += 1
-            leap = LEAP
         kept = [*kept[1 - MEMORY :], last]
     return last, count
 

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from quasistatic_ref.optional.doctor.chosen import Chosen
 from quasistatic_ref.optional.doctor.compared import Change, compared
-from quasistatic_ref.optional.doctor.stopped import SAME, missing
+from quasistatic_ref.optional.doctor.slow import SAME
+from quasistatic_ref.optional.doctor.stopped import missing
 from quasistatic_ref.optional.doctor.undecided import Undecided
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 

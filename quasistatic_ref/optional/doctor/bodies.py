@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
@@ -24,6 +25,10 @@ COUNTS = 0.1
 NOTHING = 1e-4
 """Part of the first kinetic energy [-] that is none: a torque of a hundredth of the force times the
 radius of gyration, which is how right r is."""
+
+
+REACTION = 1e-3
+"""Part of the first power of a body that a joint has which stays [-]."""
 
 
 class Missing(NamedTuple):
@@ -110,21 +115,35 @@ class Body:
         """The body's block (n, n) of M_u, computed from `masses`."""
         return masses(self.coordinates - n_a)
 
-    def missing(self, r: Array, M: Array) -> Missing:
-        """The missing force of the body, from residual forces r [N, N m] and inertia M (n, n)."""
+    def missing(self, starts: Array, M: Array) -> Missing:
+        """What is missing where a body would start to move: M starts.
+
+        A joint that stays needs none: what it has of it is a reaction.
+
+        Parameters
+        ----------
+        starts : ndarray, shape (n,)
+            Its acceleration, turned round [m/s^2, rad/s^2].
+        M : ndarray, shape (n, n)
+            Its inertia [kg, kg m, kg m^2].
+        """
+        r = M @ starts
+        power = np.abs(r * starts)
+        if not self.free and (power <= REACTION * power.sum()).any():
+            r = np.where(power > REACTION * power.sum(), r, 0.0)
+            starts = np.asarray(np.linalg.solve(M, r), dtype=np.float64)
         force, torque = r[self.lengths], r[~self.lengths]
-        start = np.linalg.solve(M, r)
-        slides, turns = start[self.lengths], start[~self.lengths]
+        slides, turns = starts[self.lengths], starts[~self.lengths]
         if self.free:
             S = M[3:6, :3] / M[0, 0]  # [c]x, of the centre of mass
             torque = torque - S @ force
             slides = force / M[0, 0]
-        whole = float(r @ start) or 1.0
-        turning = float(torque @ turns) / whole
+        whole = float(r @ starts)
+        turning = float(torque @ turns) / (whole or 1.0)
         forces = np.linalg.norm([force, slides], axis=1) * (abs(1 - turning) > NOTHING)
         torques = np.linalg.norm([torque, turns], axis=1) * (abs(turning) > NOTHING)
         (force, slides), (torque, turns) = forces.tolist(), torques.tolist()
-        amount = float(self.amount(M, r))
+        amount = math.sqrt(self.mass * max(whole, 0.0))
         return Missing(amount, force, torque, slides, turns, r, turning)
 
     def named(self, lack: Missing) -> str:

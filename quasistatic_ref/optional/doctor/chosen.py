@@ -9,8 +9,8 @@ import numpy as np
 from quasistatic_ref.optional.doctor.artifacts import quotient, ways_of
 from quasistatic_ref.optional.doctor.bodies import COUNTS
 from quasistatic_ref.optional.doctor.compared import SLID
+from quasistatic_ref.optional.doctor.slow import LITTLE
 from quasistatic_ref.optional.doctor.start import least
-from quasistatic_ref.optional.doctor.stopped import LITTLE
 from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.simulate.law import CONVEX
 
@@ -93,6 +93,8 @@ class Chosen:
         force = run.largest(of)
         touches = np.asarray(run.touches[:, of].any(axis=1))
         stays = touches & np.append(run.steps == 1, touches[:-1]) & run.targets_move
+        if not stays.any():
+            return []
         drag = np.zeros(run.steps)
         for body in run.near[pair.name]:
             turns = quotient(LEVER * body.size, pair.mu_omega) if pair.rows == 6 else 0.0

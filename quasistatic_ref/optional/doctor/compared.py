@@ -6,7 +6,7 @@ law no boundary layer either: drag = run - convex(T), layer = convex(T) - Coulom
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -14,16 +14,14 @@ import numpy as np
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor.artifacts import quotient
 from quasistatic_ref.optional.doctor.bodies import COUNTS
-from quasistatic_ref.optional.doctor.slow import Slow
+from quasistatic_ref.optional.doctor.scenes import Scene
 from quasistatic_ref.optional.doctor.start import least
-from quasistatic_ref.optional.doctor.stopped import Part, Scene
 from quasistatic_ref.optional.doctor.undecided import NO_ANSWER, TOO_MANY, Undecided, failure
-from quasistatic_ref.step.standard_form import frame_jacobian
 
 if TYPE_CHECKING:
     from quasistatic_ref.numbers.arrays import Array, Indices, Mask
     from quasistatic_ref.optional.doctor.run import Run
-    from quasistatic_ref.step.contacts import Contacts
+    from quasistatic_ref.optional.doctor.slow import Alike, Slow
 
 SLID = 0.01
 """Slip over the smaller shape, or spin [rad], of a pair in a run, from which it counts [-]."""
@@ -74,46 +72,69 @@ def compared(run: Run, k: int) -> Iterator[Change | Undecided]:
     """For each pair that presses in step k, the largest change that the model makes."""
     slots = run.pair_of == np.arange(len(run.pairs))[:, None]
     before, now = ((slots & on).any(axis=1) for on in run.touches[[max(k - 1, 0), k]])
-    stays = np.flatnonzero(before & now).tolist()
+    stays = before & now
     try:
-        parts = [*Scene(run, k, run["q"][k], run["phi"][k], run.points_of(k)).parts()]
+        scene = Scene(run, k, run["q"][k], run["phi"][k], run.points_of(k))
     except QuasistaticError as error:
-        yield from (Undecided(run.pairs[i].name, failure(error)) for i in stays)
+        names = (run.pairs[i].name for i in np.flatnonzero(stays))
+        yield from (Undecided(name, failure(error)) for name in names)
         return
-    for part in parts:
-        pairs = np.intersect1d(stays, run.pair_of[part.contacts]).tolist()
-        why = TOO_MANY if part.large else ""
-        try:
-            if pairs and not why:
-                yield from _changes(run, k, part, pairs)
-        except QuasistaticError as error:
-            why = failure(error)
-        yield from (Undecided(run.pairs[i].name, why) for i in pairs if why)
+    for slow in scene.parts:
+        contacts = slow.groups.contacts
+        of = np.flatnonzero(stays[run.pair_of[contacts]].any(axis=1))
+        if slow.large:
+            yield from _undecided(run, stays, contacts[of], TOO_MANY)
+        elif of.size:
+            on = run.touches[k, contacts] & run.touches[max(k - 1, 0), contacts] & (k > 0)
+            yield from _changes(run, k, slow.landed(run.h, on), of, stays)
 
 
-def _changes(run: Run, k: int, part: Part, pairs: list[int]) -> Iterator[Change | Undecided]:
-    """The changes of some pairs of a group; QuasistaticError if something in the group falls."""
-    at = part.contacts
-    before = run.touches[max(k - 1, 0)]
-    slow = _landed(part.slow, (run.touches[k] & before & (k > 0))[at])
-    rungs = [slow.last] if slow.last else slow.climbed
-    last = rungs[-1] if rungs else None
-    if last and np.abs(last.delta_q[slow.step.n_a :]).max(initial=0.0) > FALLS * last.T**2:
-        return
-    if last is None or slow.end > last.T:
-        yield from (Undecided(run.pairs[i].name, NO_ANSWER) for i in pairs)
-        return
-    contacts = slow.step.contacts
-    delta_q, forces = slow.convex(slow.end, slow.level)
-    motion = contacts.motion(last.delta_q)
-    laws = (
-        (run.at(k).forces[at], run.noted("moved")[k, at]),
-        (forces, contacts.motion(delta_q)),
-        (last.forces, motion),
-    )
-    inner = inner_loads(contacts, last.forces, motion)
-    for i in pairs:
+def _undecided(run: Run, stays: Mask, contacts: Indices, why: str) -> Iterator[Undecided]:
+    """The pairs of some contacts that stay, which are not compared."""
+    for i in np.unique(run.pair_of[contacts]).tolist():
+        if stays[i]:
+            yield Undecided(run.pairs[i].name, why)
+
+
+def _changes(
+    run: Run, k: int, slow: Slow, of: Indices, stays: Mask
+) -> Iterator[Change | Undecided]:
+    """The changes of pairs that stay in some groups, unless something in their group falls."""
+    last = slow.last(of)
+    up = np.flatnonzero(~last.found)
+    if up.size:
+        last.put(up, slow.climb(of[up], last.some(up)).last)
+    motion = np.abs(last.delta_q[:, slow.groups.n_a :]).max(axis=1, initial=0.0)
+    stands = ~last.found | (motion <= FALLS * last.T**2)
+    delta_q, forces, solved = slow.convex(of)
+    known = last.found & solved & (slow.end <= last.T)
+    yield from _undecided(run, stays, slow.groups.contacts[of[stands & ~known]], NO_ANSWER)
+    for j in np.flatnonzero(stands & known).tolist():
+        group = slow.groups.some(of[j : j + 1])
+        laws = [(x[j], group.motion(q[j : j + 1])[0]) for x, q in ((forces, delta_q), last[3:1:-1])]
+        yield from _of_group(run, k, group, laws, stays)
+
+
+def _of_group(
+    run: Run, k: int, group: Alike, laws: Sequence[tuple[Array, Array]], stays: Mask
+) -> Iterator[Change]:
+    """The changes of the pairs of a group that stay.
+
+    Parameters
+    ----------
+    laws : sequence of (ndarray, ndarray)
+        Forces and J delta_q of its contacts, (n_c, 4) each [N, N m] and [m, rad], along d1, d2 and
+        n, and about n: by the convex step, slowly, and by Coulomb's law.
+    """
+    at = group.contacts[0]
+    moved = run.noted("moved")[k, at]
+    along = [np.vecdot(moved[:, :3], run[axis][k, at]) for axis in ("d1", "d2", "n")]
+    laws = [(run.at(k).forces[at], np.stack([*along, moved[:, 3]], axis=1)), *laws]
+    inner = inner_loads(group.frames[0], group.mu[0], *laws[2])
+    for i in np.unique(run.pair_of[at]).tolist():
         of = run.pair_of[at] == i
+        if not stays[i]:
+            continue
         axes = run.axes(k, at[of])
         here, convex, slowly = (_acts(run, axes, f[of], m[of], at[of]) for f, m in laws)
         force = max(*here[:TORQUE], *slowly[:TORQUE], run.largest(run.pair_of == i))
@@ -124,8 +145,8 @@ def _changes(run: Run, k: int, part: Part, pairs: list[int]) -> Iterator[Change 
         slips = here[SLIP:] > NULL
         sticks = slips & (slowly[SLIP:] < COUNTS * here[SLIP:])
         rubs = [pair.mu_v > 0, arm > 0]
-        stays = slowly[0] > COUNTS * here[0]
-        counts = np.concatenate([known, ways & sticks & rubs & stays])
+        presses = slowly[0] > COUNTS * here[0]
+        counts = np.concatenate([known, ways & sticks & rubs & presses])
         sizes = np.array([force, force, arm, *here[SLIP:]])
         drag = here - convex
         layer = convex - slowly
@@ -136,31 +157,10 @@ def _changes(run: Run, k: int, part: Part, pairs: list[int]) -> Iterator[Change 
         yield Change(float(shares[j]), k, i, j, *amounts)
 
 
-def _landed(slow: Slow, touches: Mask) -> Slow:
-    """The slow step after its bodies have come down from their layers.
-
-    Springs follow, and nothing rubs on the way: by Coulomb's law none rose. Else what comes down
-    along something that it sticks to would be held by it.
-    """
-    step = slow.step
-    phi = step.contacts.phi[touches]
-    if not phi.any():
-        return slow
-    J_n = frame_jacobian(step.contacts, step.contacts.J)[0]
-    root = np.linalg.inv(np.linalg.cholesky(step.H)).T
-    down = root @ np.linalg.lstsq(J_n[touches] @ root, -phi, rcond=NULL)[0]
-    landed = step.replace(
-        contacts=step.contacts.raised(J_n @ down),
-        delta_q_bar_a=step.delta_q_bar_a - down[: step.n_a],
-        extra=step.extra.with_fields(b=step.extra.b - step.extra.A @ down),
-    )
-    return Slow(landed, slow.sizes, slow.turns)
-
-
 def _acts(run: Run, axes: tuple[Array, Array], forces: Array, motion: Array, at: Indices) -> Array:
     """Normal force, friction, torque, and the longest slip and spin of what presses, shape (5,)."""
     presses = forces[:, 2] > INNER * forces[:, 2].max(initial=0.0)
-    slips = np.hypot(*(np.vecdot(motion[:, :3], d) for d in axes))
+    slips = np.hypot(motion[:, 0], motion[:, 1])
     spins = np.where(run["rows"][at] == 6, np.abs(motion[:, 3]), 0.0)
     moves = np.stack([slips, spins])[:, presses].max(axis=1, initial=0.0)
     return np.concatenate([_sizes(resultants(axes, forces)), moves])
@@ -182,14 +182,19 @@ def resultants(axes: tuple[Array, Array], forces: Array) -> Array:
     return np.concatenate([[f_n.sum(axis=0)], rubs, [torque.sum(axis=0)]])
 
 
-def inner_loads(contacts: Contacts, forces: Array, motion: Array) -> Array:
+def inner_loads(frames: Array, mu: Array, forces: Array, motion: Array) -> Array:
     """Forces z with J'z = 0, of contacts with load; what slips keeps its ray (n, -mu slip).
+
+    All are along d1, d2 and n, and about n.
 
     Parameters
     ----------
-    contacts : Contacts
+    frames : ndarray, shape (n_c, 4, n)
+        J [m, rad].
+    mu : ndarray, shape (n_c, 3)
+        (mu_v, mu_v, mu_omega) [-, -, m].
     forces, motion : ndarray, shape (n_c, 4)
-        Along d1, d2 and n, and about n [N, N m]; J delta_q [m, rad].
+        [N, N m], and J delta_q [m, rad].
 
     Returns
     -------
@@ -197,15 +202,14 @@ def inner_loads(contacts: Contacts, forces: Array, motion: Array) -> Array:
     """
     f_n = forces[:, 2]
     loaded = np.flatnonzero(f_n > NULL * f_n.max(initial=0.0))
-    J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
-    frames = np.stack([J_1, J_2, J_n, J_w], axis=1)[loaded]  # as forces are
-    rubs = contacts.mu[loaded] > 0
-    d1, d2 = (np.vecdot(motion[:, :3], d)[loaded] for d in (contacts.d1, contacts.d2))
-    slips = (np.hypot(d1, d2) > NULL) | (rubs[:, 2] & (np.abs(motion[loaded, 3]) > NULL))
+    frames = frames[loaded]
+    rubs = mu[loaded] > 0
+    d1, d2, _, spin = np.abs(motion[loaded]).T
+    slips = (np.hypot(d1, d2) > NULL) | (rubs[:, 2] & (spin > NULL))
     rays = np.eye(4) * np.insert(rubs, 2, True, axis=1)[:, None]  # in columns; some are nothing
     rays[slips] = 0.0
     rays[slips, :, 2] = (forces[loaded] / f_n[loaded, None])[slips]
-    rows = np.einsum("jci,jcv->jiv", rays, frames).reshape(4 * len(loaded), contacts.n_v)
+    rows = np.einsum("jci,jcv->jiv", rays, frames).reshape(4 * len(loaded), frames.shape[2])
     rows = rows / np.maximum(np.abs(rows).max(axis=0, initial=0.0), 1e-300)
     _, sizes, vt = np.linalg.svd(rows.T)
     null = vt[int((sizes > NULL * sizes.max(initial=0.0)).sum()) :].T

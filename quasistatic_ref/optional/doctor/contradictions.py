@@ -48,12 +48,14 @@ def density(start: Start) -> Iterator[Finding]:
     hollow, and what is between its shapes may be filled. Of feet neither says anything.
     """
     for link, name, shapes in start.free_links:
-        hull = hull_of(shapes)
-        if hull is None or _are_feet(shapes, hull):
-            continue
         mass = float(start.system.masses[link])
         alone = sum(_volume(placed.shape) for placed in shapes)
         light = mass < DENSITIES[0] * alone
+        if not light and mass <= DENSITIES[1] * alone:
+            continue
+        hull = hull_of(shapes)
+        if hull is None or _are_feet(shapes, hull):
+            continue
         volume = alone if light else max(hull.volume, alone)
         if light or mass > DENSITIES[1] * volume:
             yield Finding(
@@ -134,10 +136,12 @@ def centre(start: Start) -> Iterator[Finding]:
     The body that stands on feet is above them, by their distance at most.
     """
     for link, name, shapes in start.free_links:
+        at = start.system.centres[link]
+        if any(placed.shape.signed_distance(_seen(placed, at))[0][0] <= 0 for placed in shapes):
+            continue
         hull = hull_of(shapes)
         if hull is None:
             continue
-        at = start.system.centres[link]
         away = float(hull.signed_distance(at[None])[0][0])
         extent = hull.extent
         if away > (1.0 if _are_feet(shapes, hull) else OUTSIDE) * extent:
@@ -150,6 +154,11 @@ def centre(start: Start) -> Iterator[Finding]:
                 f"{1e3 * extent:.3g} mm long; both are in the frame of the link",
                 {"outside_mm": 1e3 * away},
             )
+
+
+def _seen(placed: PlacedShape, point: Array) -> Array:
+    """A point of a link, (3,), in the frame of a shape of it, shape (1, 3) [m]."""
+    return np.asarray((point - placed.t)[None] @ placed.R)
 
 
 def sizes_apart(start: Start) -> Iterator[Finding]:

@@ -77,7 +77,7 @@ def pushed_back(run: Run) -> Iterator[Finding]:
         points = run.points_of(k)
         for ahead in _sides([(pair, at)], points, presses):
             for on in _sides(_near(run, ahead), points, presses):
-                if force <= COUNTS * f_n[k, on.at].max():
+                if on.pair is ahead.pair or force <= COUNTS * f_n[k, on.at].max():
                     continue
                 if _joined(ahead, on, run.system.kinematics(run["q"][k])):
                     forces = f_n[k, at][presses[at]]

@@ -7,8 +7,9 @@ import numpy as np
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
 from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.scenes import Scene
 from quasistatic_ref.optional.doctor.start import friction_of, least_mean, table
-from quasistatic_ref.optional.doctor.stopped import Scene, missing
+from quasistatic_ref.optional.doctor.stopped import missing
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.optional.doctor.tolerances import SLIPPED
 from quasistatic_ref.simulate.finding import Finding
@@ -30,10 +31,15 @@ def lost(run: Run) -> Iterator[Finding]:
     """
     of_pairs = [run.driven[p.alpha.link] or run.driven[p.beta.link] for p in run.pairs]
     driven = np.array(of_pairs, dtype=bool)[run.pair_of]
+    grips = driven & run.touches
+    every_slip = np.where(grips, np.linalg.norm(run.slips[..., :2], axis=2), 0.0)
+    every_turn = np.where(grips, np.abs(run.noted("moved")[..., 3]), 0.0)
+    if not _slips(run, every_slip, every_turn):
+        return
     for body in run.bodies_of:
-        on = body.contacts & driven & run.touches
-        slips = np.where(on, np.linalg.norm(run.slips[..., :2], axis=2), 0.0)
-        turns = np.where(on, np.abs(run.noted("moved")[..., 3]), 0.0)
+        on = body.contacts & grips
+        slips = np.where(on, every_slip, 0.0)
+        turns = np.where(on, every_turn, 0.0)
         if not _slips(run, slips, turns):
             continue
         closed = np.array([_closed(n[here]) for n, here in zip(run["n"], on, strict=True)])
@@ -85,10 +91,10 @@ def _normal(run: Run, k: int, contacts: Mask) -> Array:
     """
     normal = run["wrench"][k, :, 2].copy()
     scene = Scene(run, k, run["q"][k], run["phi"][k], run.points_of(k), contacts=contacts)
-    for part in scene.parts():
-        one = part.slow.rung(run.h, part.slow.level)
-        if one is not None:
-            normal[part.contacts] = one.forces[:, 2]
+    for slow in scene.parts:
+        every = slow.every
+        one = slow.rung(np.full(len(every), run.h), slow.level(every), every)
+        normal[slow.groups.contacts[one.found]] = one.forces[one.found][..., 2]
     return normal
 
 

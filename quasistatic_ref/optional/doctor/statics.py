@@ -8,7 +8,7 @@ from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor.bodies import COUNTS
 from quasistatic_ref.optional.doctor.compared import SLIP, SPIN, TORQUE
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.stopped import SAME
+from quasistatic_ref.optional.doctor.slow import SAME
 from quasistatic_ref.optional.doctor.telling import amount, table_of
 from quasistatic_ref.optional.doctor.undecided import Undecided, undecided
 from quasistatic_ref.optional.doctor.unsupported import alone, falls

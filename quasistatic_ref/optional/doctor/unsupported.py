@@ -118,9 +118,11 @@ def falls(run: Run) -> dict[str, Fall]:
     most = run.h**2 * run.g
     sinking = {}
     for name, base in run.free_bases.items():
+        drop = np.diff(run["q"][:, base.q][:, :3] @ down)
+        if drop[-1] <= most / 2:
+            continue
         of_body = run.of_body(name)
         force = np.abs(run["wrench"][:, of_body, 2]).max(axis=1, initial=0.0)
-        drop = np.diff(run["q"][:, base.q][:, :3] @ down)
         free = (force <= LIGHT * system.mass(name) * run.g) & (drop > most / 2)
         if free[-1]:
             first = int(len(free) - np.argmin(free[::-1])) if not free.all() else 0

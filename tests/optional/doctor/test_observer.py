@@ -12,7 +12,7 @@ from quasistatic_ref import RunFailed, load_scenario, load_trajectory
 from quasistatic_ref.files.finding import finding_read, finding_table
 from quasistatic_ref.files.npz import json_array
 from quasistatic_ref.files.trajectory import header_table
-from quasistatic_ref.optional.doctor import checks, observer, slow, start, stopped
+from quasistatic_ref.optional.doctor import checks, observer, scenes, slow, start
 from tests.extras import SCENARIOS_TO_RUN
 from tests.optional.doctor.mistake_scenes import scenes_written
 
@@ -83,6 +83,11 @@ def refuses(*_):
     raise qr.QuasistaticError("no normal")
 
 
+def unanswered(at, s, most):
+    last = at(np.arange(len(s)), s)
+    return last._replace(own=np.zeros(len(s), dtype=bool))
+
+
 OF_RUN = "locked guides, forces of single contacts"
 NOTES = {
     "block_push": "artifact",
@@ -105,9 +110,9 @@ def test_a_scenario_that_comes_along_is_silent_but_for_what_it_shows(name):
 
 
 SLOW_STEPS = {
-    "too many contacts touch": (stopped, "GROUP", 0),
-    "a slow step has no answer": (slow.Slow, "rung", lambda *_: None),
-    "QuasistaticError no normal": (stopped.Scene, "__init__", refuses),
+    "too many contacts touch": (slow, "GROUP", 0),
+    "a slow step has no answer": (slow, "fixed_points", unanswered),
+    "QuasistaticError no normal": (scenes.Scene, "__init__", refuses),
 }
 
 
