@@ -49,7 +49,9 @@ class JointColumns(ColumnMap):
         n_x = sum(part.model.nvExtended for part in parts)
         moves = np.zeros((1 + sum(len(part.frames) for part in parts), 1, n_x))
         owner = np.zeros(n_x, dtype=np.int64)
-        link, x, v = 1, 0, 0  # where the next part begins
+        link = 1  # where the next part begins: its links, its columns, its coordinates
+        x = 0
+        v = 0
         for model, frames in parts:
             sizes = zip(model.idx_vExtendeds, model.nvExtendeds, strict=True)
             columns = [slice(x + start, x + start + size) for start, size in sizes]

@@ -131,7 +131,8 @@ class System(Mechanism):
 
     def _make(self, bodies: tuple[Body, ...], trees: tuple[Tree, ...]) -> None:
         self._trees = trees
-        self._world = world = world_of(bodies, trees)
+        world = world_of(bodies, trees)
+        self._world = world
         self._order = paper_order(world.joints)
         self._workspace = self.workspace()
         self.mimics = world.mimics
