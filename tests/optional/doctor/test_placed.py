@@ -1,14 +1,10 @@
-"""What holds a body that touches nothing, how far it falls, and shapes that are a body's feet."""
-
-from math import cos, pi, sin
+"""What holds a body that touches nothing, and guides and densities of MuJoCo scenes."""
 
 import mujoco
-import numpy as np
 import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.optional.doctor.telling import numbers_of
-from tests.optional.doctor.words import TIP, driven, free, of_shapes, scene, slides
 
 LAMP = """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>
 <site name="hook" pos="0 0 {hook}"/>
@@ -134,77 +130,6 @@ def test_a_filler_is_no_distance(at, distance):
     assert numbers.get("least_distance_m") == distance
 
 
-def standing(shapes, mass, inertia, centre=(0, 0, 0), z=0.05):
-    """A body of some shapes over a floor, as a table, and its contacts."""
-    touching = [f"b/s{i}" for i in range(len(shapes))]
-    body = free(of_shapes(shapes, mass, inertia, centre), (0, 0, z))
-    return {"b": body}, {"floor": ("floor", touching, 0.5, 4)}
-
-
-def found(*body):
-    return scene(*standing(*body), 1).run(progress=False).findings
-
-
-def sphere(radius):
-    return f'<sphere radius="{radius}"/>'
-
-
-def plate(x, y, z):
-    return f'<box size="{x} {y} {z}"/>'
-
-
-HOLLOW = {
-    "a cabinet on three feet": (
-        [(sphere(0.01), 0.2 * cos(a), 0.2 * sin(a), -0.24, 0) for a in (0, 2 * pi / 3, 4 * pi / 3)],
-        20.0,
-        0.5,
-        (0, 0, 0),
-        0.25,
-    ),
-    "a mug of boxes": (
-        [
-            (plate(0.008, 0.034, 0.1), 0.04 * cos(a), 0.04 * sin(a), 0, a)
-            for a in np.arange(8) * pi / 4
-        ],
-        0.3,
-        4e-4,
-    ),
-    "a table on legs": (
-        [(plate(0.05, 0.05, 0.7), x, y, -0.35, 0) for x in (-0.5, 0.5) for y in (-0.3, 0.3)],
-        15.0,
-        2.0,
-        (0, 0, -0.02),
-        0.7,
-    ),
-    "a handle": (
-        [
-            (plate(0.02, 0.1, 0.02), 0, 0, 0, 0),
-            (plate(0.08, 0.02, 0.02), 0.05, 0.04, 0, 0),
-            (plate(0.08, 0.02, 0.02), 0.05, -0.04, 0, 0),
-        ],
-        0.2,
-        3e-4,
-        (0.045, 0, 0),
-        0.01,
-    ),
-}
-
-
-@pytest.mark.parametrize("body", HOLLOW.values(), ids=HOLLOW)
-def test_what_is_between_the_shapes_of_a_body_is_its_own(body):
-    assert [one.sentence for one in found(*body)] == []
-
-
-def test_masses_and_centres_that_no_body_of_such_shapes_has_are_still_said():
-    four = [(plate(0.02, 0.02, 0.1), x, y, 0, 0) for x in (-0.05, 0.05) for y in (-0.05, 0.05)]
-    for mass, centre, name in (
-        (60.0, (0, 0, 0), "density"),
-        (1e-4, (0, 0, 0), "density"),
-        (0.5, (0.3, 0, 0), "centre-of-mass"),
-    ):
-        assert name in [one.name for one in found(four, mass, 2e-3 * mass, centre)]
-
-
 SIZES = {
     "sphere": "0.03",
     "box": "0.01 0.02 0.03",
@@ -223,46 +148,3 @@ def test_a_density_is_that_of_the_volume_by_which_mujoco_makes_the_mass():
     scenario = of_mjcf(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
     said = [one for one in scenario.findings() if one.name == "density"]
     assert [one.numbers["density_kg_per_m3"] for one in said] == pytest.approx([3.0] * len(SIZES))
-
-
-BALLS = (qr.Sphere(0.03), qr.Sphere(0.03))
-
-
-@pytest.mark.parametrize(("can", "finger", "at", "fall"), [
-    (qr.Cylinder(0.03, 0.04), qr.Box((0.01, 0.02, 0.02)), (0, 0, 0.14), 100),
-    (*BALLS, (0, 0, 0.14), 110),  # past the other, 80 mm apart
-    # 30 mm across, 60 mm at touch: sqrt(60^2 - 30^2) = 52 mm above the other
-    (*BALLS, (0.05, 0, 0.3), 160 - 52),
-])  # fmt: skip
-def test_a_body_is_lowered_to_what_is_below_it_and_past_what_is_beside_it(can, finger, at, fall):
-    """A finger and a floor; its fall is told of no other distance."""
-    bodies = {
-        "can": qr.Body.of_shape("can", can, 0.3, xyz=at),
-        "finger": qr.Body.of_shape("finger", finger, 1.0, xyz=(0.08, 0, 0.14), base="fixed"),
-    }
-    contacts = {"floor": ("floor", "can", 0.5, 4), "grip": ("finger", "can", 0.5, 4)}
-    remedies = {one.name: one.remedy for one in scene(bodies, contacts, 10).run().findings}
-    assert remedies["starts-in-the-air"] == f"lower can by {fall} mm, or check its origin"
-    assert remedies["free-fall"] == "start it on what should bear it"
-
-
-def mug_and_finger(at, way=0.0):
-    """A mug of eight boxes, and a finger that touches none of them and moves along x [m]."""
-    bodies, contacts = standing(*HOLLOW["a mug of boxes"])
-    targets = [{"t": 0, "x": 0.0}, {"t": 0.3, "x": way}]
-    bodies["finger"] = driven(slides("x", TIP), at, {"x": 100.0}, targets)
-    contacts["push"] = ("finger/tip", *contacts["floor"][1:3], 1)
-    return scene(bodies, contacts, 30)
-
-
-def test_a_finger_that_moves_inside_of_a_mug_is_not_told_to_turn_its_axis():
-    """From the wall behind it to the middle, which leads it away from what it could touch first."""
-    findings = mug_and_finger((-0.015, 0, 0.05), 0.02).run(progress=False).findings
-    assert [one.name for one in findings][:2] == ["starts-inside", "idle-contacts"]
-    assert findings[1].remedy == "check where b stands and how far finger/tip moves"
-
-
-@pytest.mark.parametrize(("at", "inside"), [((0, 0, 0.05), True), ((0.2, 0, 0.05), False)])
-def test_a_finger_that_starts_inside_of_a_mug_is_told_to_start_outside(at, inside):
-    said = [x for x in mug_and_finger(at).findings() if x.name == "starts-inside"]
-    assert [one.remedy for one in said] == ["start finger/tip#0 outside of b/b"] * inside

@@ -47,17 +47,6 @@ def driven(urdf, xyz, K_q, targets):
     return placed(urdf, xyz, actuated=list(K_q), K_q=K_q, targets=targets)
 
 
-def of_shapes(shapes, mass, inertia, centre=(0, 0, 0)):
-    """URDF of one link: of each shape its text, where it is, and its yaw."""
-    texts = [
-        f'<collision name="s{i}"><origin xyz="{x} {y} {z}" rpy="0 0 {yaw}"/>'
-        f"<geometry>{shape}</geometry></collision>"
-        for i, (shape, x, y, z, yaw) in enumerate(shapes)
-    ]
-    origin = '<origin xyz="{} {} {}"/>'.format(*centre)
-    return robot(link("b", "".join(texts), urdf_texts.inertial(mass, (inertia,) * 3, origin)))
-
-
 def joint(name, parent, child, axis, kind="prismatic", at=(0, 0, 0)):
     """A joint whose motor may be of any strength."""
     text = urdf_texts.joint(name, parent, child, kind, axis, '<origin xyz="{} {} {}"/>'.format(*at))
