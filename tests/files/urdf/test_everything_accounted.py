@@ -109,12 +109,24 @@ def facts(folder, text):
     ], urdf.tree.ignored
 
 
-@pytest.mark.parametrize(("number", "place"), [*enumerate(PLACES)], ids=PLACES)
-def test_what_a_file_says_is_used_or_listed_or_refused(tmp_path, number, place):
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder with both meshes."""
+    folder = tmp_path_factory.mktemp("robot")
     for file, size in {"a.obj": 1.0, "b.obj": 2.0}.items():
-        urdf_of_text(tmp_path, OBJ.format(size), file)
-    plain = facts(tmp_path, ROBOT)
-    found = facts(tmp_path, changed_text(number))
+        urdf_of_text(folder, OBJ.format(size), file)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def plain(folder):
+    """What the model has of the file as it is."""
+    return facts(folder, ROBOT)
+
+
+@pytest.mark.parametrize(("number", "place"), [*enumerate(PLACES)], ids=PLACES)
+def test_what_a_file_says_is_used_or_listed_or_refused(folder, plain, number, place):
+    found = facts(folder, changed_text(number))
     if isinstance(found, str):
         assert not LISTED.match(place), found
         return
