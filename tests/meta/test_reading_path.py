@@ -2,7 +2,7 @@
 
 import re
 import sys
-from collections import defaultdict
+from collections import Counter, defaultdict
 
 from quasistatic_ref.files.scenario.scenario import load_scenario
 from tests.pages import PACKAGE, ROOT
@@ -54,3 +54,29 @@ def test_each_function_of_the_tree_is_called_by_the_one_above_it():
     callers = callers_of()
     assert 20 < len(TREE) < 27  # and load_scenario and Scenario.run, which nothing is above
     assert [one for one, caller in TREE.items() if caller not in callers[one]] == []
+
+
+def test_a_proved_step_is_read_in_at_most_45_files():
+    """The third step of the grasp: the program is compiled, and what is constant is kept."""
+    scenario = load_scenario("bunny_grasp")
+    simulator = scenario.simulator()
+    calls = Counter()
+
+    def note(frame, event, _):
+        file = frame.f_code.co_filename
+        if event == "call" and file.startswith(f"{PACKAGE}/"):
+            calls[file] += 1
+
+    start = scenario.system.q_start
+    for k in range(3):
+        target = scenario.targets((k + 1) * simulator.h)
+        before = sys.getprofile()
+        sys.setprofile(note if k == 2 else before)
+        try:
+            result = simulator.step(start, target)
+        finally:
+            sys.setprofile(before)
+        start = result.end
+    assert result.solution.proved
+    assert len(calls) <= 45
+    assert calls.total() <= 700

@@ -14,8 +14,8 @@ import numpy as np
 
 from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.degeneracy import form_degeneracy
+from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.optimum import form_optimum
-from quasistatic_ref.lab.study.problems.answers import exact_slack
 from tests.oracles.forms import exact_form_of
 from tests.oracles.rational_kkt import (
     exact,
@@ -137,6 +137,12 @@ def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
             assert found.working_set == tuple(np.flatnonzero(found.lam).tolist()), seed
     assert min(kinds.values()) >= 5
     assert kinds["infeasible"] <= PROBLEMS / 2
+
+
+def exact_slack(form, working_set):
+    """All slacks at the minimiser on a working set, rounded."""
+    minimiser = Minimiser(form, tuple(working_set))
+    return minimiser.rounded(lambda point: form.slacks(range(form.m), point.z))
 
 
 def bits_of(seed):
