@@ -1,4 +1,4 @@
-"""The exact optimum of a step, rounded correctly to float64.
+"""The exact optimum of a step, rounded correctly to float64, its certificate and solution.
 
 Numbers are computed as balls (a midpoint with a rigorous bound of its error) and, only where a ball
 leaves a sign or a rounding open, as fractions.

@@ -1,4 +1,4 @@
-"""The verification of a certificate without any solver.
+"""The verification of a certificate without any solver, and the residuals of any answer.
 
 No step calls :func:`verify` or :func:`verify_answer`, which are for whoever wants to check an
 answer afterwards.
@@ -8,6 +8,9 @@ gives the minimiser on it; if its multipliers are > 0 and its slacks >= 0, it is
 is unique. Verification solves that system in rational numbers. It shares with the method that found
 the answer the formation of H, g, A and b, the rational solution of that system, the test that H is
 positive definite, and the decisions on degeneracy; it does not search for a working set.
+
+Residuals of Eqs. (9)-(12) are float64's, whoever gave the answer. They prove nothing: a certified
+step reports them, and only ``certify="residual"`` refuses answers by them.
 """
 
 from __future__ import annotations

@@ -1,4 +1,8 @@
-"""One step, solved: natural units, a backend's guess, the exact optimum and its certificate."""
+"""One step, solved: natural units, a backend's guess, the exact optimum and its certificate.
+
+A step of a run is proved, and mostly nobody asks how its rows touch, or how near its backend came:
+what takes time is formed when it is read, from the step and its answer once more.
+"""
 
 from __future__ import annotations
 
