@@ -9,8 +9,8 @@ is unique. Verification solves that system in rational numbers. It shares with t
 the answer the formation of H, g, A and b, the rational solution of that system, the test that H is
 positive definite, and the decisions on degeneracy; it does not search for a working set.
 
-Residuals of Eqs. (9)-(12) are float64's, whoever gave the answer. They prove nothing: a certified
-step reports them, and only ``certify="residual"`` refuses answers by them.
+Residuals of the optimality conditions (9)-(12) are float64's, whoever gave the answer. They prove
+nothing: a certified step reports them, and only ``certify="residual"`` refuses answers by them.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ from quasistatic_ref.certify.groups import flat_rows, group_steps, row_owners
 from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
 from quasistatic_ref.certify.optimum import Certificate, StepSolution
 from quasistatic_ref.certify.working_set import Point, fraction_point
-from quasistatic_ref.errors import InputError, StepDataError, check_kind
+from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.formats.quoting import clipped
-from quasistatic_ref.numbers.arrays import Array, checked_numbers
+from quasistatic_ref.numbers.arrays import Array, checked_numbers, with_shape
 from quasistatic_ref.numbers.precision import nearest, working_precision
 from quasistatic_ref.step.cones import PYRAMID, Judge, cone, row_violations
 from quasistatic_ref.step.contacts import Contacts
@@ -90,14 +90,6 @@ def largest(x: Array) -> float:
     return float(x.max(initial=0.0)) + 0.0
 
 
-def _vector(numbers: ArrayLike, name: str, length: int) -> Array:
-    """Numbers of any size, NaN too, of shape (length,); StepDataError of another shape."""
-    vector = checked_numbers(numbers, name)
-    if vector.shape != (length,):
-        raise StepDataError(f"must have shape ({length},)", field=name, value=vector.shape)
-    return vector
-
-
 def optimality_residuals(
     form: StandardForm, delta_q: ArrayLike, lam: ArrayLike, judge: Judge = row_violations
 ) -> Residuals:
@@ -135,8 +127,8 @@ def optimality_residuals(
     """
     check_kind(form, StandardForm, "form", "a StandardForm, as standard_form(step) returns")
     H, g, A, b = form
-    x = _vector(delta_q, "delta_q", len(g))
-    y = _vector(lam, "lam", len(b))
+    x = with_shape(delta_q, "delta_q", g.shape)
+    y = with_shape(lam, "lam", b.shape)
     balance = H @ x - g - A.T @ y  # Eq. (9), as (13) has it
     slack = A @ x - b
     short, pull, work = judge(slack, y)  # Eqs. (10)-(12)

@@ -7,11 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.numbers.arrays import Array, Indices, checked_numbers
+from quasistatic_ref.numbers.arrays import Array, Indices
 
 
 @dataclass(frozen=True)
@@ -57,16 +55,6 @@ class Order:
     def paper_v(self, v: Array) -> Array:
         """Delta_q, or J, shape (..., n_v), its last axis in the paper's order, from pinocchio's."""
         return v.take(self.v, axis=-1)
-
-
-def with_shape(x: ArrayLike, name: str, shape: tuple[int, ...]) -> Array:
-    """Numbers as a float64 array of a shape; ModelError with `name` if they have another."""
-    if type(x) is np.ndarray and x.dtype == np.float64 and x.shape == shape:
-        return x
-    numbers = checked_numbers(x, name, ModelError)
-    if numbers.shape != shape:
-        raise ModelError(f"must have shape {shape}", field=name, value=numbers.shape)
-    return numbers
 
 
 def joint_key(joint: str) -> str:

@@ -19,12 +19,18 @@ from quasistatic_ref.model.configuration import (
     configuration,
     unit_configuration,
 )
-from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.joints.joint import Coordinate, Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.named import Named, Values
 from quasistatic_ref.model.state import State
-from quasistatic_ref.numbers.arrays import Array, Indices, checked_array, checked_numbers, read_only
+from quasistatic_ref.numbers.arrays import (
+    Array,
+    Indices,
+    checked_array,
+    checked_numbers,
+    read_only,
+    with_shape,
+)
 from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
@@ -218,7 +224,7 @@ class Mechanism(ABC):
 
     def with_actuated(self, q: ArrayLike, q_a: ArrayLike) -> Array:
         """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""
-        q_a = with_shape(q_a, "q_a", (self.n_q_a,))
+        q_a = with_shape(q_a, "q_a", (self.n_q_a,), ModelError)
         return np.concatenate([q_a, np.asarray(q)[self.n_q_a :]])
 
     def checked(self, q: ArrayLike) -> Array:

@@ -14,10 +14,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import check_kind
+from quasistatic_ref.errors import ModelError, check_kind
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.column_map import JointColumns
-from quasistatic_ref.model.coordinates import paper_order, with_shape
+from quasistatic_ref.model.coordinates import paper_order
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mass import (
@@ -36,6 +36,7 @@ from quasistatic_ref.model.world import trees_of, world_of
 from quasistatic_ref.numbers.arrays import (
     Array,
     read_only,
+    with_shape,
 )
 from quasistatic_ref.numbers.pivots import positive_pivots
 
@@ -194,7 +195,7 @@ class System(Mechanism):
             if isinstance(q, SystemState) and q.system is self:
                 return q
             q = q.q
-        q = with_shape(q, "q", (self.n_q,))
+        q = with_shape(q, "q", (self.n_q,), ModelError)
         self.units.check(q)
         return SystemState(self, q)
 
@@ -258,13 +259,13 @@ class SystemState(State):
     def change_to(self, q_a: ArrayLike) -> Array:
         """Change of the actuated coordinates q_a (-) q, shape (n_a,); ModelError of its shape."""
         system = self.system
-        q_a = with_shape(q_a, "q_a", (system.n_q_a,))
+        q_a = with_shape(q_a, "q_a", (system.n_q_a,), ModelError)
         system.actuated_units.check(q_a)
         return _change(system.actuated, self.entries, q_a.tolist())
 
     def plus(self, delta_q: ArrayLike) -> SystemState:
         """The state at q (+) delta_q, of a change of shape (n_v,) [m, rad]. In C: screws.c."""
-        change = with_shape(delta_q, "delta_q", (self.system.n_v,)).tolist()
+        change = with_shape(delta_q, "delta_q", (self.system.n_v,), ModelError).tolist()
         there: list[float] = []
         for joint in self.system.joints:  # in the order of q
             there += joint.moved(self.entries[joint.q], change[joint.v])

@@ -118,6 +118,22 @@ def checked_names(value: object, name: str) -> tuple[str, ...]:
     raise StepDataError("must be a sequence of strings", field=name, value=value)
 
 
+def with_shape(
+    value: object, name: str, shape: tuple[int, ...], error: type[InputError] = StepDataError
+) -> Array:
+    """Real numbers as a float64 array of a shape; no numbers have each shape that holds none.
+
+    Raises
+    ------
+    InputError
+        Of the type `error`, if it is none or of another shape.
+    """
+    array = checked_numbers(value, name, error)
+    if array.shape != shape and (array.size or 0 not in shape):
+        raise error(f"must have shape {shape}", field=name, value=array.shape)
+    return array.reshape(shape)
+
+
 def checked_array(
     value: object, name: str, shape: tuple[int, ...], error: type[InputError] = StepDataError
 ) -> Array:
@@ -142,11 +158,11 @@ def checked_array(
         If the numbers are not finite, or not of that shape.
     """
     array = checked_numbers(value, name, error)
-    if array.shape != shape and (array.size or 0 not in shape):
-        raise error(f"must have shape {shape}", field=name, value=array.shape)
+    if array.shape != shape:
+        array = with_shape(value, name, shape, error)
     if not np.isfinite(array).all():
         raise error("must contain finite numbers only", field=name, value=array.tolist())
-    copy: Array = array.reshape(shape) + 0.0
+    copy: Array = array + 0.0
     copy.setflags(write=False)
     return copy
 

@@ -6,10 +6,10 @@ Sines and angles that C cannot decide are Python's.
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.model.coordinates import with_shape
+from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.angles import cos_sin
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, with_shape
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
 
@@ -65,8 +65,8 @@ class Sums:
         """Change q_a (-) q of the actuated coordinates, shape (n_a,); errors as of the system's."""
         if self._known:
             s = self.structure
-            s["here"][:] = with_shape(q, "q", s["here"].shape)
-            s["target"][:] = with_shape(q_a, "q_a", s["target"].shape)
+            s["here"][:] = with_shape(q, "q", s["here"].shape, ModelError)
+            s["target"][:] = with_shape(q_a, "q_a", s["target"].shape, ModelError)
             if library().differences(s.pointer):
                 return s["delta_q_bar_a"] + 0.0
         return self._system.actuated_difference(q, q_a) + 0.0

@@ -17,7 +17,6 @@ from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.column_map import ColumnMap
-from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.joints.axis_joint import Prismatic, Revolute
 from quasistatic_ref.model.joints.ball import Ball
 from quasistatic_ref.model.joints.floating import Floating
@@ -25,7 +24,7 @@ from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.state import State
-from quasistatic_ref.numbers.arrays import Array, Indices, read_only
+from quasistatic_ref.numbers.arrays import Array, Indices, read_only, with_shape
 from quasistatic_ref.numbers.ordered import rotated
 from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.optional.guests import constraints
@@ -293,7 +292,7 @@ class MujocoSystem(Mechanism):
 
     def state(self, q: ArrayLike) -> MujocoState:
         """MuJoCo's state at q, at rest; the same object at every q."""
-        here = with_shape(q, "q", (self.n_q,))
+        here = with_shape(q, "q", (self.n_q,), ModelError)
         bits = here.tobytes()
         if self._at != bits:
             self.units.check(here)
@@ -316,7 +315,7 @@ class MujocoSystem(Mechanism):
             if isinstance(q, SceneState) and q.system is self:
                 return q
             q = q.q
-        q = with_shape(q, "q", (self.n_q,))
+        q = with_shape(q, "q", (self.n_q,), ModelError)
         self.units.check(q)
         return SceneState(self, q)
 
@@ -432,5 +431,5 @@ class SceneState(State):
         """The state at q (+) delta_q by ``mj_integratePos``, of a change of shape (n_v,)."""
         system = self.system
         return SceneState(
-            system, system.moved(self.q, with_shape(delta_q, "delta_q", (system.n_v,)))
+            system, system.moved(self.q, with_shape(delta_q, "delta_q", (system.n_v,), ModelError))
         )
