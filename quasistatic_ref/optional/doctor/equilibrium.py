@@ -16,6 +16,7 @@ import numpy as np
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.optional.doctor.undecided import optimum
 from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
@@ -81,10 +82,9 @@ def bearing(step: StepData, touching: Mask, at_most: Array | float = np.inf) -> 
         A_eq=np.column_stack([along[:, :-1], np.eye(n_u), -np.eye(n_u)]),
         b_eq=-load / size,
     )
-    if answer.x is None:  # with r it has a solution: only where HiGHS fails
-        return np.zeros(n_u), np.zeros(step.contacts.n_c)
-    plus, minus = answer.x[len(rows) :].reshape(2, n_u)
-    return np.asarray(size * (root @ (plus - minus))), np.asarray(size * (pressing @ answer.x))
+    x = optimum(answer)
+    plus, minus = x[len(rows) :].reshape(2, n_u)
+    return np.asarray(size * (root @ (plus - minus))), np.asarray(size * (pressing @ x))
 
 
 def unsqueezed(step: StepData, touching: Mask) -> Array:
@@ -115,7 +115,7 @@ def unsqueezed(step: StepData, touching: Mask) -> Array:
         A_ub=np.vstack([along.T, -along.T, of_contact]),
         b_ub=np.concatenate([np.full(2 * step.n_u, SAME_NORMAL), normal / size]),
     )
-    return normal if answer.x is None else np.asarray(normal - size * (of_contact @ answer.x))
+    return np.asarray(normal - size * (of_contact @ optimum(answer)))
 
 
 def _cone_rows(step: StepData, touching: Mask) -> tuple[Array, Array]:

@@ -14,6 +14,7 @@ from quasistatic_ref.optional.doctor.equilibrium import at_rest, borne, unsqueez
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.optional.doctor.telling import amount
+from quasistatic_ref.optional.doctor.undecided import optimum
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.contacts import Contacts
@@ -31,6 +32,8 @@ block that begins to slide has 1 / (1 + mu_v^2) of it, one in a guide the guide'
 
 TINY = 1e-9
 """Entries of J, relative to the contact's largest or to 1 [-, m], that are rounding."""
+INFEASIBLE = 2
+"""SciPy's status of a linear program that has no solution."""
 SIDES = 9
 """Decimals to which normals are those of one side."""
 
@@ -137,7 +140,7 @@ def _squeeze(J_n: Array, sides: tuple[Indices, ...], w: Array, clearance: Array)
         A_eq=of_side,
         b_eq=w,
     )
-    return None if answer.x is None else np.asarray(answer.x)
+    return None if answer.status == INFEASIBLE else optimum(answer)
 
 
 def guided(start: Start) -> Iterator[Finding]:
@@ -248,8 +251,6 @@ def locked(run: Run) -> Iterator[Finding]:
         return
     step = run.at(k).step
     smooth = run.solved(step.replace(cone="frictionless"))
-    if smooth is None:
-        return
     n_a = step.n_a
     J_n, *J_rubs = frame_jacobian(contacts, contacts.J[:, :, n_a:])
     force = step.tau_u + wrench[:, 2] @ J_n  # all but friction

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.doctor.artifacts import gap_after, quotient, ways_of
 from quasistatic_ref.optional.doctor.asked import Asked
@@ -266,12 +265,9 @@ class Run(Start):
         """The tangents d1 and d2 of some contacts in step k, shape (n, 3) each [-]."""
         return self["d1"][k, contacts], self["d2"][k, contacts]
 
-    def solved(self, step: StepData) -> StepSolution | None:
-        """The solution of a step, unproved; None if no backend has an answer."""
-        try:
-            return solve_step(step, fast=self.simulator.fast, certify="off")
-        except QuasistaticError:
-            return None
+    def solved(self, step: StepData) -> StepSolution:
+        """The solution of a step, unproved; QuasistaticError if no backend has an answer."""
+        return solve_step(step, fast=self.simulator.fast, certify="off")
 
 
 class RunStep:

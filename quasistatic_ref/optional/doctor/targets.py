@@ -100,8 +100,8 @@ def beyond_effort(run: Run) -> Iterator[Finding]:
 def _bears(run: Run, joint: Joint, k: int) -> float:
     """The slow force of a joint's spring made ten times softer [N, N m].
 
-    What it presses on is then pressed with a tenth, and what it carries is as heavy. 0 where the
-    step is not solved.
+    What it presses on is then pressed with a tenth, and what it carries is as heavy. 0 where no
+    step is asked.
     """
     if not run.searched:
         return 0.0
@@ -111,8 +111,6 @@ def _bears(run: Run, joint: Joint, k: int) -> float:
     softer[v] = np.sqrt(0.1)
     K_q = step.K_q * np.outer(softer, softer)
     solved = run.solved(step.replace(K_q=K_q, h=max(SLOWLY, 1000 * step.h)))
-    if solved is None:
-        return 0.0
     off = step.delta_q_bar_a - solved.delta_q[: step.n_a]
     return float(abs(K_q[v] @ off))
 

@@ -3,9 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
+import numpy as np
+
+from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.formats.quoting import listed, one_line
+from quasistatic_ref.numbers.arrays import Array
+
+if TYPE_CHECKING:
+    from scipy.optimize import OptimizeResult
 
 TOO_MANY: Final = "too many contacts touch"
 NO_ANSWER: Final = "a slow step has no answer"
@@ -36,6 +43,28 @@ def undecided(what: str, reasons: Mapping[str, str]) -> Iterator[Undecided]:
     for why in dict.fromkeys(reasons.values()):
         names = [name for name, reason in reasons.items() if reason == why]
         yield Undecided(f"{what} of {listed(names)}", why)
+
+
+def optimum(answer: OptimizeResult) -> Array:
+    """The solution of a linear program that has one.
+
+    Parameters
+    ----------
+    answer : scipy.optimize.OptimizeResult
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        [any unit]
+
+    Raises
+    ------
+    QuasistaticError
+        If HiGHS fails, which then is said of the check that asked.
+    """
+    if answer.x is None:
+        raise QuasistaticError(f"linprog: {answer.message}")
+    return np.asarray(answer.x)
 
 
 def failure(error: Exception) -> str:

@@ -14,6 +14,7 @@ from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import SHORT, Start, joining, least
 from quasistatic_ref.optional.doctor.stopped import missing
 from quasistatic_ref.optional.doctor.tolerances import NEAR
+from quasistatic_ref.optional.doctor.undecided import optimum
 from quasistatic_ref.simulate.finding import Finding
 
 ROUNDS = 100
@@ -228,4 +229,4 @@ def _sinks(start: Start, shifts: list[int], name: str) -> float:
         b_ub=-np.minimum(rows.b, 0.0) / NEAR,  # a row that is violated lets nothing sink
         bounds=[(0.0, 2.0), *[(None, None)] * len(others)],
     )
-    return np.inf if best.x is None else NEAR * float(best.x[0])
+    return NEAR * float(optimum(best)[0])

@@ -6,6 +6,8 @@ import pickle
 
 import numpy as np
 import pytest
+import scipy.optimize
+from scipy.optimize import OptimizeResult
 
 import quasistatic_ref as qr
 from quasistatic_ref import RunFailed, load_scenario, load_trajectory
@@ -186,6 +188,15 @@ def test_a_check_that_fails_costs_its_finding_and_not_the_run(table, monkeypatch
         assert {*run.findings} >= {one for one in found if one.name != "equilibrium"}
         name = check.name or "fails"
         assert f"{name}: ZeroDivisionError no reason" in run.header.not_looked_at
+
+
+def test_a_linear_program_without_an_answer_is_said(monkeypatch):
+    """Of a peg in its hole, whose walls do not let it rise."""
+    no_answer = OptimizeResult(x=None, status=4, message="numerical difficulties")
+    monkeypatch.setattr(scipy.optimize, "linprog", lambda *_, **more: no_answer)
+    run = load_scenario("peg_in_hole", h=0.5, steps=6).run(progress=False)
+    line = "locked guides: QuasistaticError linprog: numerical difficulties"
+    assert run.header.not_looked_at == line
 
 
 @pytest.mark.parametrize("name", ["Run", "Start", "quasi_dynamic_number", "gives"])
