@@ -8,7 +8,7 @@ from quasistatic_ref import contact_forces, solve_step
 from quasistatic_ref.certify.form import exact_matrix
 from quasistatic_ref.lab.scenes.loads import loaded_pile
 from quasistatic_ref.optional.forces import eliminated, face_guess, forces
-from quasistatic_ref.optional.forces.face_guess import guessed_faces
+from quasistatic_ref.optional.forces.face_guess import guessed_faces, nearest_rows
 from quasistatic_ref.optional.forces.faces import face, nearest_face, rows_of
 from quasistatic_ref.optional.forces.of_group import group_compliance
 from quasistatic_ref.optional.friction import cone_matrix
@@ -42,7 +42,10 @@ def test_the_nearest_face_obeys_its_conditions_and_has_the_nearest_point(cone, r
         *conditions, s_0, s_1, s_2, s_3 = lengths
         assert all(v >= 0 for v in conditions)
         s = np.array([float(v) for v in (s_0, s_1, s_2, s_3)]) / found.denominator
-        assert_within(s, C.T @ nnls(C.T, -z)[0])
+        nearest = C.T @ nnls(C.T, -z)[0]
+        assert_within(s, nearest)
+        on = C[[*nearest_rows(cone, len(C), z.astype(float))]]
+        assert_within(on.T @ np.linalg.lstsq(on.T, -z)[0], nearest)
 
 
 def wrong_guess(step, wrench):
