@@ -100,7 +100,7 @@ class InputError(QuasistaticError, ValueError):
 
 
 class MissingKey(InputError, KeyError):
-    """A name in square brackets is none of those that there are; a KeyError.
+    """A key in square brackets, as in ``trajectory["q"]``, does not exist; a KeyError.
 
     Examples
     --------
@@ -128,7 +128,7 @@ class StepDataError(InputError):
 
 
 class ModelError(InputError):
-    """A URDF, or a coordinate of it, is not usable.
+    """A model is not usable: its file, or a body, shape, coordinate or joint of it.
 
     Examples
     --------

@@ -173,7 +173,7 @@ def _length(moved: float, moved_by: Iterable[float], softest: float) -> float:
 
 
 def single_lengths(parts: Parts) -> list[list[float]]:
-    """Lengths of the unconstrained steps of :func:`single_loads` and of all of them together, last.
+    """Lengths of the unconstrained steps of groups: under each of :func:`single_loads`, then all.
 
     Parameters
     ----------

@@ -187,7 +187,7 @@ class NearSets:
 
 
 def ball_point(form: ExactForm, working: Sequence[int], near: NearSets | None = None) -> Point:
-    """The solution in balls.
+    """The optimum with the rows of a working set as equations, and its multipliers, as balls.
 
     Parameters
     ----------
@@ -218,7 +218,7 @@ def ball_point(form: ExactForm, working: Sequence[int], near: NearSets | None = 
 
 
 def fraction_point(form: ExactForm, working: Sequence[int]) -> Point:
-    """The solution without rounding; ZeroDivisionError if the rows are not independent."""
+    """The point of :func:`ball_point` without rounding; ZeroDivisionError if rows are dependent."""
     n = form.n
     k = len(working)
     rows = form.exact_rows(working)

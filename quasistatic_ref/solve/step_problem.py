@@ -290,7 +290,7 @@ class CompiledProgram(Protocol):
         """The unknowns of the last solve, shape (n,), in the problem's units [-]."""
 
     def dual(self) -> Array | None:
-        """Its multipliers, shape (m,), where the backend has any [-]."""
+        """Multipliers of the last solve, shape (m,) [-]; None if the backend has none."""
 
 
 class CvxpySolver(BackendSolver):

@@ -191,7 +191,7 @@ class ScaledStep:
 
     @cached_property
     def lengths(self) -> list[list[float]]:
-        """The `single_lengths` of each group."""
+        """Lengths of each group's unconstrained steps under single loads and all [(N m s)^0.5]."""
         return single_lengths(self.groups)
 
     @cached_property

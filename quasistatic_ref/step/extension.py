@@ -24,7 +24,7 @@ class StepExtension(Protocol):
 
     @property
     def rises(self) -> StepRises:
-        """Coordinates of its own."""
+        """Coordinates that this extension adds to the step."""
 
     @property
     def without_stiffness(self) -> bool:

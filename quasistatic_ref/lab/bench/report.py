@@ -74,7 +74,7 @@ def rows(scenes: Mapping[str, Mapping[str, float]]) -> list[tuple[str, ...]]:
 
 
 def page(tables: Mapping[str, Any]) -> str:
-    """The same as a page in Markdown."""
+    """The tables of a benchmark as a page in Markdown."""
     m = tables["machine"]
     head, *body = rows(tables["scenes"])
     lines = [

@@ -18,7 +18,7 @@ FALL_STEPS = 10
 
 
 def fall_evidence() -> list[Comparison]:
-    """Bodies of several masses, centres of mass and orientations, ten steps each."""
+    """Heights of random bodies that fall for ten steps, against -k h^2 g."""
     rng = np.random.default_rng(2)
     heights = []
     expected = []

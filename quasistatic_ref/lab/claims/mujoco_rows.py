@@ -203,7 +203,7 @@ def rows_of(scene: Heap) -> dict[str, Array]:
 
 
 def evidence() -> list[Comparison]:
-    """Twelve heaps."""
+    """Our rows and M_u against those of MuJoCo, in twelve random heaps of bodies."""
     scenes = [rows_of(heap(seed)) for seed in range(SCENES)]
 
     def all_of(key: str, part: slice = slice(None)) -> Array:

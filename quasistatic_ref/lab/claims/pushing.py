@@ -43,7 +43,12 @@ BLOCK = body_text(M, (2e-4, 3e-4, 4e-4))
 
 
 def steady_push(v: float, mu_v: float, h: float) -> Array:
-    """Steady lag of the finger, largest and least gap [m], load of the base [N], shape (4,)."""
+    """Simulate a push: lag of the finger, largest and least gap of the block [m], its load [N].
+
+    Returns
+    -------
+    ndarray, shape (4,)
+    """
     start = {"xyz": (L, 0.0, C)}
     rail = {"base": "fixed", "actuated": "all", "xyz": (-0.005, 0.0, C)}
     system = system_of({"finger": RAIL, "block": BLOCK}, finger=rail, block=start)
@@ -64,7 +69,7 @@ def steady_push(v: float, mu_v: float, h: float) -> Array:
 
 
 def pushed_block_evidence() -> list[Comparison]:
-    """Speeds, friction and time steps."""
+    """A pushed block's lag, gaps and load, against (R13), at several speeds, mu_v and h."""
     sweep = grid([0.005, 0.05, 0.2], [0.2, 0.5], [5e-3, 1e-2])
     v, mu, h = sweep.T
     measured = np.array([steady_push(*x) for x in sweep])
@@ -111,7 +116,7 @@ PUSHES = 64
 
 
 def planar_push_evidence() -> list[Comparison]:
-    """Points, directions, coefficients and speeds."""
+    """Motions of a slider pushed at random, against (R28)."""
     rng = np.random.default_rng(28)
     # The angle of the point, its radius, the angle aside, mu_v, chi, Pi; lifted and sticks or not.
     lowest = [0.0, 0.005, -1.2, 0.1, 0.01, 0.01]

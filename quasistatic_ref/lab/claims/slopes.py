@@ -51,7 +51,7 @@ def displacements(results: list[StepResult]) -> Array:
 
 
 def slide_evidence() -> list[Comparison]:
-    """Low blocks on slopes around the angle of friction."""
+    """Slips of low blocks that rest or slide on slopes, step by step, against a formula."""
     stuck = []
     slips = []
     fixed = []

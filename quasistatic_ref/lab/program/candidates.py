@@ -256,7 +256,7 @@ def candidates(alpha, pose_alpha, beta, pose_beta, k):
 
 
 def most_candidates(alpha, beta, last):
-    """How many there are at most, of two solids with `last` corners."""
+    """The largest number of candidates that two solids with `last` corners can have."""
     return last + 9 if alpha["kind"] == beta["kind"] == "box" else last + 1
 
 

@@ -299,7 +299,7 @@ def from_afar(alpha, pose_alpha, beta, pose_beta, n):
 
 
 def distance(case):
-    """Layer 1."""
+    """Layer 1: phi, alpha, beta and n of a case, two shapes in their poses."""
     pose_alpha = frame(case["pose_alpha"])
     pose_beta = frame(case["pose_beta"])
     phi, alpha, beta, n = closest_points(case["alpha"], pose_alpha, case["beta"], pose_beta)

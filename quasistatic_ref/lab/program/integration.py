@@ -73,7 +73,7 @@ def difference(body, target, q):
 
 
 def integrate(case):
-    """Layer 7."""
+    """Layer 7: the q (+) delta_q of a case."""
     q = np.array(case["q"])
     delta_q = np.array(case["delta_q"])
     return {"q": joint_parts(case["mechanism"], lambda body, i, k: moved(body, q[i], delta_q[k]))}

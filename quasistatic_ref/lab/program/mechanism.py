@@ -99,7 +99,7 @@ def contact_jacobian(at, contact):
 
 
 def jacobian(case):
-    """Layer 3."""
+    """Layer 3: the J of each contact of a case."""
     at = kinematics(case["mechanism"], np.array(case["q"]))
     jacobians = []
     for contact in case["contacts"]:

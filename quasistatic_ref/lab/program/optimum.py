@@ -73,7 +73,7 @@ def nonnegative_least_squares(E, f):
 
 
 def equality_answer(H, g, A, b):
-    """X and lam of A x = b with independent rows, refined twice."""
+    """(x, lam) of min 1/2 x'Hx - g'x s.t. Ax = b with independent rows, refined twice."""
     L = np.linalg.cholesky(H)
     Q, R = np.linalg.qr(np.linalg.solve(L, A.T))
 
@@ -91,7 +91,7 @@ def equality_answer(H, g, A, b):
 
 
 def optimum(H, g, A, b):
-    """(x, lam), or (None, y) with the Farkas vector y of a problem without solution."""
+    """(x, lam) of min 1/2 x'Hx - g'x s.t. Ax >= b; without solution (None, Farkas vector)."""
     m = len(b)
     L = np.linalg.cholesky(H)
     if not m:
@@ -115,12 +115,12 @@ def optimum(H, g, A, b):
 
 
 def solution(A, b, x, lam):
-    """The fields of an output."""
+    """Output of layer 5: delta_q, lam, A_lam and slack."""
     return {"delta_q": x, "lam": lam, "A_lam": A.T @ lam, "slack": A @ x - b}
 
 
 def qp_answer(H, g, A, b, method=optimum):
-    """The output of a polyhedral case."""
+    """Output of layer 5 for linear rows: the optimum, or the Farkas vector."""
     x, lam = method(H, g, A, b)
     if x is None:
         return {"farkas": lam}
@@ -191,7 +191,7 @@ def newton(H, g, F, f, x, impulse):
 
 
 def qp(case):
-    """Layer 5."""
+    """Layer 5: the output of a case, a quadratic program with rows or cones."""
     H = np.array(case["H"])
     g = np.array(case["g"])
     if "second_order" in case:

@@ -37,7 +37,7 @@ def contact_rows(c, cone):
 
 
 def rows(case):
-    """Layer 4."""
+    """Layer 4: A and b of the contacts of a case."""
     A = []
     b = []
     for c in case["contacts"]:

@@ -18,7 +18,7 @@ def contact_wrench(c, cone, h):
 
 
 def wrench(case):
-    """Layer 6."""
+    """Layer 6: contact wrenches, and each body's wrench, from the multipliers of a case."""
     wrenches = []
     net = {name: np.zeros(6, dtype=int) for name in case["bodies"]}
     for c in case["contacts"]:

@@ -58,11 +58,11 @@ class Known(Protocol):
 
     @property
     def program(self) -> Program:
-        """Its matrices, as they are given."""
+        """The matrices of the problem, as they are given."""
 
     @property
     def units(self) -> Units:
-        """Its natural units: ``units_of(form)`` of the core finds some for any matrices."""
+        """The problem's natural units; ``units_of(form)`` finds some for any matrices."""
 
     def digits(self, x: Array) -> float:
         """Correct digits of an x, shape (n,), as the problem is given [-]; if it has a solution."""

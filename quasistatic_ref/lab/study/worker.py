@@ -54,7 +54,7 @@ class Question:
 
 
 class Answer(NamedTuple):
-    """What came back.
+    """A solver process's answer to a question.
 
     Parameters
     ----------

@@ -32,7 +32,7 @@ REACTION = 1e-3
 
 
 class Missing(NamedTuple):
-    """The force that a body lacks for equilibrium in a step.
+    """What a body lacks for equilibrium in a step, and the accelerations with which it would start.
 
     Parameters
     ----------

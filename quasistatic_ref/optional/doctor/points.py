@@ -73,7 +73,7 @@ def few_points(start: Start) -> Iterator[Finding | Undecided]:
 
 
 def _bearing(start: Start, pair: ContactPair, name: str, points: ClosestPoints) -> Array:
-    """The nearest points of a pair that are level and bear a body, shape (N, 3).
+    """Points of a pair that, equally near, bear a body from below, shape (N, 3) [m].
 
     None of a pair that is apart, as a body in a gripper is from the floor.
     """

@@ -253,6 +253,6 @@ class Scene:
 
 
 def _members(group: Indices, groups: int) -> tuple[Indices, Indices, Indices]:
-    """How many members each group has, and where they start in the last: those of each in turn."""
+    """Each group's number of members and start in the last array, which has the members in turn."""
     counts = np.bincount(group, minlength=groups)
     return counts, np.cumsum(counts) - counts, np.argsort(group, kind="stable")

@@ -19,7 +19,7 @@ NO_ANSWER: Final = "a slow step has no answer"
 
 
 class Undecided(NamedTuple):
-    """What was not looked at.
+    """A question about a scene or run that was not answered, and the reason.
 
     Parameters
     ----------

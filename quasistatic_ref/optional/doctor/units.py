@@ -88,7 +88,7 @@ def far_targets(run: Run) -> Iterator[Finding]:
 
 
 def friction(start: Start) -> Iterator[Finding]:
-    """A mu_v beyond that of anything, once for each table or MuJoCo scene."""
+    """A mu_v larger than any real one, once for each table or MuJoCo scene."""
     rough = [pair for pair in start.pairs if pair.mu_v > ROUGH]
     for name, pair, others in _once(start, rough, lambda pair: pair.mu_v):
         field = friction_of(start, "mu_v", name)
@@ -149,5 +149,5 @@ def count(start: Start) -> Iterator[Finding]:
 
 
 def no_steps(start: Start) -> Iterator[Finding]:
-    """A run of no steps."""
+    """The finding of a run whose `steps` is 0."""
     yield Finding("no-motion", True, "raise steps", "steps is 0, and nothing happens", {"steps": 0})

@@ -86,7 +86,7 @@ class Masses:
 
     @property
     def constant(self) -> bool:
-        """Whether these are blocks, which all steps have."""
+        """Whether M_u is kept by its blocks, which are the same in all steps."""
         return self.blocks.ndim == 3
 
     @cached_property

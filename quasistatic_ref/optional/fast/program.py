@@ -261,6 +261,6 @@ class NaturalProgram:
         return Units(self._coordinate, length, size)
 
     def write(self, units: Units) -> None:
-        """Write the program of the step that was formed last, in its units."""
+        """Write the step that was formed last into `program`, in natural `units` of this step."""
         self._structure["units"][:] = units.length, units.size
         library().natural_program(self._structure.pointer)

@@ -86,7 +86,7 @@ def quiet_mujoco() -> ModuleType:
 
 
 def printed(path: Path) -> bytes:
-    """The answer of a process of its own."""
+    """What :func:`answer` gives for a MuJoCo file, computed in a separate process."""
     return subprocess.run(
         [sys.executable, "-P", "-W", "ignore", "-m", MODULE, str(path), str(SECONDS)],
         stdin=subprocess.DEVNULL,

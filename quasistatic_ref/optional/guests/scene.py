@@ -244,7 +244,7 @@ def _scenario_of(
 
 
 def words(scene: MujocoScenario) -> str:
-    """Lines that say what may touch, within which gap, and what the scene leaves out."""
+    """A scene's notes, and how many pairs, places for contacts and omissions the scene has."""
     places = scene.drive.system.places
     notes = "".join(f"{note}\n" for note in scene.drive.system.notes)
     left_out = len(scene.drive.system.ignored)

@@ -75,7 +75,7 @@ def numbers(state: MujocoState) -> list[int]:
 
 
 def contacts(state: MujocoState) -> list[StateContact]:
-    """MuJoCo's contacts of these numbers.
+    """MuJoCo's contacts between bodies of which at least one can move.
 
     A name has MuJoCo's number, and the geoms, or the bodies of geoms without names. The gap is that
     at which MuJoCo lets a contact push. A gap of up to ``DEEP`` of a contact with adhesion counts

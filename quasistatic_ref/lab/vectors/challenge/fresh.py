@@ -152,7 +152,7 @@ def _rows(rng: Rng, level: int, case: Json, contacts: Json) -> Json:
 
 
 def _wrench(rng: Rng, level: int, case: Json, contacts: Json) -> Json:
-    """Multipliers at random: those of a scene are mostly 0."""
+    """Input of the layer `wrench`: a scene's contacts with random multipliers, some of them 0."""
     cone = "ellipsoid" if level != EASY and rng.integers(5) == 0 else case["cone"]
     loaded = []
     for contact in contacts:

@@ -77,7 +77,7 @@ class Program:
         self.close()
 
     def ask(self, id: str, layer: str, case: Json) -> Reply:
-        """What it answers to a case.
+        """The program's answer to a case of a layer.
 
         Raises
         ------
@@ -208,7 +208,7 @@ class Function:
         self._simulator = simulator
 
     def ask(self, id: str, layer: str, case: Json) -> Reply:
-        """What it returns for a case."""
+        """The function's answer to a case of a layer."""
         try:
             output = self._simulator(layer, case)
         except Exception as error:

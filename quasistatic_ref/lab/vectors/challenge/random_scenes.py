@@ -202,10 +202,10 @@ def _touch(rng: Rng, case: Json, body: str, level: int) -> None:
 
 
 def _put_against(case: Json, name: str, entry: Json, gap: float, away: Array) -> None:
-    """Add a shape to a scene, moved so that the gap [m] between it and `body` is this.
+    """Add a shape to a scene, at the distance `gap` [m] from the scene's shape ``"body"``.
 
-    It is moved along the normal of their closest points, from the place that is `away` [m] from
-    the shape on the body.
+    The added shape starts `away` [m] from the other shape, and is moved along the normal of their
+    closest points.
     """
     places = kinematics(case["mechanism"], np.array(case["q"]))
     body = case["shapes"]["body"]

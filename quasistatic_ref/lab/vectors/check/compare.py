@@ -130,7 +130,10 @@ def tolerance_of(tolerance: Mapping[str, Json], field: str) -> float:
 
 
 def exact_tolerance_of(tolerance: Mapping[str, Json], field: str) -> float:
-    """The same of float64 [its unit], however few digits are asked for: digits depend on it."""
+    """The error of a field that float64 allows [its unit], from which digits are counted.
+
+    It does not depend on how many digits are asked for.
+    """
     of_field = tolerance.get(field, {})
     return float(of_field["exact"]) if "exact" in of_field else tolerance_of(tolerance, field)
 

@@ -53,7 +53,7 @@ def matrices(case_input: Json) -> tuple[Array, Array, Array, Array]:
 
 
 def exact_optimum(H: Array, g: Array, A: Array, b: Array) -> tuple[Array | None, Array]:
-    """The exact optimum of a program with its multipliers, or None and a Farkas vector.
+    """Exact x and lam of min 1/2 x'Hx - g'x s.t. Ax >= b; or None and a Farkas vector.
 
     Parameters
     ----------
