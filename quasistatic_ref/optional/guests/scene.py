@@ -149,6 +149,8 @@ def mujoco_scenario(
 
     Raises
     ------
+    InputError
+        If `targets` are of another kind, or none.
     ScenarioError
         Naming a field.
     ModelError
@@ -166,6 +168,8 @@ def mujoco_scenario(
     check_kind(path, str | PathLike, "path", "a path")
     wanted = "a file, names of keyframes or a function"
     check_kind(targets, Sequence | Path | Callable | None, "targets", wanted)
+    if isinstance(targets, Sequence) and not targets:
+        raise InputError(f"must be {wanted}", field="targets", value=targets)
     tables = dict(START)
     with about_changes(settings, fields):
         apply_settings(tables, settings, fields)

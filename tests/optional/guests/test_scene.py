@@ -202,6 +202,8 @@ def test_joints_without_servos_have_springs_and_fields_their_names():
     assert scene.system.of(run.q[-1], "hand/lift") == pytest.approx(0.01 - HAND * G / 1000)
     with pytest.raises(InputError, match="has a servo"):
         mujoco_scenario(model(), settings={"stiffness.lift": 1.0})
+    with pytest.raises(InputError, match=r"targets: must be a file, names of keyframes or a"):
+        mujoco_scenario(model(), targets=())
     with pytest.raises(InputError, match=r"gravity.*not for a MuJoCo scene"):
         mujoco_scenario(model(), gravity=[0, 0, -1])
 
