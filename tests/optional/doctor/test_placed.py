@@ -148,3 +148,42 @@ def test_a_density_is_that_of_the_volume_by_which_mujoco_makes_the_mass():
     scenario = of_mjcf(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
     said = [one for one in scenario.findings() if one.name == "density"]
     assert [one.numbers["density_kg_per_m3"] for one in said] == pytest.approx([3.0] * len(SIZES))
+
+
+def link(name, at, axis, ends, more=""):
+    """A capsule on a hinge, of 0.1 kg between its ends, with what hangs on it."""
+    return (
+        f'<body name="{name}" pos="{at}"><joint name="{name}" axis="{axis}"/>'
+        f'<geom type="capsule" fromto="{ends}" size=".01" mass=".1"/>{more}</body>'
+    )
+
+
+DOWN = "0 0 0 0 0 -.2"
+ACROSS = link("c", "0 0 -.2", "0 1 0", "0 0 0 .2 0 0")
+HANGING = {
+    "a closed loop": (
+        link("a", "-.1 0 1", "0 1 0", DOWN, ACROSS) + link("b", ".1 0 1", "0 1 0", DOWN),
+        '<equality><connect body1="c" body2="b" anchor=".2 0 0"/></equality>'
+        '<contact><exclude body1="b" body2="c"/></contact>',
+    ),
+    "two links in one line": (
+        link("a", "0 0 1", "0 1 0", DOWN, link("b", "0 0 -.2", "0 1 0", "0 0 -.02 0 0 -.2")), "",
+    ),
+    "fingers of a palm that goes up": (
+        '<body pos="0 0 1"><joint name="z" type="slide" axis="0 0 1"/><geom size=".03" mass=".2"/>'
+        + "".join(link(f"f{y}", f"0 {y} 0", "1 0 0", "0 0 -.02 0 0 -.1") for y in (-0.04, 0.04))
+        + "</body>",
+        '<actuator><position name="z" joint="z" kp="1000"/></actuator>',
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", HANGING)
+def test_links_that_hang_at_rest_lack_nothing(what):
+    """Their loads along their hinges are rounding."""
+    bodies, more = HANGING[what]
+    text = f"<mujoco><worldbody>{bodies}</worldbody>{more}</mujoco>"
+    model = mujoco.MjModel.from_xml_string(text)
+    targets = (lambda t: {"z": 0.1 * t}) if model.nu else None
+    run = qr.mujoco_scenario(model, h=0.02, steps=10, targets=targets).run(progress=False)
+    assert [one.sentence for one in run.findings] == []

@@ -65,12 +65,3 @@ def slides(axes, shape, down=False):
         parts.append(joint(axis, parent, child, way))
         parent = child
     return robot(*parts)
-
-
-def fingers(parent, x, y):
-    """Two round fingers `left` and `right` on slides, which close along y."""
-    parts = []
-    for name, side in (("left", 1), ("right", -1)):
-        parts.append(link(name, collision(TIP), inertial=""))
-        parts.append(joint(name, parent, name, f"0 {-side} 0", at=(x, side * y, 0)))
-    return parts
