@@ -94,7 +94,7 @@ class Relation:
         return u
 
     def end(self, j: int) -> fmpq:
-        """As :class:`Line` defines it."""
+        """The exact u_j of the relation, which is its direction of multiplier j."""
         assert self.exact is not None  # it is a relation
         return self.exact[j]
 
@@ -190,11 +190,11 @@ class Minimiser:
 
     @property
     def ends(self) -> list[arb]:
-        """As :class:`Line` defines it."""
+        """The multipliers of this minimiser, as balls: the ends of a :class:`Line`."""
         return self.balls.y
 
     def end(self, j: int) -> fmpq:
-        """As :class:`Line` defines it."""
+        """Multiplier j of this minimiser as a fraction, up to a positive factor common to all."""
         return fraction(self.fractions.y[j])
 
     def positive(self) -> tuple[int, ...]:

@@ -139,7 +139,7 @@ class NearSets:
         return self._pulls[i]
 
     def loads(self, working: Sequence[int], p: int) -> list[arb]:
-        """A_W H^-1 a_p'."""
+        """The vector A_W H^-1 a_p', with an entry for each row of the working set W."""
         pull = self.pull(p)
         place = self._place
         with working_precision(PRECISION):

@@ -102,7 +102,7 @@ class Trajectory(Plain, HasPage):
         return iter(self.arrays)
 
     def keys(self) -> KeysView[str]:
-        """Names of its arrays."""
+        """Names of the trajectory's arrays."""
         return self.arrays.keys()
 
     def __len__(self) -> int:

@@ -141,7 +141,7 @@ has slipped comes to rest by a factor of about three a step, (R6), and passes th
 
 
 def sticking_evidence() -> list[Comparison]:
-    """Every loaded contact of both grasps."""
+    """Gaps and friction of every loaded contact in the runs of both grasps, against (R19)."""
     gaps = []
     layers = []
     terms = []

@@ -47,7 +47,7 @@ def fall_evidence() -> list[Comparison]:
 
 
 def approach_evidence() -> list[Comparison]:
-    """A point mass at gaps from -1 mm to 1 cm."""
+    """Rises of a point mass that starts at gaps from -1 mm to 1 cm, against a formula."""
     gaps = [-1e-3, -1e-5, -1e-8, 0.0, 1e-8, 1e-5, 9e-4, 1e-3, 1e-2]
     sweep = grid([0.01, 0.3, 100.0], gaps, [1e-3, 1e-2, 1e-1])
     answers = [exact(point_step(m, (0, 0, -GRAVITY * m), 0.5, phi, h)) for m, phi, h in sweep]

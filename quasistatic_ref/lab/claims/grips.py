@@ -21,7 +21,7 @@ def held_bar(offset: float, grip: float, mu_v: float, mu_omega: float) -> StepDa
 
 
 def pinch_evidence() -> list[Comparison]:
-    """The offset at which the bar begins to turn."""
+    """The offset at which a held bar begins to turn, and the fingers' forces, against (R14)."""
     sweep = grid([4.0, 10.0, 40.0], [0.4, 0.8], [0.005, 0.02])
     grip, mu_v, mu_omega = sweep.T
     expected = mu_omega * (2 * grip / (M * GRAVITY) - 1 / mu_v)

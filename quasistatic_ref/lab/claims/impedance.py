@@ -10,7 +10,7 @@ from quasistatic_ref.tolerances import CLOSED_FORM
 
 
 def free_evidence() -> list[Comparison]:
-    """Random stiffnesses of 1 to 7 coordinates, condition at most 100 or so."""
+    """Displacements of 1 to 7 springs without contacts, of random K_q, against target and sag."""
     rng = np.random.default_rng(1)
     moved = []
     wanted = []

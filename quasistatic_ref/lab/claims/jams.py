@@ -105,7 +105,7 @@ def guide_turn(torque: float, phi: float) -> float:
 
 
 def locked_guide_evidence() -> list[Comparison]:
-    """Forces from a hundredth of what reaches the limit to a million times that."""
+    """Slips and turns of a body between walls, under small to huge loads, against a formula."""
     shares = [0.01, 0.5, 0.99, 1.01, 2.0, 1e3, 1e6]
     gaps = [0.0, 1e-5, 1e-3]
     slips = []

@@ -33,7 +33,7 @@ def _loaded_contact(share: float, phi: float, *direction: float) -> StepData:
 
 
 def octahedron_evidence() -> list[Comparison]:
-    """Random directions and gaps; each direction is scaled until something moves."""
+    """The least load that moves a contact, along random directions, against the octahedron."""
     rng = np.random.default_rng(3)
     directions = rng.normal(size=(24, 3))
     gaps = H**2 * GRAVITY * rng.uniform(-1.0, 0.9, size=24)
@@ -180,7 +180,7 @@ def one_step(tau: float, phi: float, h: float, mu_omega: float) -> tuple[float, 
 
 
 def step_evidence() -> list[Comparison]:
-    """Stuck, turning in contact, and turning above the floor."""
+    """One step of a sphere that sticks, turns on the floor or turns above it, against a formula."""
     limits = [0.0, 0.5, 0.999, 1.001, 1.5, 5.0]
     sweep = grid(limits, [-1e-4, 0.0, 1e-5, 3e-3], [1e-3, 1e-2, 0.05], [0.002, 0.02])
     share, phi, h, mu = sweep.T
@@ -211,7 +211,7 @@ def sequence(tau: float, phi: float, h: float, mu: float) -> Array:
 
 
 def recurrence_evidence() -> list[Comparison]:
-    """Gaps, step after step, from several gaps."""
+    """Gaps of a turning sphere, step after step, from several first gaps, against a formula."""
     gaps = []
     fixed = []
     left = []
@@ -268,7 +268,7 @@ def pressed_balls(phi: float, n: np.ndarray, d1: np.ndarray, force: np.ndarray) 
 
 
 def couple_evidence() -> list[Comparison]:
-    """Gaps of both signs, normals and loads at random."""
+    """Spurious angular impulse of two bodies at several gaps, under random loads, against (R18)."""
     rng = np.random.default_rng(4)
     changes = []
     forces = []

@@ -169,7 +169,7 @@ def _lines(every: Any, options: bool) -> list[str]:
 
 
 def _shown(value: float) -> str:
-    """A number, or a line where there is none."""
+    """A number with one decimal; a dash for NaN."""
     return f"{value:.1f}" if value == value else "-"
 
 

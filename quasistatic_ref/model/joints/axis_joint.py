@@ -55,7 +55,7 @@ class AxisJoint(Joint):
 
     @classmethod
     def neutral(cls) -> list[float]:
-        """Its entries of q at position zero."""
+        """The joint's entries of q at position zero."""
         return cls.at(0.0)
 
     def moved(self, q: list[float], delta_q: list[float]) -> list[float]:

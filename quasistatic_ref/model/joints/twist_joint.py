@@ -57,7 +57,7 @@ class TwistJoint(Joint):
 
     @classmethod
     def neutral(cls) -> list[float]:
-        """Its entries of q at the origin, without a turn."""
+        """The joint's entries of q at the origin, without a turn."""
         return cls.at(np.zeros(3), np.zeros(3))
 
     @classmethod

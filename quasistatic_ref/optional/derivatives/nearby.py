@@ -58,7 +58,7 @@ def exact_step(
 
 
 class Nearby:
-    """The steps near one.
+    """The steps of a simulator at places and parameters near those of one step.
 
     Places are compared as seen from where a step starts, which (-) does not depend on: what is far
     from the world's origin is then not rounded to more.

@@ -59,7 +59,7 @@ def is_beyond(run: Run) -> str:
 
 
 def has_own_terms(run: Run) -> str:
-    """Why no step is asked by other laws."""
+    """The reason why the steps of a run are not asked by other laws; empty if there is none."""
     return "the user's own costs or constraints are not asked" if run.own_terms else ""
 
 

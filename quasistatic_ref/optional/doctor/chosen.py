@@ -30,7 +30,7 @@ LEVER = 0.25
 
 
 class Chosen:
-    """The steps that are asked.
+    """The steps of a run at which forces and motions are questioned.
 
     Parameters
     ----------

@@ -145,7 +145,7 @@ class Rung(NamedTuple):
     moves: Array
 
     def some(self, of: Mask | Indices) -> Rung:
-        """Of some of the groups."""
+        """The same steps, of some of the groups alone."""
         return Rung._make(array[of] for array in self)
 
     def put(self, of: Indices, other: Rung) -> None:
@@ -425,7 +425,7 @@ class Slow:
         return climb
 
     def _next(self, climb: Climb, T: Array, left: Indices, of: Indices) -> Rung:
-        """The steps of those that are left of some groups at their next T.
+        """The steps of the groups `of[left]`, each at its next T.
 
         At the last one s = 0 may have an answer; where it has none yet, more iterates may lead to
         it.

@@ -81,7 +81,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class Motion:
-    """How a body moves.
+    """How fast a body moves, turns and sinks.
 
     Parameters
     ----------

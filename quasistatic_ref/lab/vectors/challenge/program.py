@@ -28,7 +28,7 @@ Simulator = Callable[[str, Json], Json]
 
 @dataclass(frozen=True)
 class Reply:
-    """What came of one question.
+    """A program's answer to one case, or why there is none.
 
     Parameters
     ----------

@@ -22,7 +22,7 @@ SHARE = 1e-9
 
 
 def own(case_input: Json) -> Json:
-    """The package's answer."""
+    """The package's derivatives of q+, or why there are none."""
     from quasistatic_ref.lab.vectors.own.derivative import own_derivative
 
     return own_derivative(case_input)

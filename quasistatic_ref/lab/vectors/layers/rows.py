@@ -17,7 +17,7 @@ def row_count(name: str, rows: int) -> int:
 
 
 def by_contact(values: Json, name: str, contacts: Json) -> list[Json]:
-    """What stands row by row, as lam does, parted by contact."""
+    """Values of rows, such as lam, as one list for each contact."""
     rest = iter(values)
     return [list(islice(rest, row_count(name, contact["rows"]))) for contact in contacts]
 
