@@ -21,12 +21,11 @@ from quasistatic_ref.simulate.header import RECORDS, Header, Record
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import ARRAYS, FULL, Reading, arrays_of, names_of, no_steps
 from quasistatic_ref.simulate.result import StepArrays, StepResult
-from quasistatic_ref.simulate.settings import Settings
+from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Drives, JointTrack, Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.simulator import Simulator
     from quasistatic_ref.simulate.user_functions import Target
 
 PACKED = 100
@@ -91,7 +90,7 @@ class Recorder:
         observers: Sequence[Observer] | None = None,
         target: Target | None = None,
     ) -> None:
-        check_kind(simulator, Settings, "simulator", "a Simulator")
+        check_kind(simulator, Simulator, "simulator", "a Simulator")
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         if record == "forces":

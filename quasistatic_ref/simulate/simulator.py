@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import FrozenInstanceError, replace
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -51,10 +51,6 @@ from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, hessian, seconds
 from quasistatic_ref.step.extension import ExtensionOfQ
-
-if TYPE_CHECKING:
-    from quasistatic_ref.simulate.result import StepResult
-
 
 GRAVITY = (0.0, 0.0, -9.81)
 FROM_LOADS = 'system.load(q, "BODY", force=(1, 0, 0)) makes it from a force in world axes'

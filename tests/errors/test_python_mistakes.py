@@ -35,6 +35,7 @@ def simulator(**more):
     return qr.Simulator(SYSTEM, [pair()], **({"h": 0.01, "K_q": 100.0} | more))
 
 
+SCENARIO = qr.load_scenario("sphere_spin")
 SIMULATOR = simulator()
 FAST = qr.FastSimulator(SIMULATOR)
 STEP = SIMULATOR.step(Q, Q_A).step
@@ -119,6 +120,7 @@ MISTAKES = {
         (lambda: qr.Sphere("0.1"), "must be a finite number"),
         (lambda: qr.Simulator(BLOCK, [], h=0.01), r"system: must be a System"),
         (lambda: qr.rollout(SYSTEM, Q, Q_A, 2), "simulator: must be a Simulator"),
+        (lambda: qr.rollout(SCENARIO, Q, Q_A, 2), "simulator: must be a Simulator"),
         (lambda: qr.solve_step(SIMULATOR), "step: must be a StepData"),
         (lambda: qr.solve_step(STEP, 3), "solver: must be the name of a backend, a function or"),
         (lambda: qr.solve_step(STEP, accuracy="1e-9"), "accuracy: must be a number greater than 0"),
@@ -156,7 +158,7 @@ MISTAKES = {
         (lambda: qr.derivatives(SYSTEM, Q, Q_A), "simulator: must be a Simulator"),
         (lambda: qr.derivatives(SIMULATOR, Q, Q_A, by=3), "by: must be names of parameters"),
         (lambda: qr.step_jax(SYSTEM), "simulator: must be a Simulator"),
-        (lambda: qr.Recorder(SYSTEM, Q), "simulator: must be a Simulator"),
+        (lambda: qr.Recorder(SCENARIO, Q), "simulator: must be a Simulator"),
         (lambda: qr.Recorder(SIMULATOR, Q).add(Q_A, STEP), "result: must be a StepResult"),
         (lambda: run(observers=[3]), "observers: must be a list of Observer"),
         (lambda: run(observers=3), "observers: must be a list of Observer"),
