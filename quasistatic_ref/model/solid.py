@@ -11,6 +11,7 @@ from quasistatic_ref.model.tree import LinkShape, Tree, TreeLink
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.frozen import finite_number
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Sphere
+from quasistatic_ref.tolerances import LARGE
 
 Homogeneous = Sphere | Box | Cylinder | Capsule
 """The shapes that :func:`solid_inertia` knows."""
@@ -33,7 +34,7 @@ def solid_tree(shape: Homogeneous, mass: float, name: str) -> Tree:
     Raises
     ------
     ModelError
-        If the shape is another one, or the mass not positive.
+        If the shape is another one, the mass is not positive, or a number is too large.
     """
     if not isinstance(shape, Homogeneous):
         problem = "must be a Sphere, Box, Cylinder or Capsule; other bodies need a URDF"
@@ -42,10 +43,19 @@ def solid_tree(shape: Homogeneous, mass: float, name: str) -> Tree:
     if not m > 0:
         raise ModelError("must be greater than 0", field=f"{name}.mass", value=mass)
     collision = LinkShape(f"{SOLID}#0", shape, np.eye(3), np.zeros(3))
-    inertia = np.diag(solid_inertia(shape, m))
-    link = TreeLink(SOLID, m, np.zeros(3), inertia, (collision,), inertia_defect(inertia))
     sizes = {size: np.asarray(value).tolist() for size, value in shape.sizes.items()}
+    _check_size(max(map(np.max, sizes.values())), f"{name}.shape", "m")
+    _check_size(m, f"{name}.mass", "kg")
+    moments = solid_inertia(shape, m)
+    _check_size(moments.max(), f"{name}.inertia", "kg m^2")
+    inertia = np.diag(moments)
+    link = TreeLink(SOLID, m, np.zeros(3), inertia, (collision,), inertia_defect(inertia))
     return Tree(Path(f"<{SOLID}>"), f"{shape.kind} {sizes}, {m!r} kg", {SOLID: link}, ())
+
+
+def _check_size(size: float, field: str, unit: str) -> None:
+    if size > LARGE:
+        raise ModelError(f"must be at most {LARGE:g} {unit}", field=field, value=float(size))
 
 
 def solid_inertia(shape: Homogeneous, mass: float) -> Array:

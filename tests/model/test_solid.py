@@ -67,6 +67,9 @@ WRONG = {
     ),
     "no mass": ((Sphere(1), 0.0), "it.mass: must be greater than 0"),
     "not finite": ((Sphere(1), np.nan), "it.mass: must be a finite number"),
+    "too heavy": ((Sphere(1), 1e300), "it.mass: must be at most 1e+15 kg"),
+    "too large": ((Sphere(1e200), 1.0), "it.shape: must be at most 1e+15 m"),
+    "too hard to turn": ((Sphere(1e9), 1.0), "it.inertia: must be at most 1e+15 kg m^2"),
 }
 
 
