@@ -16,7 +16,7 @@ nothing: a certified step reports them, and only ``certify="residual"`` refuses 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol, runtime_checkable
@@ -286,6 +286,7 @@ def verify_answer(
     True
     """
     check_step(step)
+    check_kind(active, Iterable, "active", "a list of (contact, row)")
     check_kind(claims, Certificate | None, "claims", "a Certificate")
     if claims is not None and claims.kind != "none" and not claims.is_of(step):
         return Verdict(False, "the certificate is of another step")
@@ -368,8 +369,8 @@ def _wrong_wrench(step: StepData, lam: Array | None, wrench: ArrayLike) -> str:
         return "lam is not finite"
     wrench = checked_numbers(wrench, "wrench")
     right = rounded_wrenches(step.contacts, lam[: step.offsets[-1]], step.h, step.cone)
-    if len(wrench) != len(right):
-        return f"wrench has {len(wrench)} rows; the step wants {len(right)}"
+    if np.shape(wrench)[:1] != right.shape[:1]:
+        return f"wrench has shape {np.shape(wrench)}; the step wants {right.shape}"
     wrong = (wrong_bits(f"wrench[{j}]", wrench[j], row) for j, row in enumerate(right))
     return next(filter(None, wrong), "")
 

@@ -64,6 +64,9 @@ def test_a_forged_wrench_is_refused_by_every_check(tmp_path, cli, cone):
     assert verify_answer(*answer)
     said = cli("verify", save_step(tmp_path / "step.json", step), file, status=1).out
     assert said == f"refuted: {reason}\n"
+    assert verify_answer(*answer, wrench=1.0).reason.startswith("wrench has shape ();")
+    with pytest.raises(InputError, match=r"active: must be a list of \(contact, row\)"):
+        verify_answer(step, claim.delta_q, 3)
     with pytest.raises(InputError, match="wrench: is a combination of lam: give lam, too"):
         verify_answer(step, claim.delta_q, certificate.active, wrench=claim.wrench)
 
