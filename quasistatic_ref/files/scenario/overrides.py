@@ -34,7 +34,7 @@ def about_changes(settings: Changes, named: Mapping[str, Any]) -> Iterator[None]
     except InputError as error:
         if error.file is None and error.field == SET:
             error.change = f"{SET} {error.value}"
-        elif error.file is None and error.field not in (None, "settings"):
+        elif error.file is None and error.field is not None:
             error.change = _change(error.field, settings, named)
         raise
 
@@ -45,7 +45,10 @@ def _change(field: str, settings: Changes, named: Mapping[str, Any]) -> str | No
     In Python it is the field itself; None where no change wrote it.
     """
     written: str | None = None
-    in_order = settings.items() if isinstance(settings, Mapping) else map(_of_text, settings)
+    if isinstance(settings, Mapping):
+        in_order = [*settings.items()]
+    else:
+        in_order = [_of_text(one) for one in settings] if _are_several(settings) else []
     for key, source in [*in_order, *named.items()]:
         inner = field.removeprefix(key)
         if not field.startswith(key) or inner[:1] not in ("", ".", "["):
@@ -88,7 +91,7 @@ def apply_settings(
         If a key is none, or leads to no table; or a value is nested without end.
     """
     before = _second_level(tables)
-    if isinstance(settings, str) or not isinstance(settings, Iterable):
+    if not _are_several(settings):
         problem = "must be a list of dotted.key=value, or a mapping of dotted keys to values"
         raise ScenarioError(problem, field="settings", value=settings)
     if isinstance(settings, Mapping):
@@ -106,6 +109,10 @@ def apply_settings(
         _check_whole(key, tables.get(key), value)
         tables[key] = value
     return made & _second_level(tables)
+
+
+def _are_several(settings: object) -> bool:
+    return isinstance(settings, Iterable) and not isinstance(settings, str)
 
 
 def _is_dotted(key: str) -> bool:

@@ -67,6 +67,8 @@ RECURSIVE["inner"] = RECURSIVE
 
 REFUSED = {
     "one string": ("h=1", {}, "settings: must be a list of dotted.key=value, or a mapping"),
+    "no changes": (3, {}, "settings: must be a list of dotted.key=value, or a mapping"),
+    "a field of that name": (["settings=3"], {}, "--set settings=3: is unknown; known: "),
     "a value that holds itself": ({"h": RECURSIVE}, {}, "h: is nested too deeply, or holds itself"),
     "a keyword that holds itself": ((), {"solver": RECURSIVE}, "solver: is nested too deeply"),
     "a contact that is not there": (
