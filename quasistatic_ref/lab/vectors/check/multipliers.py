@@ -9,7 +9,7 @@ from operator import mul
 
 import numpy as np
 
-from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.farkas import farkas_refutation, fractions_read
 from quasistatic_ref.lab.program.wrench import contact_wrench
 from quasistatic_ref.lab.scenes.rigid import program_step
 from quasistatic_ref.lab.vectors.check.compare import number_problem, tolerance_of
@@ -17,6 +17,7 @@ from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptanc
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
 from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.precision import nearest_fraction
 
 EPS = float(np.finfo(np.float64).eps)
 NEGLIGIBLE = 1e-9
@@ -121,7 +122,8 @@ def farkas_verdict(rows: Json, record: Json, y: Json) -> Verdict:
     A = np.array(rows["A"], dtype=np.float64).reshape(len(b), -1)
     if not isinstance(y, list) or len(y) != len(b):
         return failure("farkas", f"farkas must be a list of {len(b)}")
-    if all(isinstance(value, str) for value in y):
+    exact = all(isinstance(value, str) for value in y)
+    if exact:
         n = A.shape[1]
         problem = farkas_refutation(program_step(np.eye(n), np.zeros(n), A, b), y)
     else:
@@ -129,7 +131,7 @@ def farkas_verdict(rows: Json, record: Json, y: Json) -> Verdict:
         problem = next(filter(None, numbers), None) or _float_problem(A, b, np.array(y), tolerance)
     if problem:
         return failure("farkas", problem)
-    entries = [float(Fraction(value)) for value in y]
+    entries = [nearest_fraction(value) for value in fractions_read(y) or ()] if exact else y
     if abs(max(entries) - 1) > tolerance:
         return failure("farkas", f"the largest entry must be 1, not {max(entries)!r}")
     same = entries == record["output"]["farkas"]
@@ -142,7 +144,9 @@ def _float_problem(A: Array, b: Array, y: Array, room: float) -> str | None:
         return "farkas has a negative entry"
     for kept in (y, np.where(y > NOISE * y.max(), y, 0.0)):
         contradiction = sum(map(mul, map(Fraction, b.tolist()), map(Fraction, kept.tolist())))
-        off = np.abs(A.T @ kept)
-        if contradiction > 0 and (off <= room * (np.abs(A).T @ kept)).all():
+        with np.errstate(over="ignore", invalid="ignore"):  # such a y is too large, too
+            off = np.abs(A.T @ kept)
+            small = off <= room * (np.abs(A).T @ kept)
+        if contradiction > 0 and small.all():
             return None
     return f"b'y is not positive, or A'y is not zero: its largest entry is {off.max():.2g}"

@@ -81,6 +81,9 @@ ANSWERS = [
     ("no room", {"farkas": [1.0, 1.0, 0.9, 0.0]}, "A'y is not zero"),
     ("no room", {"farkas": [2.0, 2.0, 2.0, 0.0]}, "the largest entry must be 1, not 2.0"),
     ("no room", {"farkas": ["1", "2/3", "2/3", "-1/3"]}, "the Farkas vector has a negative entry"),
+    ("no room", {"farkas": [*3 * ["1" + "0" * 400], "0"]}, "the largest entry must be 1, not inf"),
+    ("no room", {"farkas": [*3 * ["9" * 5000], "0"]}, "the largest entry must be 1, not inf"),
+    ("no room", {"farkas": [*3 * [1e308], 0.0]}, "the largest entry must be 1, not 1e+308"),
     ("no room", {"farkas": [1.0, 1.0, 1.0]}, "farkas must be a list of 4"),
     (
         "no room",
