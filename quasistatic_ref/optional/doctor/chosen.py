@@ -78,7 +78,8 @@ class Chosen:
         sets = [drag * (of_set.ravel() == i) for i in range(of_set.max() + 1)]
         M = run.inertia(body)
         momentum = run.noted("momentum")[:, body.coordinates - run.system.n_a]
-        ways = [momentum @ np.linalg.solve(M, momentum[row.argmax()]) for row in sets]
+        most = momentum[[row.argmax() for row in sets]]
+        ways = np.linalg.solve(M, most.T).T @ momentum.T
         both = [(row * (way >= 0), row * (way < 0)) for row, way in zip(sets, ways, strict=True)]
         return [*(row for rows in both for row in rows), slip, layer]
 

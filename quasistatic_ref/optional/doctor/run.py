@@ -101,31 +101,6 @@ class Run(Start):
         return np.array([c.unit == "m" for c in self.system.coordinates], dtype=bool)
 
     @cached_property
-    def own_columns(self) -> tuple[Indices, Array, Array]:
-        """The columns of a Jacobian that move each contact, and 1 where they move its two bodies.
-
-        Their numbers, shape (n_c, w), are n_x where a contact has fewer; the others are of shape
-        (n_c, w, 1) [-].
-        """
-        moves = self.system.column_map.moves[:, 0]
-        layout = self.simulator.layout
-        link, column = np.nonzero(moves)
-        counts = np.bincount(link, minlength=len(moves))
-        place = np.arange(len(link)) - np.repeat(np.cumsum(counts) - counts, counts)
-        none = moves.shape[1]
-        of_link = np.full((len(moves), counts.max(initial=0)), none)
-        of_link[link, place] = column
-        alpha, beta = of_link[layout.link_alpha], of_link[layout.link_beta]
-        both = (beta[:, :, None] == alpha[:, None]) & (beta < none)[:, :, None]
-        x = np.hstack([alpha, np.where(both.any(axis=2), none, beta)])
-        of_alpha = np.zeros((*x.shape, 1))
-        of_alpha[:, : alpha.shape[1], 0] = alpha < none
-        of_beta = np.zeros_like(of_alpha)
-        of_beta[:, : alpha.shape[1], 0] = both.any(axis=1)
-        of_beta[:, alpha.shape[1] :, 0] = x[:, alpha.shape[1] :] < none
-        return x, of_alpha, of_beta
-
-    @cached_property
     def near(self) -> dict[str, list[Body]]:
         """The bodies of each pair, by its name."""
         of_pair: dict[str, list[Body]] = {pair.name: [] for pair in self.pairs}

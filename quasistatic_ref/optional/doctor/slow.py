@@ -5,8 +5,8 @@ slip. With T >> h the drag of a motion that is asked for, d, is M_u d / T^2, and
 left, r = -M_u delta_q_u / T^2, is what no forces of Coulomb's law bear.
 
 Answers are those of floats. What decides is the residual of s: only an s that is its own slip's
-norm is a fixed point. T climbs by factors of three, so that s starts near its own: what slides
-freely goes with T^2. As soon as a group goes so, its last two T follow.
+norm is a fixed point. T climbs by factors of three, and s starts between those of two T: what lands
+goes with T^0, and what slides freely with T^2.
 """
 
 from __future__ import annotations
@@ -176,8 +176,6 @@ class Climb:
         that up to the last T at which all is straight [m/s^2, rad/s^2].
     agree : ndarray of bool, shape (members,)
         Of which two T agree.
-    little : ndarray of bool, shape (members,)
-        Of which nothing went with T^2, from the last T but one to the last.
     """
 
     def __init__(self, high: Rung, slow: Slow, of: Indices) -> None:
@@ -190,7 +188,6 @@ class Climb:
         self.starts = np.zeros((len(of), slow.groups.M_u.shape[1]))
         self._starts = self.starts.copy()  # from the last T but one to the last
         self.agree = np.zeros(len(slow.mass), dtype=bool)
-        self.little = np.zeros(len(slow.mass), dtype=bool)
 
     def take(self, at: Indices, rung: Rung) -> None:
         """Take over the answers that some of the groups have at their next T."""
@@ -205,7 +202,6 @@ class Climb:
         starts = -change / square[:, None]
         first = self.count[at] == 2
         member = slow.member[of]
-        here = np.isin(np.arange(len(slow.mass)), member)
         again = np.isin(np.arange(len(slow.mass)), member[~first])
         size = slow.amounts(starts, of)
         differs = slow.amounts(starts - self._starts[at], of)
@@ -215,12 +211,6 @@ class Climb:
         self.starts[at] = np.where(takes, starts, self.starts[at])
         self._starts[at] = starts
         self.agree = agree
-        self.little = np.where(here, size <= SAME * slow.least, self.little)
-
-    def leads(self) -> Mask:
-        """Whether two T agree on each body of a group of which anything goes with T^2."""
-        known = self._slow.all_of(self.agree | self.little, self._of)
-        return np.asarray(known & (self.count > 2))
 
     def ahead(self, T: Array) -> Array:
         """Where s is at T, (b,) [s], shape (b, c) [m]: it lands with T^0, and slides with T^2.
@@ -393,9 +383,6 @@ class Slow:
     def climb(self, of: Indices, high: Rung) -> Climb:
         """How some groups, (b,), move on the way to the last T.
 
-        What follows from there on is passed over until the last two T; where they show anything
-        else, it is not.
-
         Parameters
         ----------
         of : ndarray of int, shape (b,)
@@ -405,23 +392,12 @@ class Slow:
         T = np.sqrt(FIRST * self.groups.sizes[of].min(axis=1, initial=1.0) / FALLS)
         T = np.minimum(T, self.end)
         climb = Climb(high, self, of)
-        back = np.zeros(len(of))  # where a group goes on that was passed over too soon [s]
-        may = np.ones(len(of), dtype=bool)
         left = np.arange(len(of))
         while left.size:
             rung = self._next(climb, T, left, of)
             climb.take(left[rung.found], rung.some(rung.found))
-            leads = climb.leads()
-            known = np.zeros(len(of), dtype=bool)
-            known[left] = rung.found & leads[left]
-            fails = np.zeros(len(of), dtype=bool)
-            fails[left] = (back[left] > 0) & ~known[left]
-            may &= ~fails
-            left = left[(T[left] < self.end) | fails[left]]
-            higher = np.minimum(FACTOR * T, self.end)
-            leaps = known & may & (back == 0) & (FACTOR * higher < self.end)
-            T = np.where(fails, back, np.where(leaps, self.end / FACTOR, higher))
-            back = np.where(leaps, higher, np.where(fails, 0.0, back))
+            left = left[T[left] < self.end]
+            T = np.minimum(FACTOR * T, self.end)
         return climb
 
     def _next(self, climb: Climb, T: Array, left: Indices, of: Indices) -> Rung:

@@ -64,7 +64,7 @@ def missing(
         except QuasistaticError as error:  # no normal, or no float64
             return lacks | dict.fromkeys((every[i] for i in np.flatnonzero(left)), failure(error))
         if foreseen is not None:
-            as_foreseen = (np.abs(scene.phi - foreseen) <= SAME * run.sizes).all()
+            as_foreseen = (np.abs(scene.every.phi - foreseen) <= SAME * run.sizes).all()
             straight = 3 * straight if as_foreseen else 1.0
         way = np.zeros(scene.step.n_v)
         goes_on = np.zeros_like(left)
@@ -88,7 +88,8 @@ def missing(
         left &= goes_on
         if not left.any():
             return lacks
-        foreseen = scene.gaps(way)
+        motion = scene.every.motion(way)[:, :3]
+        foreseen = scene.every.phi + np.vecdot(scene.every.n, motion)
         q = run.system.integrate(q, way[: run.system.n_v])
     return lacks | {every[i]: first[every[i]] for i in np.flatnonzero(left)}  # it goes on and on
 
