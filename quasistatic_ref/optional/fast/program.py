@@ -198,12 +198,14 @@ class NaturalProgram:
     ----------
     blocks : list of ndarray, shape (n, n)
         H of each group in natural units [-].
+    masses : Masses or None
+        Of which these were formed.
     """
 
     def __init__(self, steps: Steps, program: Program) -> None:
         self.program = program
         self.blocks: list[Array] = []
-        self._masses: Masses | None = None
+        self.masses: Masses | None = None
         self._coordinate = np.zeros(0)
         n = len(program.coordinates)
         m = len(program.rows)
@@ -235,8 +237,6 @@ class NaturalProgram:
 
     def take(self, masses: Masses) -> None:
         """Set the matrix H of the steps that are written from now on."""
-        if masses is self._masses:
-            return
         groups = self.program.groups
         every = [masses.of(group.coordinates) for group in groups]
         units = [coordinate_units(np.diag(H)) for H in every]
@@ -248,7 +248,7 @@ class NaturalProgram:
         structure["inverse"][:] = np.concatenate([(root.T @ root).ravel() for root in roots])
         self._coordinate = read_only(structure["unit"].copy())
         self.blocks = [H * np.outer(S, S) for H, S in zip(every, units, strict=True)]
-        self._masses = masses
+        self.masses = masses
 
     def units(self) -> Units | None:
         """The natural units of the step that was formed last.

@@ -242,7 +242,8 @@ class FastSimulator(Simulator):
             steps = self._steps
             self.solver = solver = FastSolver(steps.template, parts=steps.groups)
             self._natural = natural = NaturalProgram(steps, solver.program)
-        without_warnings(natural.take, self._steps.masses)
+        if natural.masses is not self._steps.masses:
+            without_warnings(natural.take, self._steps.masses)
         units = natural.units()
         if units is None:
             units = without_warnings(lambda: ScaledStep(step).units)
