@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.doctor.measures import drive, stiffness
 from quasistatic_ref.optional.doctor.run import Run
@@ -101,7 +102,7 @@ def _bears(run: Run, joint: Joint, k: int) -> float:
     """The slow force of a joint's spring made ten times softer [N, N m].
 
     What it presses on is then pressed with a tenth, and what it carries is as heavy. 0 where no
-    step is asked.
+    step says so: the finding stands, with its first remedy.
     """
     if not run.searched:
         return 0.0
@@ -110,7 +111,10 @@ def _bears(run: Run, joint: Joint, k: int) -> float:
     softer = np.ones(step.n_a)
     softer[v] = np.sqrt(0.1)
     K_q = step.K_q * np.outer(softer, softer)
-    solved = run.solved(step.replace(K_q=K_q, h=max(SLOWLY, 1000 * step.h)))
+    try:
+        solved = run.solved(step.replace(K_q=K_q, h=max(SLOWLY, 1000 * step.h)))
+    except QuasistaticError:
+        return 0.0
     off = step.delta_q_bar_a - solved.delta_q[: step.n_a]
     return float(abs(K_q[v] @ off))
 
