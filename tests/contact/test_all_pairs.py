@@ -107,7 +107,7 @@ CLOSED = [kind for kind in KINDS if not {"half-space", "cylinder"} & {*kind}]
 """Pairs of solids with closed forms, all about as large as each other."""
 
 
-@pytest.mark.parametrize("away", [2.0**10, 2.0**17])
+@pytest.mark.parametrize("away", [pytest.param(2.0**10, marks=pytest.mark.long), 2.0**17])
 @pytest.mark.parametrize("kind", CLOSED, ids="-".join)
 def test_two_solids_far_away_are_searched_as_at_the_origin(kind, away, count):
     """Singly and at once; places are whole multiples of 2^-20 m, so that both are the same scene.
