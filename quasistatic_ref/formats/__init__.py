@@ -1,1 +1,1 @@
-"""What every room uses of texts: plain data, quoting, JSON, objects that show themselves."""
+"""What every folder uses of texts: plain data, quoting, JSON, objects that show themselves."""

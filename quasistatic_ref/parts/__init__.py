@@ -1,9 +1,9 @@
 """What optional parts answer: a function for each word that users write and that needs one.
 
-The core names ``optional`` in this folder alone, in functions, so that a part is imported when its
-word is used. Where its folder is missing, a word that means nothing without it is refused in a
-sentence. The file of a room is imported by that room and by those above it: so types make no circle
-of rooms.
+The core names ``optional`` in this folder, and in ``contact`` for pairs of curved solids: in
+functions, so that a part is imported when its word is used. Where its folder is missing, a word
+that means nothing without it is refused in a sentence. A file of this folder is imported by the
+folder of the core that it is called after, and by those above that: so types make no circle.
 """
 
 from __future__ import annotations
