@@ -1,4 +1,4 @@
-"""A file takes at most forty times its size in memory, whatever it holds; it is read or refused."""
+"""A file of the largest size takes at most forty times its size in memory, read or refused."""
 
 import struct
 import tracemalloc

@@ -73,7 +73,7 @@ static void normal_of_core(const double *size, const double *x, double *normal)
         normal[i] = copysign(outside == 0.0 ? (i == face) : beyond[i] / outside, x[i] + 0.0);
 }
 
-/* contact/tied_faces, `cloud_surface`: whether two faces of a box may be as high, where a point touches
+/* contact/normals, `cloud_surface`: whether two faces of a box may be as high, where a point touches
    or is inside. Then Python says which one the normal is of. */
 static int faces_tie(const double *size, const double *x, double phi, double within)
 {
