@@ -4,7 +4,7 @@ The names of each table are checked before any value is read, so a misspelt name
 it is, and not as the absence of the right one.
 """
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -81,25 +81,25 @@ def _as_setting(near: str, other: str, table: TableReader) -> str:
     return f', as a setting "{kind}.{name}.{field}"'
 
 
-def check_made(made: Collection[tuple[str, str]], tables: dict[str, Any]) -> None:
+def check_made(made: Mapping[tuple[str, str], str], tables: dict[str, Any]) -> None:
     """Refuse a change whose dotted key names a body or contact table that does not exist.
 
     Parameters
     ----------
-    made : collection of (str, str)
-        ``("contacts", "grp")`` for each table that a change led into and that was not there.
+    made : mapping of (str, str) to str
+        The key of the change by ``("contacts", "grp")``, for each table that was not there.
     tables : dict
 
     Raises
     ------
     ScenarioError
-        Naming the nearest table that was there.
+        Naming the change, and the nearest table that was there.
     """
-    for kind, name in made:
+    for (kind, name), key in made.items():
         if kind in ESSENTIAL and ESSENTIAL[kind] not in tables[kind][name]:
             existing = [other for other in tables[kind] if (kind, other) not in made]
             near = f"{nearest_name(name, existing) or ';'} {known_names(existing)}"
-            raise ScenarioError(f"is not a table of this file{near}", field=f"{kind}.{name}")
+            raise ScenarioError(f"{kind}.{name} is no table of the scenario{near}", field=key)
 
 
 def check_sizes(value: Any, name: str = "") -> None:

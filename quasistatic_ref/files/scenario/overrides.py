@@ -4,6 +4,7 @@ import itertools
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from operator import eq
 from pathlib import PurePath
 from typing import Any
 
@@ -68,7 +69,7 @@ def _of_text(setting: str) -> tuple[str, str]:
 
 def apply_settings(
     tables: dict[str, Any], settings: Changes, named: Mapping[str, Any]
-) -> set[tuple[str, str]]:
+) -> dict[tuple[str, str], str]:
     """Apply the user's changes to a scenario's tables, in place.
 
     Parameters
@@ -81,9 +82,9 @@ def apply_settings(
 
     Returns
     -------
-    set of (str, str)
-        ``("contacts", "grp")`` for each table of ``[contacts]`` that a dotted key has made, and so
-        for the other tables at the top.
+    dict of (str, str) to str
+        The dotted key by ``("contacts", "grp")`` for each table of ``[contacts]`` that a dotted
+        key has made, and so for the other tables at the top.
 
     Raises
     ------
@@ -94,12 +95,15 @@ def apply_settings(
     if not _are_several(settings):
         problem = "must be a list of dotted.key=value, or a mapping of dotted keys to values"
         raise ScenarioError(problem, field="settings", value=settings)
+    keys = [*filter(_is_dotted, named)]
     if isinstance(settings, Mapping):
+        keys += map(str, settings)
         for key, value in settings.items():
             _put(tables, str(key), python_value(key, value), "settings", key)
     else:
         for setting in settings:
             key, equals, text = str(setting).partition("=")
+            keys.append(key.strip())
             _put(tables, key if equals else "", parsed(text), SET, setting)
     for key in filter(_is_dotted, named):
         _put(tables, key, python_value(key, named[key]), "settings", key)
@@ -108,7 +112,13 @@ def apply_settings(
         value = python_value(key, named[key])
         _check_whole(key, tables.get(key), value)
         tables[key] = value
-    return made & _second_level(tables)
+    return {pair: _leading_to(pair, keys) for pair in made & _second_level(tables)}
+
+
+def _leading_to(pair: tuple[str, str], keys: Iterable[str]) -> str:
+    """The first dotted key that leads to a table, or to the table that holds it."""
+    parts = ((key, [part.strip() for part in key.split(".")]) for key in keys)
+    return next(key for key, words in parts if all(map(eq, words, pair)))
 
 
 def _are_several(settings: object) -> bool:

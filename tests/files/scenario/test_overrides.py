@@ -74,7 +74,18 @@ REFUSED = {
     "a contact that is not there": (
         ["contacts.flor.mu_v=1"],
         {},
-        "contacts.flor: is not a table of this file; did you mean",
+        "--set contacts.flor.mu_v=1: contacts.flor is no table of the scenario; did you mean "
+        "'floor'?",
+    ),
+    "a contact that is not there, in Python": (
+        {"h": 0.01, "contacts.flor.mu_v": 1},
+        {},
+        "contacts.flor.mu_v: contacts.flor is no table of the scenario; did you mean 'floor'?",
+    ),
+    "a body that is not there, as a keyword": (
+        (),
+        {"bodies.bal.mass": 1},
+        "bodies.bal.mass: bodies.bal is no table of the scenario; did you mean 'ball'?",
     ),
     "no key": ({"": 3}, {}, "settings: must be table.field=value, such as contacts.floor.mu_v=0.5"),
     "a part of a contact": (
@@ -96,7 +107,7 @@ REFUSED = {
 
 @cases("settings, named, says", REFUSED)
 def test_changes_that_cannot_be_made_are_one_sentence(path, settings, named, says):
-    file = f"{path}: " if says.startswith(("settings", "contacts.flor")) else ""
+    file = f"{path}: " if says.startswith("settings") else ""
     with refusal(InputError, f"{file}{says}"):
         load_scenario(path, settings, **named)
 
