@@ -68,6 +68,14 @@ def _add_challenge(action: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Do one of the actions."""
+    from quasistatic_ref.lab.vectors.files import check_layer
+
+    words = [("--layer", name) for name in getattr(options, "layers", None) or ()]
+    if options.action == "check":
+        words += [("--only", prefix) for prefix in options.only]
+        words += [("--case", options.case)] if options.case else []
+    for option, word in words:
+        check_layer(word.partition("/")[0], f"{option} {word}")
     return RUNS[options.action](options)
 
 
@@ -132,11 +140,10 @@ def _generate(options: argparse.Namespace) -> int:
 
 
 def _own(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.vectors.files import check_layer
     from quasistatic_ref.lab.vectors.generate import own_written
     from quasistatic_ref.lab.vectors.layers import LAYERS
 
-    names = [check_layer(name) for name in options.layers or LAYERS]
+    names = options.layers or LAYERS
     for path in own_written(_vectors(options), options.out, names, not options.quiet):
         print(path)
     return 0

@@ -115,10 +115,13 @@ def answers_written(
     return text_written(Path(folder) / f"{layer}.json", lines({**record, "answers": answers}))
 
 
-def check_layer(name: str) -> str:
-    """The name of a layer; InputError if no layer has it."""
+def check_layer(name: str, option: str | None = None) -> str:
+    """The name of a layer; InputError if no layer has it, naming the option that wrote it."""
     if name not in LAYERS:
-        raise InputError(f"is not a layer{suggestion(name, LAYERS)}", field="layer", value=name)
+        problem = f"is not a layer{suggestion(name, LAYERS)}"
+        if option is not None:
+            raise InputError(problem, field=option)
+        raise InputError(problem, field="layer", value=name)
     return name
 
 
