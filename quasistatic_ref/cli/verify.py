@@ -9,8 +9,10 @@ from pathlib import Path
 from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words
-from quasistatic_ref.files.solution import load_solution
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.files.solution import SOLUTION_FORMAT, load_solution
 from quasistatic_ref.parts import needing
+from quasistatic_ref.step.text import STEP_FORMAT
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -26,7 +28,14 @@ def run(options: argparse.Namespace) -> int:
     if options.solution is None:
         with needing("an answer of exact_qp"):
             from quasistatic_ref.optional.qp.files import load_answer
-        verdict = verify(load_answer(options.step))
+        try:
+            answer = load_answer(options.step)
+        except InputError as error:
+            if error.field == "format" and error.value in (STEP_FORMAT, SOLUTION_FORMAT):
+                problem = "is one of two files: give the step file, then its solution file"
+                raise InputError(problem, file=options.step) from None
+            raise
+        verdict = verify(answer)
         proved = "all that it says of its quadratic program is exact"
     else:
         solution = load_solution(options.solution, shared.step_of(options))

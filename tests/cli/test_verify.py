@@ -22,6 +22,10 @@ def test_verify_says_that_an_answer_is_false_and_names_a_file_that_is_missing(
     assert one_sentence(cli("verify", step, tmp_path / "none.json", status=2).err).endswith(
         "none.json: no such file"
     )
+    for alone in (step, false):
+        assert one_sentence(cli("verify", alone, status=2).err).endswith(
+            f"{alone}: is one of two files: give the step file, then its solution file"
+        )
 
 
 NAMES = ("product", "facets-6", "frictionless", "ellipsoid")
