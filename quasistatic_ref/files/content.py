@@ -211,6 +211,9 @@ def text_of(content: bytes, path: str | Path, error: type[InputError] = InputErr
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as failure:
+        if content.startswith(b"PK"):
+            problem = "is a ZIP archive, as a trajectory is, and not text"
+            raise error(problem, file=path) from None
         line = content[: failure.start].count(b"\n") + 1
         raise error("is not UTF-8 text", file=path, field=f"line {line}") from None
 

@@ -135,6 +135,13 @@ def test_what_is_not_utf_8_names_its_line():
         text_of(b"one\ntwo\n\xff", "t")
 
 
+def test_a_trajectory_in_the_place_of_a_text_is_named_as_what_it_is(tmp_path):
+    np.savez(path := tmp_path / "run.npz", q=np.zeros(3))
+    for reader in (toml_read, json_read):
+        with pytest.raises(InputError, match=r"run\.npz: is a ZIP archive, as a trajectory is"):
+            reader(path)
+
+
 READERS = {
     "TOML": toml_read,
     "JSON": json_read,
