@@ -131,7 +131,8 @@ def run(options: argparse.Namespace) -> int:
             for line in telling.lines(numbers):
                 shared.print_wrapped(line, "    ")
         times = summary["milliseconds_per_step"].items()
-        print(f"ms per step: {', '.join(f'{stage} {ms:.2f}' for stage, ms in times)}")
+        if times:
+            print(f"ms per step: {', '.join(f'{stage} {ms:.2f}' for stage, ms in times)}")
         print(f"wrote {' and '.join(map(str, written))}")
     return int(options.strict and any(finding.grave for finding in trajectory.findings))
 

@@ -12,6 +12,7 @@ LONGEST = 200
 MOST_NAMES = 50
 """Most names that a sentence lists."""
 OTHER_WORDS = {
+    "-o": "--out --output",
     "h": "dt time_step timestep",
     "t": "time",
     "steps": "n_steps num_steps nsteps horizon",

@@ -32,6 +32,7 @@ def test_any_command_can_be_interrupted(tmp_path, cli, monkeypatch):
         (["run", "x.toml", "contacts.a.k=3"], "did you mean '--set contacts.a.k=3'?"),
         (["run", "x.toml", "--slow"], "usage: quasistatic-ref run "),
         (["run", "x.toml", "--steps", "5"], "did you mean '--set steps=5'?"),
+        (["extract", "x.npz", "--step", "0", "--out", "s.json"], "did you mean '-o'?"),
         (["vectors", "check", "x", "--jsn"], "did you mean '--json'?"),
         (["extract", "x.npz", "--step", "first"], "--step: invalid int value: 'first'"),
     ],

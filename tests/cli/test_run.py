@@ -29,6 +29,12 @@ def test_run_writes_the_trajectory_and_tells_of_it(scene, out, cli):
     assert load_trajectory(out / "scene.npz").steps == 5
 
 
+def test_a_run_of_no_steps_prints_no_times(scene, out, cli):
+    for steps, printed in ((0, False), (1, True)):
+        words = cli("run", scene, "--out", out, "--set", f"steps={steps}").out
+        assert ("ms per step" in words) == printed
+
+
 def test_run_says_once_what_of_a_file_means_nothing_to_the_model(tmp_path, out, cli):
     loops = '<loop_joint name="l"/><link name="z"><odd/></link>'
     ground = joint("y", "rail", "z", "fixed")
