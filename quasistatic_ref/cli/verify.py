@@ -24,7 +24,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Verify a solution file; exit status 0 if all of its claims hold, 1 if not."""
+    """Verify a solution file; exit status 0 if all of its claims hold, 1 if not.
+
+    Raises
+    ------
+    InputError
+        If a file is spoilt, or a step or a solution is given alone.
+    """
     if options.solution is None:
         with needing("an answer of exact_qp"):
             from quasistatic_ref.optional.qp.files import load_answer
