@@ -79,7 +79,9 @@ def missing(
             unknown = slow.bodies_in(answer.of[answer.unknown])
             lacks |= dict.fromkeys((every[i] for i in unknown), NO_ANSWER)
             for m in np.flatnonzero(answer.lacks).tolist():
-                lacks[every[slow.body_of[m]]] = answer.missing(m, every[slow.body_of[m]])
+                lack = answer.missing(m, every[slow.body_of[m]])
+                if lack.amount > slow.least[m]:  # also alone, not with what others move of it
+                    lacks[every[slow.body_of[m]]] = lack
             goes = answer.of[answer.goes_on]
             for m in slow.members_of(goes).tolist():
                 first.setdefault(every[slow.body_of[m]], answer.missing(m, every[slow.body_of[m]]))
