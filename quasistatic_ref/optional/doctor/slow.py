@@ -13,15 +13,14 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import daqp
 import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.doctor.artifacts import quotient
 from quasistatic_ref.optional.doctor.fixed_points import Iterates, fixed_points
+from quasistatic_ref.optional.doctor.nearest import nearest
 from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.tolerances import ACCURACY
 
 SLOWLY = 10.0
 """T [s], or a thousand h if that is more: what nothing bears falls by 500 m."""
@@ -54,9 +53,6 @@ LITTLE = 1e-3
 """Force that is none, over a body's own load [-]."""
 GROUP = 50_000
 """Most entries of J, 4 n_c n_v, of a group that is asked."""
-TOLERANCES = 1e-14, ACCURACY
-"""DAQP's, over the largest motion that is asked for [-]. The first is near rounding: at the last T
-what loads ask for is 1e9 times as long as what may count of a slip."""
 AXES = np.concatenate([np.eye(3), -np.eye(3)])
 """Tangents to a round cone that always stand, in units of (mu_v, mu_v, mu_omega) [-]."""
 
@@ -510,7 +506,7 @@ class Program:
         return delta_q, forces, solved
 
     def _solved(self, of: Indices, s: Array) -> tuple[Array, Array, Mask]:
-        """x, (k, n), what tangents press with, (k, c, t) [N], and where DAQP has an answer, (k,).
+        """x, (k, n), what tangents press with, (k, c, t) [N], and where there is an answer, (k,).
 
         Rows have length one, and so has the largest of the numbers that ask for a motion.
         """
@@ -529,19 +525,12 @@ class Program:
         x = f / size[:, None]
         lam = np.zeros(b.shape)
         solved = np.isfinite(b).all(axis=1) & np.isfinite(A).all(axis=(1, 2))
-        H = np.eye(n)
-        above = np.full(c * t + groups.b.shape[1], np.inf)
-        cold = np.zeros(len(above), np.int32)
-        f = -f / size[:, None]
         b = b / size[:, None]
-        for i in np.flatnonzero(solved).tolist() if above.size else ():
-            program = H, f[i], A[i], above, b[i], cold
-            for tolerance in TOLERANCES:
-                x[i], _, flag, info = daqp.solve(*program, primal_tol=tolerance, dual_tol=tolerance)
-                if flag == 1:
-                    break
-            lam[i] = -info["lam"]  # those of lower bounds are negative
-            solved[i] = flag == 1
+        for i in np.flatnonzero(solved).tolist() if b.shape[1] else ():
+            answer = nearest(x[i], A[i], b[i])
+            solved[i] = answer is not None
+            if answer is not None:
+                x[i], lam[i] = answer
         x = x * size[:, None]
         solved &= np.isfinite(x).all(axis=1)
         pushes = np.where(moves, lam * size[:, None] / length, 0.0)[:, : c * t]
