@@ -132,9 +132,13 @@ def amount(x: float, unit: str) -> str:
 
 
 def rounded(x: float, towards: Callable[[float], float]) -> float:
-    """A number x > 0 [any unit] to two digits: up by ``np.ceil``, down by ``np.floor``."""
+    """Two digits beyond x > 0 [any unit]: above it by ``np.ceil``, below it by ``np.floor``.
+
+    A number that has two digits is left, too: at x itself rounding would decide.
+    """
     digits = 10.0 ** np.floor(np.log10(x) - 1)
-    return float(towards(x / digits) * digits)
+    beyond = 1e-9 * (2 * towards(0.5) - 1)
+    return float(towards(x / digits * (1 + beyond)) * digits)
 
 
 def length(x: float) -> str:
