@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache, partial
+from functools import cache, lru_cache, partial
 from importlib import import_module
 from types import ModuleType
 
@@ -48,7 +48,7 @@ def _solver() -> Callable[[Array, Array, Array], Nearest | None]:
         return _by_clarabel
 
 
-@cache
+@lru_cache(maxsize=16)
 def _constants(n: int, m: int) -> tuple[Array, Array, Array]:
     """H, upper ends of the rows, and the kinds of the rows, as DAQP has them."""
     return np.eye(n), np.full(m, np.inf), np.zeros(m, np.int32)
