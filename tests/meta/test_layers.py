@@ -119,8 +119,8 @@ def test_a_planted_word_is_found(name, source):
 def test_step_certify_and_solve_work_without_pinocchio_and_coal():
     modules = [
         "quasistatic_ref." + ".".join(path.relative_to(PACKAGE).with_suffix("").parts)
-        for room in ("numbers", "step", "certify", "solve")
-        for path in sorted((PACKAGE / room).rglob("*.py"))
+        for folder in ("numbers", "step", "certify", "solve")
+        for path in sorted((PACKAGE / folder).rglob("*.py"))
         if path.name != "__init__.py"
     ]
     assert len(modules) >= 9
