@@ -68,7 +68,7 @@ def written(script):
     from nbclient import NotebookClient
 
     made = jupytext.read(script)
-    NotebookClient(made, timeout=600).execute()
+    NotebookClient(made, timeout=600, record_timing=False).execute()
     for number, cell in enumerate(made.cells):
         cell.id = f"cell-{number}"  # the same every time
     made.metadata.pop("widgets", None)

@@ -36,25 +36,26 @@ def block(push, mu_v=0.5, mu_omega=0.02, torque=0.0):
 # %% [markdown]
 # ## The cone, and a load in it
 #
-# The six rows of a contact share one normal force: |f_1| / mu_v + |f_2| / mu_v + |tau_n| / mu_omega <= f_n. Move mu_v and the push. The point is the load; on the edge of the area the block slides.
+# The six rows of a contact share one normal force: |f_1| / mu_v + |f_2| / mu_v + |tau_n| / mu_omega <= f_n. Move mu_v, the push and the torque. The point is the friction; on the edge of the area the block slides. A torque about the normal uses up a part of the normal force, so the area shrinks.
 
 
 # %%
-def draw_cone(axes, wrench, mu_v):
-    """The section |f_1| + |f_2| <= mu_v f_n, and the friction in it."""
-    f_1, f_2, f_n, _ = wrench
-    corners = mu_v * f_n * np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
+def draw_cone(axes, wrench, mu_v, mu_omega=0.02):
+    """The section |f_1| + |f_2| <= mu_v (f_n - |tau_n| / mu_omega), and the friction in it."""
+    f_1, f_2, f_n, tau_n = wrench
+    bound = mu_v * (f_n - abs(tau_n) / mu_omega)
+    corners = bound * np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
     axes.fill(*corners.T, color="0.8", label="what friction can bear")
     axes.plot([0, f_1], [0, f_2], "o-", color="tab:red", markevery=[1], label="the friction")
     axes.set(aspect="equal", xlabel="$f_{d_1}$ [N]", ylabel="$f_{d_2}$ [N]")
-    axes.legend(loc="lower left", fontsize="small")
 
 
-def cone(mu_v, push):
-    """The section of the cone at the normal force, with what the table bears."""
-    solution = qr.solve_step(block(push, mu_v))
+def cone(mu_v, push, torque):
+    """The section of the cone at the normal force and moment, with what the table bears."""
+    solution = qr.solve_step(block(push, mu_v, torque=torque))
     _, axes = plt.subplots(figsize=(4, 3.4), layout="constrained")
     draw_cone(axes, solution.wrench[0], mu_v)
+    axes.legend(loc="lower left", fontsize="small")
     axes.set_title(f"slip {1e6 * solution.delta_q[0]:.1f} um")
     plt.show()
 
@@ -63,6 +64,7 @@ sliders = interact(
     cone,
     mu_v=FloatSlider(0.5, min=0.1, max=1.0, step=0.1),
     push=FloatSlider(3.0, min=0.0, max=9.0, step=0.5),
+    torque=FloatSlider(0.0, min=0.0, max=0.3, step=0.02, readout_format=".2f"),
 )
 # %% [markdown]
 # The same as a static figure, for two pushes:
@@ -73,6 +75,7 @@ for axes, push in zip(both, (3.0, 6.0), strict=True):
     solution = qr.solve_step(block(push))
     draw_cone(axes, solution.wrench[0], 0.5)
     axes.set_title(f"push {push:g} N: slip {1e6 * solution.delta_q[0]:.0f} um")
+both[0].legend(loc="lower left", fontsize="small")
 plt.show()
 
 # %% [markdown]
