@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from os import PathLike
-from pathlib import Path
+from os import PathLike, fspath
 from types import UnionType
 
 from quasistatic_ref.formats.quoting import clipped, one_line, short_words, shown_value
@@ -72,7 +71,7 @@ class InputError(QuasistaticError, ValueError):
         *,
         field: str | None = None,
         value: object = None,
-        file: str | Path | None = None,
+        file: str | PathLike[str] | None = None,
     ) -> None:
         self.problem = problem
         self.field = field
@@ -82,7 +81,7 @@ class InputError(QuasistaticError, ValueError):
         super().__init__(problem)
 
     def __str__(self) -> str:
-        where = f"{clipped(str(self.file))}: " if self.file is not None else ""
+        where = f"{clipped(fspath(self.file))}: " if self.file is not None else ""
         what = f"{clipped(self.field)}: " if self.field is not None else ""
         got = f" (got {shown_value(self.value)})" if self.value is not None else ""
         if self.change is not None:
@@ -92,7 +91,7 @@ class InputError(QuasistaticError, ValueError):
             what = ""
         return one_line(f"{where}{what}{short_words(self.problem)}{got}")
 
-    def in_file(self, file: str | Path) -> InputError:
+    def in_file(self, file: str | PathLike[str]) -> InputError:
         """The same error, saying which file it is about (unless another place is named)."""
         if self.file is None and self.change is None:
             self.file = file
@@ -182,7 +181,7 @@ class BackendError(InputError):
 
 
 @contextmanager
-def about_file(file: str | Path) -> Iterator[None]:
+def about_file(file: str | PathLike[str]) -> Iterator[None]:
     """Make an InputError of this block say which file it is about, unless it says so already."""
     check_kind(file, str | PathLike, "path", "a path")
     try:

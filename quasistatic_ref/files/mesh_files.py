@@ -74,8 +74,10 @@ def mesh_path(
         path = None
     if path is None:
         where = ", ".join(str(package) for package in packages) or str(folder.resolve())
-        hint = "; --root FOLDER names another" if uri.startswith(PACKAGE) else ""
-        raise ModelError(f"no such file (looked for in {where}{hint})", value=uri)
+        remedy = "put the mesh there, or write its path from there"
+        if uri.startswith(PACKAGE):
+            remedy = "--root FOLDER names another"
+        raise ModelError(f"no such file (looked for in {where}; {remedy})", value=uri)
     if not any(path.is_relative_to(allowed.resolve()) for allowed in [folder, *packages]):
         problem = (
             f"leads to {path}, outside the folder of this file and of package_dirs; "

@@ -25,7 +25,7 @@ def scenario_names() -> list[str]:
     return sorted(path.stem for path in models_folder().glob("*/*.toml"))
 
 
-def scenario_path(name: str | Path) -> Path:
+def scenario_path(name: str | os.PathLike[str]) -> Path:
     """A scenario file: a path as it is, or the name of one that comes with the package.
 
     Raises
@@ -37,7 +37,7 @@ def scenario_path(name: str | Path) -> Path:
     if path.suffix == ".toml" or os.path.exists(path):  # Path's own raises for a name too long
         return path
     for known in models_folder().glob("*/*.toml"):
-        if known.stem == str(name):
+        if known.stem == str(path):
             return known
-    hint = suggestion(str(name), scenario_names())
+    hint = suggestion(str(path), scenario_names())
     raise ScenarioError(f"is neither a file nor an installed scenario{hint}", file=name)

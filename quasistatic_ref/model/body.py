@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -65,7 +66,7 @@ class Body(Plain):
     """
 
     name: str
-    urdf: str | Path | Tree
+    urdf: str | PathLike[str] | Tree
     base: str = "fixed"
     actuated: Sequence[str] = ()
     xyz: ArrayLike = (0.0, 0.0, 0.0)
@@ -97,9 +98,11 @@ class Body(Plain):
         obstacle = None if self.base == FIXED else BASES[self.base].obstacle(xyz, rpy, xyz)
         if obstacle is not None:
             raise ModelError(obstacle, field=f"{self.name}.rpy", value=rpy.tolist())
-        if not isinstance(self.urdf, str | Path | Tree):
+        if not isinstance(self.urdf, str | PathLike | Tree):
             problem = "must be a path, or a URDF as text"
             raise ModelError(problem, field=f"{self.name}.urdf", value=type(self.urdf).__name__)
+        if isinstance(self.urdf, PathLike):
+            object.__setattr__(self, "urdf", Path(self.urdf))
         if not isinstance(self.positions, Mapping):
             problem = "must be a mapping of joints to numbers, as in {'elbow': 0.3}"
             raise ModelError(problem, field=f"{self.name}.positions", value=self.positions)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.model.tree import Tree
 
 
-def urdf_tree(source: str | Path, package_dirs: Sequence[str | Path]) -> Tree:
+def urdf_tree(source: str | PathLike[str], package_dirs: Sequence[str | Path]) -> Tree:
     """A body's URDF: the tree in a file, or in a text that begins with ``<``.
 
     Parameters

@@ -120,7 +120,7 @@ OUTSIDE = {
     "on the web": ("https://host/a.obj", "must be package://NAME/PATH or a relative path"),
     "twice": ("file://https://host/a.obj", "must be package://NAME/PATH or a relative path"),
     "no package": ("package://arm/b.obj", r"no such file \(looked for in .*home.*--root FOLDER"),
-    "missing": ("b.obj", "no such file"),
+    "missing": ("file://b.obj", "no such file .*home; put the mesh there, or write its path"),
     "kind": ("a.blend", "is not a known kind of mesh; known: .dae, .glb"),
 }
 

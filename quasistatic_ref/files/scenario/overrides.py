@@ -5,7 +5,7 @@ import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from operator import eq
-from pathlib import PurePath
+from os import PathLike, fspath
 from typing import Any
 
 from quasistatic_ref.errors import InputError, ScenarioError
@@ -194,8 +194,8 @@ def python_value(field: object, value: Any, of_others: bool = False) -> Any:
 
 
 def _as_parsed(value: Any) -> Any:
-    if isinstance(value, str | PurePath):
-        return OwnWord(value)
+    if isinstance(value, str | PathLike):
+        return OwnWord(fspath(value))
     if isinstance(value, Mapping):
         return {str(key): _as_parsed(inner) for key, inner in value.items()}
     return [_as_parsed(inner) for inner in value] if isinstance(value, list) else value

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -171,7 +172,7 @@ class Scenario(Settings, Plain, Shown):
 
 
 def load_scenario(
-    name: str | Path | Mapping[str, Any],
+    name: str | PathLike[str] | Mapping[str, Any],
     settings: Changes = (),
     *,
     of_others: bool = False,
@@ -181,7 +182,7 @@ def load_scenario(
 
     Parameters
     ----------
-    name : str, Path or mapping
+    name : str, path or mapping
         A file; the name of a scenario that comes with the package; or the tables themselves, as
         :func:`~quasistatic_ref.files.scenario.scene_words.scene_tables` takes them.
     settings : sequence of str, or mapping of str to object
@@ -223,7 +224,7 @@ def load_scenario(
             apply_settings(tables, settings, fields)
             check_sizes(tables)
             return _scenario(HERE, TableReader(tables, error=ScenarioError))
-    check_kind(name, str | Path, "name", "a path, an installed scenario's name or a mapping")
+    check_kind(name, str | PathLike, "name", "a path, an installed scenario's name or a mapping")
     path = scenario_path(name)
     with about_file(path), about_changes(settings, fields):
         tables = toml_read(path, ScenarioError, "a scenario, which is TOML")

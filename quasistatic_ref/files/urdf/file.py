@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from os import PathLike
 from pathlib import Path
 from typing import Final, NamedTuple
 
@@ -65,7 +66,7 @@ class UrdfText(NamedTuple):
         return mesh_path(uri, self.path.parent, package_dirs, is_of_file=self.path != TEXT)
 
 
-def urdf_text(source: str | Path) -> UrdfText:
+def urdf_text(source: str | PathLike[str]) -> UrdfText:
     """The text of a URDF file, or a string that is a URDF: one that begins with ``<``.
 
     Raises
@@ -79,7 +80,9 @@ def urdf_text(source: str | Path) -> UrdfText:
     return UrdfText(path, text_read(path, ModelError, LARGEST_FILE))
 
 
-def urdf_tree(source: str | Path, package_dirs: Sequence[str | Path] = ()) -> Tree:
+def urdf_tree(
+    source: str | PathLike[str], package_dirs: Sequence[str | Path] = ()
+) -> Tree:
     """The tree of a URDF file, or of a string that is a URDF.
 
     pinocchio's own reader reports trouble to standard error and carries on without the collision

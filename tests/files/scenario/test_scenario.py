@@ -1,14 +1,18 @@
 """Scenario files: what each table comes to, and refusals that name file, field and value."""
 
+import os
+
 import numpy as np
 import pytest
 
 from quasistatic_ref import (
+    Body,
     Box,
     Capsule,
     ContactPair,
     HalfSpace,
     PointCloud,
+    ScenarioError,
     load_scenario,
 )
 from tests.cases import cases
@@ -163,3 +167,27 @@ def test_a_body_with_a_cloud_is_its_cloud_by_name(load, tmp_path):
     assert isinstance(floor.beta.shape, PointCloud)
     assert isinstance(push.beta.shape, PointCloud)
     assert (floor.beta.link, floor.n_c) == (scenario.system.link("ball"), 2)
+
+
+class Place(os.PathLike):
+    """A path that is no Path, as an entry of `os.scandir` is."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def __fspath__(self):
+        return str(self.path)
+
+    def __repr__(self):
+        return "<Place>"
+
+
+def test_every_path_is_taken_that_python_opens(tmp_path):
+    urdf = urdf_of_text(tmp_path, robot(link("a")))
+    scene = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
+    scene += '[bodies.r]\nurdf = "r.urdf"\nbase = "floating"\n'
+    file = Place(urdf_of_text(tmp_path, scene, "s.toml"))
+    scenario = load_scenario(file, {"bodies.r.urdf": Place(urdf)}, contacts={})
+    assert scenario.bodies["r"] == Body("r", Place(urdf), "floating", package_dirs=[tmp_path])
+    with pytest.raises(ScenarioError, match="nowhere.toml: no such file"):
+        load_scenario(Place("nowhere.toml"))
