@@ -1,6 +1,6 @@
 """K_q in each form that a user may give it: a matrix, a diagonal, a number, or by name."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.model.named import check_apart
 from quasistatic_ref.model.system import System
-from quasistatic_ref.numbers.arrays import Array, checked_array, checked_numbers
+from quasistatic_ref.numbers.arrays import Array, Indices, checked_array, checked_numbers, read_only
 from quasistatic_ref.numbers.pivots import positive_definite
 
 
@@ -29,30 +29,43 @@ def stiffness_matrix(system: System, K_q: ArrayLike | Mapping[str, ArrayLike]) -
         not positive definite.
     """
     if not isinstance(K_q, Mapping):
-        return positive_definite("K_q", stiffness_block(K_q, "K_q", system.n_a))
+        return of_parts([("K_q", np.arange(system.n_a), K_q)], system.n_a)
     places = {name: system.named.change(name) for name in K_q}
     check_apart(places, "K_q[{}]", StepDataError)
-    matrix = np.zeros((system.n_a, system.n_a))
-    for name, block in K_q.items():
-        coordinates = places[name]
+    for name, coordinates in places.items():
         if (coordinates >= system.n_a).any():
-            raise StepDataError("is not actuated", field=f"K_q[{name}]", value=block)
-        part = stiffness_block(block, f"K_q[{name}]", len(coordinates))
-        matrix[np.ix_(coordinates, coordinates)] = part
+            raise StepDataError("is not actuated", field=f"K_q[{name}]", value=K_q[name])
+    parts = [(f"K_q[{name}]", places[name], numbers) for name, numbers in K_q.items()]
+    matrix = of_parts(parts, system.n_a)
     for coordinate, stiffness in zip(system.coordinates, np.diag(matrix), strict=False):
         if stiffness == 0:
             raise StepDataError(f"has no stiffness for {coordinate.joint}", field="K_q")
-    return positive_definite("K_q", matrix)
+    return matrix
 
 
-def stiffness_block(numbers: ArrayLike, name: str, n: int) -> Array:
-    """A stiffness matrix (n, n) from a number, a diagonal or a matrix [N/m, N m/rad].
+def of_parts(parts: Iterable[tuple[str, Indices, ArrayLike]], n: int) -> Array:
+    """A stiffness matrix, shape (n, n) [N/m, N m/rad], whose parts nothing couples.
+
+    Parameters
+    ----------
+    parts : iterable of tuple
+        Of each its field in messages, its coordinates, and a number, a diagonal or a matrix.
+    n : int
 
     Raises
     ------
     StepDataError
-        About the field `name`, if it is none of these.
+        Naming the field that is none of these, or not positive definite.
     """
+    matrix = np.zeros((n, n))
+    for name, coordinates, numbers in parts:
+        block = positive_definite(name, _block(numbers, name, len(coordinates)))
+        matrix[np.ix_(coordinates, coordinates)] = block
+    return read_only(matrix)
+
+
+def _block(numbers: ArrayLike, name: str, n: int) -> Array:
+    """A matrix (n, n) from a number, a diagonal or a matrix [N/m, N m/rad]."""
     values = checked_numbers(numbers, name)
     if values.ndim == 0:
         return checked_array(values, name, ()) * np.eye(n)

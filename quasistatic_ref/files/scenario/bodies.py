@@ -1,6 +1,6 @@
 """The ``[bodies.NAME]`` tables of a scenario: URDF, base, stiffness, targets, wrenches."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
@@ -26,9 +26,7 @@ from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.model.tree import BASE
-from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.pivots import positive_definite
-from quasistatic_ref.simulate.stiffness import stiffness_block
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.simulate.target import JointTrack, Wrenches
 from quasistatic_ref.step.extension import ExtensionOfQ, StepExtension
 
@@ -151,17 +149,16 @@ def body_entry(
     return entry
 
 
-def stiffness(system: System, entry: BodyEntry) -> Array:
-    """What a body adds to K_q, shape (n_a, n_a): zero at the coordinates of other bodies.
+def stiffnesses(system: System, entry: BodyEntry) -> Iterator[tuple[str, Indices, Any]]:
+    """The parts of K_q that a body's table says: their fields, coordinates and numbers.
 
-    Each joint has a number, a list (diagonal) or a matrix; or the whole body has one of these.
+    They are those of its joints, or one of the whole body.
 
     Raises
     ------
     ScenarioError
-        If a joint is left out, unknown, or its stiffness has the wrong shape.
+        If a joint is left out or unknown.
     """
-    K_q = np.zeros((system.n_a, system.n_a))
     joints = entry.actuated(system)
     table = entry.table
     if entry.K_q is None and joints:
@@ -169,24 +166,20 @@ def stiffness(system: System, entry: BodyEntry) -> Array:
             "K_q", f"is missing for {', '.join(entry.short(j) for j in joints)}"
         )
     if isinstance(entry.K_q, list | int | float):
-        index = np.array([i for j in joints for i in range(j.v.start, j.v.stop)], dtype=np.int64)
-        name = table.name("K_q")
-        block = stiffness_block(entry.K_q, name, len(index))
-        K_q[np.ix_(index, index)] = positive_definite(name, block)
-        return K_q
-    stiffnesses = TableReader(
+        every = [i for joint in joints for i in range(joint.v.start, joint.v.stop)]
+        yield table.name("K_q"), np.array(every, dtype=np.int64), entry.K_q
+        return
+    of_joints = TableReader(
         {} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError
     )
     for name, problem in _followers(system, entry).items():
-        if name in stiffnesses:
-            raise stiffnesses.error_about(name, problem)
-    stiffnesses.only(entry.short(joint) for joint in joints)
-    for joint in joints:
-        numbers = stiffnesses.take(entry.short(joint))
-        name = stiffnesses.name(entry.short(joint))
-        block = stiffness_block(numbers, name, joint.v.stop - joint.v.start)
-        K_q[joint.v, joint.v] = positive_definite(name, block)
-    return K_q
+        if name in of_joints:
+            raise of_joints.error_about(name, problem)
+    names = [entry.short(joint) for joint in joints]
+    of_joints.only(names)
+    for name, joint in zip(names, joints, strict=True):
+        numbers = of_joints.take(name)
+        yield of_joints.name(name), np.arange(joint.v.start, joint.v.stop), numbers
 
 
 def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:

@@ -19,7 +19,7 @@ from quasistatic_ref.errors import (
 )
 from quasistatic_ref.files.content import toml_read
 from quasistatic_ref.files.resources import scenario_path
-from quasistatic_ref.files.scenario.bodies import OfBodies, body_entry, joint_tracks, stiffness
+from quasistatic_ref.files.scenario.bodies import OfBodies, body_entry, joint_tracks, stiffnesses
 from quasistatic_ref.files.scenario.checks import (
     check_made,
     check_motion,
@@ -38,7 +38,6 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.ordered import total
 from quasistatic_ref.parts.files import extended_bodies, fast_backend, fast_simulator
 from quasistatic_ref.simulate.distances import check_closed
 from quasistatic_ref.simulate.finding import Finding
@@ -48,6 +47,7 @@ from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.stiffness import of_parts
 from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import Target
@@ -268,7 +268,8 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     system = System([entry.body for entry in entries.values()])
     shapes = placed_shapes(system, entries, read("shapes"), path.parent)
     pairs = contact_pairs(read("contacts"), shapes, system.kinematics(system.q_start))
-    K_q = total(stiffness(system, entry) for entry in entries.values())
+    parts = (part for entry in entries.values() for part in stiffnesses(system, entry))
+    K_q = of_parts(parts, system.n_a)
     of_bodies = None
     if any(entry.extends for entry in entries.values()):
         pairs, of_bodies = extended_bodies(system, pairs, entries, h, K_q, gravity)

@@ -80,9 +80,7 @@ def urdf_text(source: str | PathLike[str]) -> UrdfText:
     return UrdfText(path, text_read(path, ModelError, LARGEST_FILE))
 
 
-def urdf_tree(
-    source: str | PathLike[str], package_dirs: Sequence[str | Path] = ()
-) -> Tree:
+def urdf_tree(source: str | PathLike[str], package_dirs: Sequence[str | Path] = ()) -> Tree:
     """The tree of a URDF file, or of a string that is a URDF.
 
     pinocchio's own reader reports trouble to standard error and carries on without the collision

@@ -189,5 +189,5 @@ def test_every_path_is_taken_that_python_opens(tmp_path):
     file = Place(urdf_of_text(tmp_path, scene, "s.toml"))
     scenario = load_scenario(file, {"bodies.r.urdf": Place(urdf)}, contacts={})
     assert scenario.bodies["r"] == Body("r", Place(urdf), "floating", package_dirs=[tmp_path])
-    with pytest.raises(ScenarioError, match="nowhere.toml: no such file"):
+    with pytest.raises(ScenarioError, match=r"nowhere\.toml: no such file"):
         load_scenario(Place("nowhere.toml"))
