@@ -49,13 +49,11 @@ def point_on_ellipsoid(a, p):
     above = a * a - a.min() ** 2
     least = int(np.argmin(a))
     low = 0.0
-    high = a.max() * np.linalg.norm(p) + a.min() ** 2
-    for _ in range(1100):  # float64 may have to be halved that often to reach 0
-        s = (low + high) / 2
-        if not low < s < high:
-            break
-        with np.errstate(over="ignore"):
-            low, high = (s, high) if np.sum((a * p / (above + s)) ** 2) > 1 else (low, s)
+    high = float(a.max() * np.linalg.norm(p) + a.min() ** 2)
+    terms = list(zip((a * p).tolist(), above.tolist(), strict=True))  # as numbers: many halvings
+    while low < (s := (low + high) / 2) < high:
+        ratios = [numerator / (c + s) for numerator, c in terms]
+        low, high = (s, high) if sum(r * r for r in ratios) > 1 else (low, s)
     below = above + high
     x = np.where(p == 0, 0.0, a * a * p / np.where(below > 0, below, 1.0))
     if p[least] == 0 and high < 1e-300:  # on the plane from which two ways out are as short

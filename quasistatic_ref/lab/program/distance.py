@@ -286,12 +286,12 @@ def from_afar(alpha, pose_alpha, beta, pose_beta, n):
         )
         return n_afar, x, y
 
+    slope = np.array([(normal(n + 1e-6 * e)[0] - normal(n - 1e-6 * e)[0]) / 2e-6 for e in AXES])
     for _ in range(6):
         n_afar, x, y = normal(n)
         rest = n_afar - n
         if np.abs(rest).max() < 4e-16:
             break
-        slope = np.array([(normal(n + 1e-6 * e)[0] - normal(n - 1e-6 * e)[0]) / 2e-6 for e in AXES])
         n = n + np.linalg.lstsq(AXES - slope.T, rest, rcond=1e-9)[0]
         n = n / np.linalg.norm(n)
     radii = [shape["radius"] if shape["kind"] == "capsule" else 0.0 for shape in (alpha, beta)]
