@@ -71,10 +71,10 @@ def test_a_claim_fails_with_its_worst_comparison_or_with_an_error():
 
 
 def test_the_command_prints_a_table_and_writes_the_page(tmp_path, cli):
-    printed = cli("validate approach grasp --out", tmp_path)
+    printed = cli("validate approach locked_guide --out", tmp_path)
     assert re.search(r"^approach +holds +162 ", printed.out, re.MULTILINE)
     assert "2 holds" in printed.out
-    assert "[2/2] grasp ... holds" in printed.err
+    assert "[2/2] locked_guide ... holds" in printed.err
     page = (tmp_path / "claims.md").read_text()
     assert "2 of 2 claims hold" in page
     assert [path.name for path in tmp_path.iterdir()] == ["claims.md"]

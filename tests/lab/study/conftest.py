@@ -1,18 +1,34 @@
 """Studies small enough for a test."""
 
+from contextlib import nullcontext
 from functools import partial
+from types import SimpleNamespace
 
 import pytest
 
 from quasistatic_ref.lab.folders import contact_qp_folder
+from quasistatic_ref.lab.study.doors import call_of
 from quasistatic_ref.lab.study.limits import Limits
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.selection import problems_taken
 from quasistatic_ref.lab.study.run import study
 from quasistatic_ref.lab.study.solvers import function_solver
 from quasistatic_ref.lab.study.store import rows_read
+from quasistatic_ref.lab.study.worker import answered
 from tests.lab.study import broken
 from tests.pages import ROOT
+
+
+@pytest.fixture
+def in_this_process(monkeypatch):
+    """Solvers are asked in this process, where they have no limits."""
+
+    def asked(solver, memory):
+        call = call_of(solver)
+        ask = SimpleNamespace(is_there=True, ask=lambda question, _: answered(call, question))
+        return nullcontext(ask)
+
+    monkeypatch.setattr("quasistatic_ref.lab.study.run.SolverProcess", asked)
 
 
 @pytest.fixture(scope="session")

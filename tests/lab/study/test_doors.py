@@ -30,6 +30,7 @@ RETURNED = {
 }
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_what_a_function_returns_is_judged_as_it_is(tmp_path, three):
     functions = [function_solver(getattr(broken, name), options={"high": {}}) for name in RETURNED]
     limits = Limits(repetitions=1)
@@ -50,6 +51,7 @@ def test_a_function_whose_module_is_not_there_is_one_sentence(tmp_path, monkeypa
         study(three, [function], folder=tmp_path / "store")
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_an_option_that_a_solver_refuses_is_its_row(tmp_path, three):
     clarabel = Solver("c", "qpsolvers", "clarabel", {"default": {"tol_feasibility": 1.0}})
     (row,) = study(three[:1], [clarabel], folder=tmp_path, limits=Limits(repetitions=1))
@@ -85,6 +87,7 @@ def by_substitution(P, q, G, h, A, b):
     return X, np.array([0.5]), np.array([-0.25]), "optimal"
 
 
+@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("units", ["raw", "natural"])
 def test_a_problem_of_others_with_an_equation_goes_through_each_door(tmp_path, units):
     """Residuals see the signs of multipliers, of which an equation's may be any."""

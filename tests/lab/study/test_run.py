@@ -49,6 +49,7 @@ def test_rows_that_stand_twice_count_once(whole, tmp_path, cli):
     assert said[0] == said[1]
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_a_study_that_was_stopped_goes_on_and_measures_nothing_twice(
     small, whole, monkeypatch, tmp_path
 ):
@@ -70,6 +71,7 @@ def test_a_study_that_was_stopped_goes_on_and_measures_nothing_twice(
     assert small(tmp_path) == rows
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_a_folder_takes_other_problems_and_no_others_of_the_same_names(three, tmp_path):
     def of(problems, **limits):
         return study(problems, [broken.denies], folder=tmp_path, limits=Limits(**limits))
@@ -83,6 +85,7 @@ def test_a_folder_takes_other_problems_and_no_others_of_the_same_names(three, tm
             of(problems, **limits)
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_two_studies_at_once_in_one_folder_lose_no_rows(three, tmp_path):
     def of(solver):
         return study(three, [solver], folder=tmp_path)
