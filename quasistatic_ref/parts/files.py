@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from quasistatic_ref.parts import needing
+from quasistatic_ref.solve.backends import DEFAULT
 
 if TYPE_CHECKING:
     from quasistatic_ref.contact.pairs import ContactPair
@@ -55,15 +56,20 @@ def fast_simulator(simulator: Simulator) -> Simulator:
     return FastSimulator(simulator)
 
 
-def fast_backend(system: System, pairs: Sequence[ContactPair], cone: str, law: str) -> str:
-    """``fast``: its backend where none is named.
+def default_backend(
+    fast: bool, system: System, pairs: Sequence[ContactPair], cone: str, law: str
+) -> str:
+    """The backend where none is named, with ``fast`` or without.
 
     Parameters
     ----------
+    fast : bool
     system : System
     pairs : sequence of ContactPair
     cone, law : str
     """
+    if not fast:
+        return DEFAULT
     with needing("fast"):
-        from quasistatic_ref.optional.fast.simulator import default_backend
-    return default_backend(system, pairs, cone, law)
+        from quasistatic_ref.optional.fast.simulator import default_backend as of_fast
+    return of_fast(system, pairs, cone, law)

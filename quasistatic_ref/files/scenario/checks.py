@@ -12,11 +12,18 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ScenarioError, about_field
 from quasistatic_ref.files.scenario.overrides import ESSENTIAL
-from quasistatic_ref.files.scenario.scenario_table import FINDINGS, TABLES, fields_of
+from quasistatic_ref.files.scenario.scenario_table import (
+    FINDINGS,
+    LIMITS,
+    SOLVER,
+    TABLES,
+    fields_of,
+)
 from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.formats.quoting import known_names, nearest_name
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.finding import check_finding_name
+from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.tolerances import LARGE
 
 WELDED: Final = 1e-12
@@ -32,6 +39,26 @@ def ignored_findings(table: TableReader) -> tuple[str, ...]:
         with about_field(table.name("ignore")):
             check_finding_name(name)
     return names
+
+
+def run_fields(read: Callable[..., Any], solver: TableReader) -> dict[str, Any]:
+    """The fields of a :class:`.Scenario` that say how it runs, by name; no backend may be named.
+
+    Parameters
+    ----------
+    read : callable
+        The fields at the top.
+    solver : TableReader
+        The table [solver].
+    """
+    of_solver = checked_fields(solver, SOLVER)
+    of_limits = checked_fields(read("limits"), LIMITS)
+    return {
+        **{name: read(name) for name in ("h", "steps", "record", "fast")},
+        **{name: of_solver(name) for name in ("backend", "accuracy", "certify")},
+        "limits": Limits(of_limits("penetration"), of_limits("reach")),
+        "ignored_findings": ignored_findings(read("findings")),
+    }
 
 
 def checked_fields(table: TableReader, kind: str) -> Callable[..., Any]:

@@ -25,12 +25,12 @@ from quasistatic_ref.files.scenario.checks import (
     check_motion,
     check_sizes,
     checked_fields,
-    ignored_findings,
+    run_fields,
 )
 from quasistatic_ref.files.scenario.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.files.scenario.overrides import Changes, about_changes, apply_settings
 from quasistatic_ref.files.scenario.paths import OwnWord, folders_in
-from quasistatic_ref.files.scenario.scenario_table import FORMAT, LIMITS, SOLVER, TOP, VERSION
+from quasistatic_ref.files.scenario.scenario_table import FORMAT, TOP, VERSION
 from quasistatic_ref.files.scenario.scene_words import HERE, scene_tables
 from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.formats.plain import Plain
@@ -38,11 +38,10 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.parts.files import extended_bodies, fast_backend, fast_simulator
+from quasistatic_ref.parts.files import default_backend, extended_bodies, fast_simulator
 from quasistatic_ref.simulate.distances import check_closed
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import Record
-from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.settings import Settings
@@ -51,7 +50,7 @@ from quasistatic_ref.simulate.stiffness import of_parts
 from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import Target
-from quasistatic_ref.solve.backends import DEFAULT, is_function
+from quasistatic_ref.solve.backends import is_function
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ
 
@@ -239,20 +238,15 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
         checked_fields(top, TOP)
     top.check_format(FORMAT, VERSION)
     read = checked_fields(top, TOP)
-    h = read("h")
-    gravity = read("gravity")
-    fast = read("fast")
-    named = cone(read("cone")).name
     solver = read("solver")
-    of_solver = checked_fields(solver, SOLVER)
-    certify = of_solver("certify")
+    of_users = isinstance(solver.peek("backend"), OwnWord)
+    run = run_fields(read, solver)
+    gravity = read("gravity")
+    named = cone(read("cone")).name
     law = read("law")
     distances = read("distances")
-    if fast:
+    if run["fast"]:
         check_closed(distances)
-    of_limits = checked_fields(read("limits"), LIMITS)
-    limits = Limits(of_limits("penetration"), of_limits("reach"))
-    ignored = ignored_findings(read("findings"))
 
     tables = read("bodies")
     if (count := len(tables.names_left())) > MOST_BODIES:
@@ -272,16 +266,15 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     K_q = of_parts(parts, system.n_a)
     of_bodies = None
     if any(entry.extends for entry in entries.values()):
-        pairs, of_bodies = extended_bodies(system, pairs, entries, h, K_q, gravity)
-    of_users = isinstance(solver.peek("backend"), OwnWord)
-    backend = of_solver("backend")
+        pairs, of_bodies = extended_bodies(system, pairs, entries, run["h"], K_q, gravity)
+    backend = run["backend"]
     if backend is not None and is_function(backend) and not of_users:
         problem = "would run code, which no file may; give it as --backend FILE.py:NAME"
         raise solver.error_about("backend", problem, backend)
-    if fast and backend is None:
-        backend = fast_backend(system, pairs, named, law)
+    if backend is None:
+        run["backend"] = default_backend(run["fast"], system, pairs, named, law)
     check_motion(system, pairs)
-    if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
+    if far := run["limits"].out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")
 
     gravity_acts = np.zeros(system.n_a, dtype=bool)
@@ -296,8 +289,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     try:
         return Scenario(
             path=path,
-            h=h,
-            steps=read("steps"),
+            **run,
             gravity=gravity,
             system=system,
             pairs=pairs,
@@ -305,16 +297,9 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
             gravity_acts=gravity_acts,
             targets=Targets(system.q_start[: system.n_q_a], tracks),
             wrenches=tuple(wrenches),
-            backend=DEFAULT if backend is None else backend,
-            accuracy=of_solver("accuracy"),
-            certify=certify,
-            record=read("record"),
             cone=named,
-            limits=limits,
             bodies={name: entry.body for name, entry in entries.items()},
-            fast=fast,
             of_bodies=of_bodies,
-            ignored_findings=ignored,
             law=law,
             distances=distances,
         )

@@ -12,10 +12,10 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import InputError, ModelError, ScenarioError, check_kind
-from quasistatic_ref.files.scenario.checks import checked_fields, ignored_findings
+from quasistatic_ref.files.scenario.checks import run_fields
 from quasistatic_ref.files.scenario.overrides import Changes, about_changes, apply_settings
 from quasistatic_ref.files.scenario.scenario import Scenario
-from quasistatic_ref.files.scenario.scenario_table import LIMITS, SOLVER, TOP, fields_of
+from quasistatic_ref.files.scenario.scenario_table import TOP, fields_of
 from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.system import Kinematics, System
@@ -25,15 +25,13 @@ from quasistatic_ref.optional.guests.mujoco import default_cone, first_equality
 from quasistatic_ref.optional.guests.places import overlapped_children
 from quasistatic_ref.optional.guests.settled import settled
 from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
-from quasistatic_ref.parts.files import fast_backend, fast_simulator
+from quasistatic_ref.parts.files import default_backend, fast_simulator
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.extension import ExtensionOfQ
 
@@ -190,19 +188,15 @@ def _scenario_of(
             raise ScenarioError(problem, field=field, value=value)
     top.take("roots", None)
     read = fields_of(top, TOP)
-    h = read("h")
-    steps = read("steps")
+    run = run_fields(read, read("solver"))
     margin = top.number("margin", MARGIN)
     stiffness = top.take("stiffness", {})
     if not isinstance(stiffness, Mapping):
         raise ScenarioError("must name joints: stiffness.JOINT=VALUE", field="stiffness")
-    of_solver = checked_fields(read("solver"), SOLVER)
-    of_limits = checked_fields(read("limits"), LIMITS)
-    ignored = ignored_findings(read("findings"))
     if data is None:
         keys = () if callable(targets) or isinstance(targets, str | Path) else targets
         data = settled(model, 0.0, keys[0] if keys else None)
-    system = MujocoSystem(model, data, h, {**stiffness}, margin)
+    system = MujocoSystem(model, data, run["h"], {**stiffness}, margin)
     if "cone" in tables:
         cone = read("cone")
         equality = first_equality(system.rows)
@@ -214,36 +208,22 @@ def _scenario_of(
         cone, system.notes = default_cone(model, rubs, system.rows)
     overlaps = overlapped_children(system.state(system.q_start), system.places)
     system.notes = (*system.notes, *overlaps)
-    certify = of_solver("certify")
-    fast = read("fast")
     pairs = system.places.pairs
-    backend = of_solver("backend")
-    if fast and backend is None:
-        backend = fast_backend(cast("System", system), pairs, cone, CONVEX)
-    gravity = (
-        np.zeros(3)
-        if system.state(system.q_start).disables("GRAVITY")
-        else model.opt.gravity.copy()
-    )
+    if run["backend"] is None:
+        as_system = cast("System", system)
+        run["backend"] = default_backend(run["fast"], as_system, pairs, cone, CONVEX)
+    floats = system.state(system.q_start).disables("GRAVITY")
     return MujocoScenario(
         path=path,
-        h=h,
-        steps=steps,
-        gravity=gravity,
+        **run,
+        gravity=np.zeros(3) if floats else model.opt.gravity.copy(),
         system=cast("System", system),  # a step, a recorder and findings ask for no other names
         pairs=pairs,
         K_q=system.K_q,
         gravity_acts=np.ones(system.n_a, dtype=bool),
         targets=Targets(system.q_start[: system.n_q_a], ()),
-        backend=DEFAULT if backend is None else backend,
-        accuracy=of_solver("accuracy"),
-        certify=certify,
-        record=read("record"),
-        fast=fast,
         cone=cone,
-        limits=Limits(of_limits("penetration"), of_limits("reach")),
-        ignored_findings=ignored,
-        drive=drive_of(system, data, steps * h, targets),
+        drive=drive_of(system, data, run["steps"] * run["h"], targets),
     )
 
 
