@@ -13,7 +13,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
+from quasistatic_ref.numbers.arrays import Array, freeze_copies
 from quasistatic_ref.optional.extensions.extension import Rises
 from quasistatic_ref.optional.extensions.rises import LIGHT
 from quasistatic_ref.optional.guests import constraints, touches
@@ -135,8 +135,7 @@ def step_with(
     every_joint = constraints.Tied(np.arange(model.nv), np.eye(model.nv), ())
     heavy = diagonal_of_H(of_state.springs, state.M, h)
     tied = every_joint if as_is else constraints.tied_joints(state, heavy)
-    order, n_a, K_q = actuated(state, of_state.springs, tied.T)
-    tied = tied._replace(dofs=tied.dofs[order], T=tied.T[:, order])
+    tied, n_a, K_q = actuated(state, of_state.springs, tied)
     T = tied.T
     M_u = T[:, n_a:].T @ state.M @ T[:, n_a:]
     diagonal = np.concatenate([h * np.diag(K_q), np.diag(M_u) / h])
@@ -165,7 +164,8 @@ def step_with(
     left_out = (
         *of_state.left_out, *held.left_out, *free_limits,
         *(f"contact[{every[i].name}]: {touches.HELD}" for i in np.flatnonzero(free)),
-        *touches.rolling_words(state, every), *dropped(data.qvel, every), *notes,
+        *(f"contact[{one.name}]: {touches.ROLLS}" for one in every if one.rolls),
+        *dropped(data.qvel, every), *notes,
     )  # fmt: skip
     rises, rubbed = joint_friction(state, T, h * diagonal)
     if rubbed:
@@ -188,18 +188,20 @@ def dropped(v: Array, every: Sequence[touches.StateContact]) -> Iterator[str]:
         yield f"velocity: dropped; its largest component is {np.abs(v).max():.2g}"
 
 
-def actuated(state: MujocoState, springs: Sequence[Spring], T: Array) -> tuple[Indices, int, Array]:
-    """An order of coordinates in which the actuated ones come first, their number, and K_q.
+def actuated(
+    state: MujocoState, springs: Sequence[Spring], tied: constraints.Tied
+) -> tuple[constraints.Tied, int, Array]:
+    """The joints that remain, the actuated ones first, the number of these, and K_q.
 
-    A coordinate is actuated if a servo or spring acts on it. T has the shape (nv, n) [-].
+    A coordinate is actuated if a servo or spring acts on it.
 
     Raises
     ------
     ModelError
         Naming a servo or spring that leaves others of its coordinates free: K_q is singular.
     """
-    moments = [moved(state, spring.m[None], T)[0] for spring in springs]
-    K = np.zeros((T.shape[1],) * 2)
+    moments = [moved(state, spring.m[None], tied.T)[0] for spring in springs]
+    K = np.zeros((len(tied.dofs),) * 2)
     for spring, m in zip(springs, moments, strict=True):
         K += spring.k * np.outer(m, m)
     a = np.flatnonzero(K.any(axis=1))
@@ -213,7 +215,8 @@ def actuated(state: MujocoState, springs: Sequence[Spring], T: Array) -> tuple[I
                    if np.count_nonzero(m[a][free]) > 1]  # fmt: skip
         problem = "acts on several joints, between which K_q leaves a motion without stiffness; "
         raise ModelError(problem + "give each of them a servo or a spring", field=several[0])
-    return np.concatenate([a, u]), len(a), K_q
+    order = np.concatenate([a, u])
+    return tied._replace(dofs=tied.dofs[order], T=tied.T[:, order]), len(a), K_q
 
 
 def default_cone(model: MjModel, rubs: bool, extra: Extra) -> tuple[str, tuple[str, ...]]:

@@ -153,7 +153,8 @@ class MujocoState:
 
 def awake(model: MjModel) -> MjModel:
     """A copy of a model in which nothing sleeps: what does has no contacts and does not move."""
-    mujoco = needed_package("mujoco", "engines", "mujoco_step")
+    import mujoco
+
     adapted = copy.copy(model)
     adapted.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
     return adapted
@@ -202,9 +203,8 @@ def mujoco_state(
     adapted.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     for flag in ("IPC", "SPECULATIVE"):
         adapted.opt.enableflags &= ~int(getattr(mujoco.mjtEnableBit, f"mjENBL_{flag}"))
-    adapted.jnt_margin[:] = adapted.tendon_margin[:] = (
-        FAR  # a step may reach limits that are not near
-    )
+    adapted.jnt_margin[:] = FAR  # a step may reach limits that are not near
+    adapted.tendon_margin[:] = FAR
     at_rest = copy.copy(data)
     at_rest.qvel[:] = 0.0
     state = MujocoState(mujoco, model, adapted, at_rest, hops)

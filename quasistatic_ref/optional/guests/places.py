@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections import Counter
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,7 +34,17 @@ if TYPE_CHECKING:
 
 ALL = 1e6
 """Gap at which MuJoCo's filters alone decide what may touch [m]."""
-KINDS_OF_GEOMS = ("PLANE", "SPHERE", "CAPSULE", "CYLINDER", "BOX", "ELLIPSOID", "MESH")
+SHAPES: dict[str, Callable[[Array], Shape]] = {
+    "PLANE": lambda size: HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0),
+    "SPHERE": lambda size: Sphere(size[0]),
+    "CAPSULE": lambda size: Capsule(size[0], size[1]),
+    "CYLINDER": lambda size: Cylinder(size[0], size[1]),
+    "BOX": Box,
+    "ELLIPSOID": Ellipsoid,
+}
+"""Shapes of geoms by their kinds, from ``geom_size``."""
+MESH = "MESH"
+KINDS_OF_GEOMS = (*SHAPES, MESH)
 """Kinds of geoms that have a shape of this package."""
 ONE, TWO = ("SPHERE", "ELLIPSOID"), ("CAPSULE",)
 MANY, BOXES = 4, 8
@@ -266,17 +277,10 @@ def geom_kind(state: MujocoState, g: int) -> str:
 
 def _shape(state: MujocoState, g: int) -> Shape:
     model = state.model
-    size: Array = model.geom_size[g]
     kind = geom_kind(state, g)
-    if kind == "PLANE":
-        return HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
-    if kind == "SPHERE":
-        return Sphere(size[0])
-    if kind in ("CAPSULE", "CYLINDER"):
-        return {"CAPSULE": Capsule, "CYLINDER": Cylinder}[kind](size[0], size[1])
-    if kind in ("BOX", "ELLIPSOID"):
-        return {"BOX": Box, "ELLIPSOID": Ellipsoid}[kind](size)
-    if kind != "MESH":
+    if kind in SHAPES:
+        return SHAPES[kind](model.geom_size[g])
+    if kind != MESH:
         problem = "has no places in a run; use meshes or other shapes"
         raise ModelError(problem, field=f"{state.words('geom', g)}.type", value=kind.lower())
     mesh = model.geom_dataid[g]

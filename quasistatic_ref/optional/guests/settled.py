@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping
-from types import ModuleType
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -76,7 +75,8 @@ def velocities(model: MjModel, data: MjData, seconds: float) -> tuple[Array, Arr
     ModelError
         If the simulation is unstable.
     """
-    mujoco = needed_package("mujoco", "engines", "a MuJoCo scene")
+    import mujoco
+
     now = copy.copy(data)
     means = np.zeros((2, model.nv))
     for mean in means:
@@ -124,7 +124,8 @@ def window(model: MjModel, data: MjData, seconds: float) -> Window:
     ModelError
         If the simulation is unstable.
     """
-    mujoco = needed_package("mujoco", "engines", "a MuJoCo scene")
+    import mujoco
+
     now = copy.copy(data)
     mujoco.mj_forward(model, now)
     most, count = data, now.ncon
@@ -158,17 +159,20 @@ def run(model: MjModel, data: MjData, seconds: float) -> None:
     ModelError
         If the simulation is unstable.
     """
-    mujoco = needed_package("mujoco", "engines", "a MuJoCo scene")
-    before = _resets(mujoco, data)
+    import mujoco
+
+    before = _resets(data)
     for _ in range(round(seconds / model.opt.timestep)):
         mujoco.mj_step(model, data)
-    if _resets(mujoco, data) > before:
+    if _resets(data) > before:
         problem = "is too large: MuJoCo's simulation is unstable, and began anew"
         raise ModelError(problem, field="option.timestep", value=model.opt.timestep)
 
 
-def _resets(mujoco: ModuleType, data: MjData) -> int:
+def _resets(data: MjData) -> int:
     """How often MuJoCo began anew."""
+    import mujoco
+
     return sum(data.warning[getattr(mujoco.mjtWarning, name)].number for name in UNSTABLE)
 
 

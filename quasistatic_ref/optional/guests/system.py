@@ -161,8 +161,7 @@ class MujocoSystem(Mechanism):
         of_state = loads(state)
         tied = constraints.tied_joints(state, diagonal_of_H(self.springs, state.M, h))
         self._follow = constraints.followers(state, tied)
-        order, n_a, self.K_q = actuated(state, self.springs, tied.T)
-        self._tied = tied._replace(dofs=tied.dofs[order], T=tied.T[:, order])
+        self._tied, n_a, self.K_q = actuated(state, self.springs, tied)
         self.T = self._tied.T
         trees = self._trees()
         joints, self._entries = self._joints(trees, n_a)
@@ -352,12 +351,6 @@ class MujocoSystem(Mechanism):
         """Limits, equalities and joint friction at q."""
         return Extension(rows=self._rows(self.state(q)), rises=self.rises)
 
-    def moved(self, q: Array, delta_q: Array) -> Array:
-        """Configuration q (+) delta_q by ``mj_integratePos``, (n_q,), from (n_q,) and (n_v,)."""
-        qpos = self.qpos(q)
-        self._state.mujoco.mj_integratePos(self.model, qpos, self.T @ delta_q, 1.0)
-        return np.asarray(qpos[self._entries])
-
     def difference(self, q: ArrayLike, q_next: ArrayLike) -> Array:
         """Change delta_q = q_next (-) q by ``mj_differentiatePos``, shape (n_v,)."""
         change = np.zeros(self.model.nv)
@@ -430,6 +423,7 @@ class SceneState(State):
     def plus(self, delta_q: ArrayLike) -> SceneState:
         """The state at q (+) delta_q by ``mj_integratePos``, of a change of shape (n_v,)."""
         system = self.system
-        return SceneState(
-            system, system.moved(self.q, with_shape(delta_q, "delta_q", (system.n_v,), ModelError))
-        )
+        change = with_shape(delta_q, "delta_q", (system.n_v,), ModelError)
+        qpos = system.qpos(self.q)
+        system._state.mujoco.mj_integratePos(system.model, qpos, system.T @ change, 1.0)
+        return SceneState(system, qpos[system._entries])

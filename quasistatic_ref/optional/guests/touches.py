@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 USED_OR_IN_GAP = (0, 1)
 """Values of ``exclude`` of contacts that a step has."""
+ROLLS = "rolling friction, for which there is no row"
 HELD = "left out: joints or equalities hold its bodies along the normal, and bear any force there"
 
 
@@ -44,6 +45,8 @@ class StateContact(NamedTuple):
     mu_v, mu_omega : float
         [-, m].
     rows : int
+    rolls : bool
+        Whether it has rolling friction, too, which a step has not.
     """
 
     name: str
@@ -57,6 +60,7 @@ class StateContact(NamedTuple):
     mu_v: float
     mu_omega: float
     rows: int
+    rolls: bool
 
     def slip(self, v: Array) -> float:
         """Speed of one surface along the other at a velocity v, (nv,) [m/s]."""
@@ -103,7 +107,7 @@ def contacts(state: MujocoState) -> list[StateContact]:
         every.append(
             StateContact(name, pair, bodies, phi, float(touch.dist), phi <= 0 or sticks or hops,
                          frame,
-                         jacobian(state, touch), *friction(touch, name))
+                         jacobian(state, touch), *friction(touch, name), touch.dim == 6)
         )  # fmt: skip
     return every
 
@@ -167,13 +171,6 @@ def jacobian(state: MujocoState, touch: MjContact) -> Array:
     return J
 
 
-def rolling_words(state: MujocoState, every: Sequence[StateContact]) -> Iterator[str]:
-    """What a step leaves out of contacts with ``condim`` 6."""
-    for i, contact in zip(numbers(state), every, strict=True):
-        if state.data.contact[i].dim == 6:
-            yield f"contact[{contact.name}]: rolling friction, for which there is no row"
-
-
 def forces(
     state: MujocoState, data: MjData, means: Mapping[tuple[int, int], Array] | None = None
 ) -> Array:
@@ -198,19 +195,17 @@ def forces(
 
 def step_contacts(every: Sequence[StateContact], T: Array, as_is: bool) -> Contacts:
     """Contacts of a step, of whose coordinates T, (nv, n_v), makes MuJoCo's velocities [-]."""
-    frames = np.array([contact.frame for contact in every]).reshape(-1, 3, 3)
-    phi = np.array([contact.phi for contact in every])
-    closed = np.array([contact.closed for contact in every], dtype=bool)
+    frames = np.reshape([contact.frame for contact in every], (-1, 3, 3))
     return Contacts(
-        name=tuple(contact.name for contact in every),
-        phi=phi if as_is else np.where(closed, 0.0, phi),
+        name=[contact.name for contact in every],
+        phi=[0.0 if contact.closed and not as_is else contact.phi for contact in every],
         n=frames[:, 0],
         d1=frames[:, 1],
         d2=frames[:, 2],
-        J=np.array([contact.J for contact in every]).reshape(-1, 4, len(T)) @ T,
-        mu_v=np.array([contact.mu_v for contact in every]),
-        mu_omega=np.array([contact.mu_omega for contact in every]),
-        rows=np.array([contact.rows for contact in every], dtype=np.int64),
+        J=np.reshape([contact.J for contact in every], (-1, 4, len(T))) @ T,
+        mu_v=[contact.mu_v for contact in every],
+        mu_omega=[contact.mu_omega for contact in every],
+        rows=[contact.rows for contact in every],
     )
 
 
