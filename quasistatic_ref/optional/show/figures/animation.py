@@ -15,9 +15,9 @@ from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.files.content import bytes_written
 from quasistatic_ref.files.scenario.scenario import Scenario
 from quasistatic_ref.optional.show.figures.camera import Camera
-from quasistatic_ref.optional.show.figures.draw import draw_scene, force_scale
+from quasistatic_ref.optional.show.figures.draw import draw_scene, in_common
 from quasistatic_ref.optional.show.figures.looks import CAMERA
-from quasistatic_ref.optional.show.figures.moments import box_of, extent, frames, middle
+from quasistatic_ref.optional.show.figures.moments import frames
 from quasistatic_ref.optional.show.figures.style import figure_style, sized
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -86,11 +86,7 @@ def animate(
     if not 0 < speed < np.inf:
         raise InputError("must be positive and finite", field="speed", value=speed)
     moments, shown = frames(scenario, run, fps / speed)
-    centre, half = middle(box_of(np.concatenate([extent(m) for m in moments])))
-    fixed: dict[str, Any] = {
-        "view": view, "around": (centre, half),
-        "metres_per_newton": force_scale(moments, view, half),
-    } | options  # fmt: skip
+    fixed = in_common(moments, view) | options
     writer = WRITERS[path.suffix](fps=speed * shown)
     pace = "" if speed == 1 else f", speed {speed:g}"
     with figure_style(), plt.rc_context({"savefig.bbox": None}), TemporaryDirectory() as folder:

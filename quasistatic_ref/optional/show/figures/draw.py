@@ -148,13 +148,16 @@ def draw_scenes(
     check_kind(moments, Iterable, "moments", "a list of moments")
     for of in moments:
         check_kind(of, Moment, "moments", "a list of moments, as figures.moment makes them")
-    around = middle(box_of(np.concatenate([extent(of) for of in moments])))
-    fixed: dict[str, Any] = {
-        "around": around,
-        "metres_per_newton": force_scale(moments, view, around[1]),
-    } | options
+    fixed = in_common(moments, view) | options
     for axes, of in zip(panels, moments, strict=True):
-        draw_scene(axes, of, view=view, **fixed)
+        draw_scene(axes, of, **fixed)
+
+
+def in_common(moments: Sequence[Moment], view: str | Camera) -> dict[str, Any]:
+    """Arguments of :func:`draw_scene` that several moments of one view share: place and scale."""
+    centre, half = middle(box_of(np.concatenate([extent(of) for of in moments])))
+    scale = force_scale(moments, view, half)
+    return {"view": view, "around": (centre, half), "metres_per_newton": scale}
 
 
 def _tips(of: DrawnContact, parts: Collection[str]) -> list[Array]:

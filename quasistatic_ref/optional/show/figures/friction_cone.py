@@ -1,6 +1,4 @@
-"""The friction that a cone leaves beside a torque."""
-
-from itertools import combinations
+"""The friction that a cone allows without torque."""
 
 import numpy as np
 from scipy.spatial import ConvexHull
@@ -11,32 +9,22 @@ from quasistatic_ref.optional.show.figures.looks import ROUND
 from quasistatic_ref.step.cones import cone
 
 
-def limit_at(name: str, share: float) -> Array:
-    """Corners of (f_1, f_2) / (mu_v f_n) that a cone allows where |tau_n| = share mu_omega f_n.
+def rim(name: str) -> Array:
+    """Corners of (f_1, f_2) / (mu_v f_n) that a cone allows, where tau_n = 0.
 
     Parameters
     ----------
     name : str
         Of the cone.
-    share : float
-        From 0 to 1 [-].
 
     Returns
     -------
     ndarray, shape (N, 2)
-        In order around; no rows where no more than a point is left.
+        In order around; no rows without friction.
     """
     if not cone(name).polyhedral:  # the ellipsoid's is a circle
         angle = np.linspace(0, 2 * np.pi, ROUND, endpoint=False)
-        circle = np.column_stack([np.cos(angle), np.sin(angle)])
-        return np.asarray(np.sqrt(1 - share**2) * circle)
-    corners = cone_matrix(name)[:, 1:]
-    section = [corner[:2] for corner in corners if corner[2] == share]
-    for one, other in combinations(corners, 2):
-        if (one[2] - share) * (other[2] - share) < 0:
-            way = (share - one[2]) / (other[2] - one[2])
-            section.append((1 - way) * one[:2] + way * other[:2])
-    points = np.array(section)
-    if len(points) < 3 or not np.ptp(points, axis=0).all():
-        return np.zeros((0, 2))
-    return np.asarray(points[ConvexHull(points).vertices])
+        return np.column_stack([np.cos(angle), np.sin(angle)])
+    # Torques of both signs are alike: what is left without them is what is seen along them.
+    corners = cone_matrix(name)[:, 1:3]
+    return np.asarray(corners[ConvexHull(corners).vertices] if len(corners) > 2 else corners[:0])

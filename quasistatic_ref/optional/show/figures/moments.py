@@ -7,7 +7,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.show.figures.friction_cone import limit_at
+from quasistatic_ref.optional.show.figures.friction_cone import rim
 from quasistatic_ref.optional.show.figures.looks import link_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points
 from quasistatic_ref.optional.show.figures.visuals import Visual
@@ -210,8 +210,8 @@ def focus(moments: list[Moment], looks: Sequence[Visual] = ()) -> Array:
 
 
 def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:
-    corners = limit_at(str(run.header.cone), 0.0)
-    rim = np.column_stack([corners, np.ones(len(corners))])
+    corners = rim(run.header.cone)
+    edge = np.column_stack([corners, np.ones(len(corners))])
     wrench = shown_forces(run, k)
     bears = bearing(wrench[:, 2])
     drawn = []
@@ -227,7 +227,7 @@ def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:
             f_n=f_n,
             mu_v=mu_v,
             mu_omega=float(run["mu_omega"][j]),
-            rim=f_n * rim * [mu_v, mu_v, 1.0] @ frame,
+            rim=f_n * edge * [mu_v, mu_v, 1.0] @ frame,
             state=_state(run, k, j, frame) if bears[j] else "apart",
         ))  # fmt: skip
     return tuple(drawn)
