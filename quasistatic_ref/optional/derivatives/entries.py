@@ -7,13 +7,15 @@ import numpy as np
 
 from quasistatic_ref.model.configuration import normalised
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.derivatives.derivatives import derivatives, directed, reasons_of
+from quasistatic_ref.optional.derivatives.derivatives import (
+    EVERY_STEP,
+    derivatives,
+    directed,
+    reasons_of,
+)
 from quasistatic_ref.optional.derivatives.nearby import Nearby, exact_step
 from quasistatic_ref.optional.derivatives.reason import NotDifferentiable
 from quasistatic_ref.simulate.simulator import Simulator
-
-BY: Final = ("q", "q_bar_a", "tau")
-"""What a step is given, by the names of parameters."""
 
 EPS: Final = 1e-5
 """Of central differences between entries of q and tangent coordinates [m, rad]: right to 1e-10."""
@@ -56,7 +58,7 @@ class StepOfEntries:
         near = Nearby(self._simulator, *self._unit(q, q_bar_a), force)
         directions = {
             name: self._inward(name, q, q_bar_a) @ tangent
-            for name, tangent in zip(BY, tangents, strict=True)
+            for name, tangent in zip(EVERY_STEP, tangents, strict=True)
             if tangent.any()
         }
         column, size = directed(near, directions)

@@ -115,7 +115,7 @@ class Nearby:
 
     def end(self, changes: Changes) -> End:
         """The step of other parameters; errors as of a step."""
-        shift = self._change(changes, "q")
+        shift = changes.get("q", np.zeros(self.simulator.system.n_v))
         start = self._start.plus(shift)
         if self._quickly and changes.keys() == {"q"}:
             solution = self.simulator.step(start, *self._given).solution
@@ -123,10 +123,6 @@ class Nearby:
             solution = self._proved(self._changed(start, changes))
         there = self._origin.plus(shift).plus(solution.delta_q)
         return End(self.simulator.system.difference(self._end.q, there.q), solution)
-
-    def _change(self, changes: Changes, name: str) -> Array:
-        """What one parameter changes by."""
-        return changes.get(name, np.zeros(self.sizes[name].shape))
 
     def _proved(self, step: StepData) -> StepSolution:
         """The exact optimum of a step, from the rows of the one that all are near to."""
@@ -147,30 +143,30 @@ class Nearby:
         if changes.keys() == {"q"}:
             return step
 
+        change = {name: np.zeros(size.shape) for name, size in self.sizes.items()} | {**changes}
         contacts = step.contacts
         of_pair = [pair.n_c for pair in simulator.pairs]
-        mu_v = np.repeat(self._change(changes, "mu_v"), of_pair)
-        mu_omega = np.repeat(self._change(changes, "mu_omega"), of_pair)
+        mu_v = np.repeat(change["mu_v"], of_pair)
+        mu_omega = np.repeat(change["mu_omega"], of_pair)
 
-        masses = self._change(changes, "masses")
         arms = np.einsum("lab,lb->la", kinematics.R, system.centres)
         centres = kinematics.J[:, :3] + crossed(kinematics.J[:, 3:], arms[:, :, None])
-        M = np.einsum("l,lai,laj->ij", masses, centres, centres)
-        weights = np.einsum("l,lai,a->i", masses, centres, simulator.gravity)
+        M = np.einsum("l,lai,laj->ij", change["masses"], centres, centres)
+        weights = np.einsum("l,lai,a->i", change["masses"], centres, simulator.gravity)
         weights[:n_a] *= simulator.gravity_acts
-        tau = weights + self._change(changes, "tau")
+        tau = weights + change["tau"]
 
         none = np.zeros(system.n_u)
         target = self._origin.plus(np.append(step.delta_q_bar_a, none))
-        target = target.plus(np.append(self._change(changes, "q_bar_a"), none))
+        target = target.plus(np.append(change["q_bar_a"], none))
         return step.replace(
             contacts=replace(
                 contacts,
                 mu_v=contacts.mu_v + mu_v,
                 mu_omega=contacts.mu_omega + mu_omega * contacts.torsion,
             ),
-            K_q=step.K_q + np.diag(self._change(changes, "K_q")),
-            h=step.h + self._change(changes, "h").item(),
+            K_q=step.K_q + np.diag(change["K_q"]),
+            h=step.h + change["h"].item(),
             M_u=step.M_u + M[n_a:, n_a:],
             tau_a=step.tau_a + tau[:n_a],
             tau_u=step.tau_u + tau[n_a:],

@@ -18,8 +18,8 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import check_arithmetic
-from quasistatic_ref.optional.derivatives.derivatives import check_derivable
-from quasistatic_ref.optional.derivatives.entries import BY, StepOfEntries
+from quasistatic_ref.optional.derivatives.derivatives import EVERY_STEP, check_derivable
+from quasistatic_ref.optional.derivatives.entries import StepOfEntries
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.simulate.simulator import Simulator
 
@@ -114,7 +114,7 @@ class _Calls:
         self.end = self._outside(of.end, f"{ENTRIES}->(q)")
         self.slope = self._outside(of.slope, f"{ENTRIES},{ENTRIES}->(q)")
         self.columns = []
-        for name, width in zip(BY, (system.n_q, system.n_q_a, system.n_v), strict=True):
+        for name, width in zip(EVERY_STEP, (system.n_q, system.n_q_a, system.n_v), strict=True):
             columns = self._outside(partial(of.columns, name), f"{ENTRIES}->(q,w)", width)
             once = jax.custom_jvp(columns)
             once.defjvp(_twice)
@@ -178,7 +178,7 @@ def _slope_primitive() -> Any:
         return slope.bind(*every, calls=calls), 0
 
     def transposed(pull: Any, *arguments: Any, calls: _Calls) -> list[Any]:
-        entries, tangents = arguments[: len(BY)], arguments[len(BY) :]
+        entries, tangents = arguments[: len(EVERY_STEP)], arguments[len(EVERY_STEP) :]
         pulled = [
             jax.numpy.einsum("...i,...ij->...j", pull, columns(*entries))
             if isinstance(tangent, ad.UndefinedPrimal)

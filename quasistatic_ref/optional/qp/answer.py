@@ -100,11 +100,10 @@ class ExactQP(Plain, Shown):
 
         As :meth:`digits`, of P^-1 (G'z + A'y + z_box): it is unique where multipliers are not.
         """
-        n = len(self.x)
         problem = self.problem
+        n = len(problem.q)
         given = {"z": z, "y": y, "z_box": np.zeros(n) if z_box is None else z_box}
-        sizes = {"z": len(self.z), "y": len(self.y), "z_box": n}
-        parts = [_numbers(v, name, sizes[name]) for name, v in given.items()]
+        parts = [_numbers(given[name], name, size) for name, size in problem.sizes.items()]
         eye = np.eye(n)
         matrix = exact_matrix(np.concatenate([problem.G, problem.A, eye, eye]).T)
         with working_precision(EXACT):
@@ -305,11 +304,11 @@ def _optimum_verdict(answer: ExactQP) -> Verdict:
 
 def _farkas_refutation(problem: QuadraticProgram, exact: Mapping[str, Sequence[str]]) -> str:
     """What is wrong with a proof that there is no solution; empty if it holds."""
-    sizes = {"z": len(problem.h), "y": len(problem.b), "z_box": len(problem.q)}
-    proof = {name: fractions_read(exact[name]) for name in sizes}
+    proof = {name: fractions_read(exact[name]) for name in problem.sizes}
     for name, numbers in proof.items():
-        if numbers is None or len(numbers) != sizes[name]:
-            return f"{name} of the proof is no list of {sizes[name]} fractions"
+        size = problem.sizes[name]
+        if numbers is None or len(numbers) != size:
+            return f"{name} of the proof is no list of {size} fractions"
     if any(v < 0 for v in proof["z"] or []):
         return "z of the proof has a negative entry"
     rows = problem.rows

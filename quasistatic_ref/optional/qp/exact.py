@@ -127,7 +127,7 @@ def _of_block(program: QuadraticProgram, block: Block, guess: list[int]) -> Bloc
 def _proof(program: QuadraticProgram, block: Block, end: Combination) -> dict[str, Sequence[str]]:
     """A contradiction of rows of a block in the words of qpsolvers, its largest entry one."""
     largest = max(abs(v) for v in end.y.values())
-    proof = [fmpq(0)] * (len(program.h) + len(program.b) + len(program.q))
+    proof = [fmpq(0)] * sum(program.sizes.values())
     rows = program.rows
     for j, v in end.y.items():
         i = block.rows[j]

@@ -79,7 +79,7 @@ def load_answer(path: str | Path) -> ExactQP | QPInfeasible:
 def _answer(top: TableReader) -> ExactQP | QPInfeasible:
     top.check_format(QP_FORMAT, VERSION)
     program = program_of(*(_limits(field, top.take(field)) for field in FIELDS))
-    sizes = {"z": len(program.h), "y": len(program.b), "z_box": len(program.q)}
+    sizes = program.sizes
     if top.text("status", choices=("optimal", "infeasible")) == "infeasible":
         table = top.table("farkas")
         exact = {name: table.words(name) for name in sizes}

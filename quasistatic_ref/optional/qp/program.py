@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import islice
 from typing import Any, Protocol
 
 import numpy as np
@@ -85,14 +86,19 @@ class QuadraticProgram(Plain, Shown):
 
     def multipliers(self, of_rows: Array) -> dict[str, Array]:
         """The z, y and z_box of qpsolvers from `of_rows`, a multiplier of each row, (m,) [-]."""
-        every = np.zeros(len(self.h) + len(self.b) + len(self.q))
+        every = np.zeros(sum(self.sizes.values()))
         np.add.at(every, self.rows.slot, self.rows.sign * of_rows + 0.0)
         return {name: np.array(values) for name, values in self.split(every).items()}
 
+    @property
+    def sizes(self) -> dict[str, int]:
+        """How many multipliers z, y and z_box are."""
+        return {"z": len(self.h), "y": len(self.b), "z_box": len(self.q)}
+
     def split(self, multipliers: Any) -> dict[str, Any]:
         """The z, y and z_box of qpsolvers from one after the other."""
-        k, e = len(self.h), len(self.b)
-        return {"z": multipliers[:k], "y": multipliers[k : k + e], "z_box": multipliers[k + e :]}
+        left = iter(multipliers)
+        return {name: [*islice(left, size)] for name, size in self.sizes.items()}
 
     @cached_property
     def blocks(self) -> list[Block]:
