@@ -191,7 +191,7 @@ def dropped(v: Array, every: Sequence[touches.StateContact]) -> Iterator[str]:
 def actuated(
     state: MujocoState, springs: Sequence[Spring], tied: constraints.Tied
 ) -> tuple[constraints.Tied, int, Array]:
-    """The joints that remain, the actuated ones first, the number of these, and K_q.
+    """The joints that remain, the n_a actuated ones first, n_a, and K_q, shape (n_a, n_a).
 
     A coordinate is actuated if a servo or spring acts on it.
 
