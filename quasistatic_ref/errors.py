@@ -200,10 +200,16 @@ def about_field(field: str) -> Iterator[None]:
         raise
 
 
-def check_kind(value: object, kinds: type | UnionType, field: str, wanted: str) -> None:
-    """Refuse an argument of another type: InputError, which says what is `wanted`."""
+def check_kind(
+    value: object,
+    kinds: type | UnionType,
+    field: str,
+    wanted: str,
+    error: type[InputError] = InputError,
+) -> None:
+    """Refuse an argument of another type: an InputError, which says what is `wanted`."""
     if not isinstance(value, kinds):
-        raise InputError(f"must be {wanted}", field=field, value=type(value).__name__)
+        raise error(f"must be {wanted}", field=field, value=type(value).__name__)
 
 
 def _rebuilt(

@@ -95,13 +95,9 @@ def run(options: argparse.Namespace) -> int:
     _check_parts(options, tables)
     if unknown := unknown_elements(scenario.system):
         print(f"quasistatic-ref: {unknown}", file=sys.stderr)
-    failure: RunFailed | None = None
     try:
-        trajectory: Trajectory = scenario.run(progress=not options.quiet, notes=options.notes)
-    except RunFailed as error:
-        failure = error
-        trajectory = error.trajectory
-    if failure is not None:
+        trajectory = scenario.run(progress=not options.quiet, notes=options.notes)
+    except RunFailed as failure:
         return shared.failed_run(failure, path)
     save_trajectory(path, trajectory)
     written = [path]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import ModelError, about_field
+from quasistatic_ref.errors import ModelError, about_field, check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import BASES
@@ -98,17 +98,14 @@ class Body(Plain):
         obstacle = None if self.base == FIXED else BASES[self.base].obstacle(xyz, rpy, xyz)
         if obstacle is not None:
             raise ModelError(obstacle, field=f"{self.name}.rpy", value=rpy.tolist())
-        if not isinstance(self.urdf, str | PathLike | Tree):
-            problem = "must be a path, or a URDF as text"
-            raise ModelError(problem, field=f"{self.name}.urdf", value=type(self.urdf).__name__)
+        for key, kinds, wanted in (
+            ("urdf", str | PathLike | Tree, "a path, or a URDF as text"),
+            ("positions", Mapping, "a mapping of joints to numbers, as in {'elbow': 0.3}"),
+            ("package_dirs", list | tuple, "a list of folders"),
+        ):
+            check_kind(getattr(self, key), kinds, f"{self.name}.{key}", wanted, ModelError)
         if isinstance(self.urdf, PathLike):
             object.__setattr__(self, "urdf", Path(self.urdf))
-        if not isinstance(self.positions, Mapping):
-            problem = "must be a mapping of joints to numbers, as in {'elbow': 0.3}"
-            raise ModelError(problem, field=f"{self.name}.positions", value=self.positions)
-        if not isinstance(self.package_dirs, list | tuple):
-            problem = "must be a list of folders"
-            raise ModelError(problem, field=f"{self.name}.package_dirs", value=self.package_dirs)
         positions = {
             joint: finite_number(value, f"{self.name}.positions.{joint}")
             for joint, value in self.positions.items()
