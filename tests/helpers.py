@@ -1,5 +1,6 @@
 """Steps of tests, and the one definition of error, written without the package's formulas."""
 
+import os
 from dataclasses import replace
 
 import numpy as np
@@ -210,3 +211,16 @@ def two_bodies(normals, phi, force):
     frames = frames_about(np.array(normals), Z)
     M = np.kron(np.eye(2), np.eye(3) + 0.1)  # all three coordinates of a body are coupled
     return free_step(M, force, contacts_of(phi, frames, J, 0.0), 0.01)
+
+
+class Place(os.PathLike):
+    """A path that is no Path, as an entry of `os.scandir` is."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def __fspath__(self):
+        return str(self.path)
+
+    def __repr__(self):
+        return "<Place>"

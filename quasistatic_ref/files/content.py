@@ -36,7 +36,7 @@ def checked_path(path: object) -> Path:
     return Path(cast("str", path))
 
 
-def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Path:
+def written_whole(path: str | os.PathLike[str], write: Callable[[IO[bytes]], object]) -> Path:
     """Write a file under a temporary name in the same folder, then rename it.
 
     Parameters
@@ -137,7 +137,7 @@ def _resolved(path: Path) -> Path:
         raise _unwritable(error, path) from None
 
 
-def writable_folder(folder: str | Path) -> Path:
+def writable_folder(folder: str | os.PathLike[str]) -> Path:
     """Make a folder and see that files can be written there, before work is done for them.
 
     Raises
@@ -160,18 +160,18 @@ def _unwritable(error: Exception, path: Path) -> InputError:
     return InputError(f"cannot be written: {reason}; choose another folder", file=path)
 
 
-def text_written(path: str | Path, text: str) -> Path:
+def text_written(path: str | os.PathLike[str], text: str) -> Path:
     """Write a text file whole, in UTF-8."""
     return bytes_written(path, text.encode("utf-8"))
 
 
-def bytes_written(path: str | Path, content: bytes) -> Path:
+def bytes_written(path: str | os.PathLike[str], content: bytes) -> Path:
     """Write a file whole."""
     return written_whole(path, lambda file: file.write(content))
 
 
 def bytes_read(
-    path: str | Path, error: type[InputError] = InputError, largest: int = LARGEST
+    path: str | os.PathLike[str], error: type[InputError] = InputError, largest: int = LARGEST
 ) -> bytes:
     """The content of a file.
 
@@ -206,7 +206,9 @@ def bytes_read(
         raise error(f"cannot be read: {reason}", file=path) from None
 
 
-def text_of(content: bytes, path: str | Path, error: type[InputError] = InputError) -> str:
+def text_of(
+    content: bytes, path: str | os.PathLike[str], error: type[InputError] = InputError
+) -> str:
     """Content as text; a byte-order mark is dropped. InputError if it is not UTF-8."""
     try:
         return content.decode("utf-8-sig")
@@ -219,13 +221,13 @@ def text_of(content: bytes, path: str | Path, error: type[InputError] = InputErr
 
 
 def text_read(
-    path: str | Path, error: type[InputError] = InputError, largest: int = LARGEST
+    path: str | os.PathLike[str], error: type[InputError] = InputError, largest: int = LARGEST
 ) -> str:
     """The text of a file, as :func:`bytes_read` and :func:`text_of` have it."""
     return text_of(bytes_read(path, error, largest), path, error)
 
 
-def json_read(path: str | Path) -> Any:
+def json_read(path: str | os.PathLike[str]) -> Any:
     """The value in a JSON file; InputError if it does not parse, or names a field twice."""
     try:
         with about_file(path):
@@ -251,7 +253,7 @@ def _check_characters(text: str, value: object) -> None:
 
 
 def toml_read(
-    path: str | Path, error: type[InputError] = InputError, what: str = "TOML"
+    path: str | os.PathLike[str], error: type[InputError] = InputError, what: str = "TOML"
 ) -> dict[str, Any]:
     """The tables of a TOML file.
 

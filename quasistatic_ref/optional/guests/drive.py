@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from io import StringIO
-from pathlib import Path
+from os import PathLike
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,7 +22,7 @@ from quasistatic_ref.simulate.target import piecewise_linear
 if TYPE_CHECKING:
     from mujoco import MjData
 
-Driven = Callable[[float], Mapping[str, float]] | str | Path | Sequence[str] | None
+Driven = Callable[[float], Mapping[str, float]] | str | PathLike[str] | Sequence[str] | None
 """A function of time [s], a table, names of keyframes, or nothing."""
 
 
@@ -158,9 +158,9 @@ def drive_of(system: MujocoSystem, data: MjData, T: float, targets: Driven) -> D
         def values(t: float) -> Array:
             return row(function(t))
 
-    elif isinstance(targets, str | Path):
-        with about_file(Path(targets)):
-            columns, times, table = table_read(Path(targets))
+    elif isinstance(targets, str | PathLike):
+        with about_file(targets):
+            columns, times, table = table_read(targets)
             rows = [row(dict(zip(columns, numbers, strict=True))) for numbers in table.tolist()]
         values = partial(piecewise_linear, times, np.array(rows))
         for name, column in zip(columns, table.T.tolist(), strict=True):
@@ -203,7 +203,7 @@ def _of_keyframes(
     return partial(piecewise_linear, times, rows)
 
 
-def table_read(path: Path) -> tuple[list[str], Array, Array]:
+def table_read(path: str | PathLike[str]) -> tuple[list[str], Array, Array]:
     """Names of columns, times (w,) [s] and values (w, columns) of a CSV table.
 
     Raises

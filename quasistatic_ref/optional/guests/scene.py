@@ -165,7 +165,7 @@ def mujoco_scenario(
     """
     check_kind(path, str | PathLike, "path", "a path")
     wanted = "a file, names of keyframes or a function"
-    check_kind(targets, Sequence | Path | Callable | None, "targets", wanted)
+    check_kind(targets, Sequence | PathLike | Callable | None, "targets", wanted)
     if isinstance(targets, Sequence) and not targets:
         raise InputError(f"must be {wanted}", field="targets", value=targets)
     tables = dict(START)
@@ -194,7 +194,7 @@ def _scenario_of(
     if not isinstance(stiffness, Mapping):
         raise ScenarioError("must name joints: stiffness.JOINT=VALUE", field="stiffness")
     if data is None:
-        keys = () if callable(targets) or isinstance(targets, str | Path) else targets
+        keys = () if callable(targets) or isinstance(targets, str | PathLike) else targets
         data = settled(model, 0.0, keys[0] if keys else None)
     system = MujocoSystem(model, data, run["h"], {**stiffness}, margin)
     if "cone" in tables:

@@ -1,7 +1,5 @@
 """Scenario files: what each table comes to, and refusals that name file, field and value."""
 
-import os
-
 import numpy as np
 import pytest
 
@@ -18,6 +16,7 @@ from quasistatic_ref import (
 from tests.cases import cases
 from tests.closeness import assert_close, assert_relative, assert_same, assert_within
 from tests.files.urdf.urdf_texts import joint, link, robot, urdf_of_text
+from tests.helpers import Place
 from tests.scenes import PUSH
 
 K_Q = "K_q = { slide = 500, turn = 2.5 }"
@@ -167,19 +166,6 @@ def test_a_body_with_a_cloud_is_its_cloud_by_name(load, tmp_path):
     assert isinstance(floor.beta.shape, PointCloud)
     assert isinstance(push.beta.shape, PointCloud)
     assert (floor.beta.link, floor.n_c) == (scenario.system.link("ball"), 2)
-
-
-class Place(os.PathLike):
-    """A path that is no Path, as an entry of `os.scandir` is."""
-
-    def __init__(self, path):
-        self.path = path
-
-    def __fspath__(self):
-        return str(self.path)
-
-    def __repr__(self):
-        return "<Place>"
 
 
 def test_every_path_is_taken_that_python_opens(tmp_path):

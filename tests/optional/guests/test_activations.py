@@ -5,6 +5,7 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.errors import ModelError
+from tests.helpers import Place
 from tests.optional.guests.models import model_of, posed
 
 SLIDER = """<mujoco><worldbody><body name="b"><joint name="j" type="slide" axis="1 0 0"/>
@@ -34,7 +35,7 @@ SERVOS = {
 def run(folder, actuator):
     model = model_of(SLIDER.format(actuator))
     (folder / "t.csv").write_text("t,a\n0,0\n0.1,0.2\n")
-    return qr.mujoco_scenario(model, targets=folder / "t.csv", steps=60).run()
+    return qr.mujoco_scenario(model, targets=Place(folder / "t.csv"), steps=60).run()
 
 
 @pytest.mark.parametrize(("actuator", "end"), SERVOS.values(), ids=SERVOS)

@@ -72,8 +72,10 @@ def style_file(name: str | Path) -> str | Path:
     """
     if str(name) in STYLES:
         return Path(__file__).parent / f"{name}.mplstyle"
-    if name in plt.style.available or name == "default" or Path(name).is_file():
+    if name in (*plt.style.available, "default"):
         return name
+    if Path(name).is_file():
+        return Path(name)
     problem = f"is not a style{suggestion(str(name), STYLES)}"
     raise InputError(problem, field="style", value=str(name))
 
