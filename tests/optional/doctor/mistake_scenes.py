@@ -24,6 +24,8 @@ GRAVE = {
     for name, severity in re.findall(r"^\| `([\w-]+)` \| ([\w, ]+) \|", PAGE, re.M)
 }
 """By the page, of each finding."""
+BEFORE = {*re.findall(r"^\| `([\w-]+)` \|", PAGE.partition("## After a run")[0], re.M)}
+"""By the page, what is found before a run, of which a few steps show all."""
 SCENES = ("grasp", "push", "turn")
 RADIUS = 0.033
 HEIGHT = 0.12

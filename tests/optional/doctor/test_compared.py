@@ -10,7 +10,7 @@ from quasistatic_ref.lab.grasp import grasp_report
 
 @pytest.mark.parametrize(
     ("mu_omega", "h"),
-    [(1.7e-3, 0.01), pytest.param(2e-3, 0.005, marks=pytest.mark.long), (2.05e-3, 0.005)],
+    [(1.7e-3, 0.01), *(pytest.param(x, 0.005, marks=pytest.mark.long) for x in (2e-3, 2.05e-3))],
 )
 def test_a_turn_by_drag_is_that_of_the_whole_run(mu_omega, h):
     """Of the bunny, by some degrees; before it settles by a tenth of one as its grip closes."""
