@@ -208,6 +208,7 @@ def test_joints_without_servos_have_springs_and_fields_their_names():
         mujoco_scenario(model(), gravity=[0, 0, -1])
 
 
+@pytest.mark.usefixtures("compiled_here")
 @pytest.mark.parametrize(
     ("setting", "problem"),
     [

@@ -106,6 +106,7 @@ def test_a_high_body_falls_without_a_distance_that_is_none():
     assert "e+09" not in findings[1].sentence
 
 
+@pytest.mark.usefixtures("compiled_here")
 def test_a_built_in_mesh_whose_parameters_are_large_numbers_runs(tmp_path):
     geom = '<geom type="mesh" mesh="w" mass="0" contype="0" conaffinity="0"/>'
     file = tmp_path / "m.xml"
