@@ -77,8 +77,8 @@ def named_folders(node, name):
 
 def kinds(node, name):
     """The kind of a cone or a joint that a node asks for, in a file that may not."""
-    called = isinstance(node, ast.Call) and ast.unparse(node.func) in {"isinstance", "issubclass"}
-    if isinstance(node, ast.Compare) or called:
+    function = getattr(node.func, "id", "") if isinstance(node, ast.Call) else ""
+    if isinstance(node, ast.Compare) or function in ("isinstance", "issubclass"):
         names = {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}
         if names & CONES and name not in OF_CONES:
             yield "asks for the kind of a cone"
