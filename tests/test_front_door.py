@@ -202,6 +202,5 @@ def test_an_unknown_name_is_an_attribute_error():
 
 
 def test_python_m_is_the_command_line():
-    command = "-m", "quasistatic_ref"
-    assert python(*command, "--version").stdout.strip() == qr.__version__
-    assert "no_such_scenario" in python(*command, "run", "no_such_scenario", status=2).stderr
+    said = python("-m", "quasistatic_ref", "run", "no_such_scenario", status=2).stderr
+    assert "no_such_scenario" in said

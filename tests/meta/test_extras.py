@@ -5,9 +5,9 @@ import tomllib
 
 import pytest
 
+from tests import conftest
 from tests.extras import is_missing
 from tests.pages import ROOT
-from tests.processes import python
 
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"][
     "optional-dependencies"
@@ -15,25 +15,6 @@ EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"][
 SKIPS = re.compile(
     r"pytest\.skip\((?!.*--count)|mark\.skip|collect_ignore|importorskip\((?!.*reason=needs\()"
 )
-CONFTEST = """
-from tests import conftest
-from tests.conftest import *
-
-conftest.is_missing = lambda extra: extra == "robots"
-"""
-"""The hooks of this suite, where one extra is missing."""
-MARKED = """
-import pytest
-
-@pytest.mark.extra("robots")
-@pytest.mark.parametrize("k", [1, 2])
-def test_that_needs_it(k):
-    pass
-
-@pytest.mark.extra("fast")
-def test_that_has_what_it_needs():
-    pass
-"""
 
 
 def test_nothing_is_skipped_but_for_want_of_an_extra_or_of_a_count():
@@ -57,10 +38,14 @@ def test_every_marker_names_an_extra(request):
         is_missing("nonsense")
 
 
-def test_what_is_skipped_is_named_with_its_extra(tmp_path):
-    (tmp_path / "conftest.py").write_text(CONFTEST, "utf-8")
-    (tmp_path / "test_marked.py").write_text(MARKED, "utf-8")
-    options = "-q", "-rs", "-p", "no:cacheprovider", f"--rootdir={tmp_path}"
-    printed = python("-m", "pytest", *options, tmp_path).stdout
-    assert "1 passed, 2 skipped" in printed
-    assert 'needs the extra robots: pip install -e ".[test,robots]"' in printed
+def test_what_is_skipped_is_named_with_its_extra_and_left_to_ci(request, monkeypatch):
+    monkeypatch.setattr(conftest, "is_missing", lambda extra: extra == "robots")
+    items = []
+    for extra in ("robots", "engines", "fast"):
+        item = pytest.Function.from_parent(request.node.parent, name=extra, callobj=lambda: None)
+        item.add_marker(pytest.mark.extra(extra))
+        items.append(item)
+    conftest.pytest_collection_modifyitems(items)
+    reasons = [mark.kwargs["reason"] for item in items for mark in item.iter_markers("skip")]
+    assert reasons == ['needs the extra robots: pip install -e ".[test,robots]"']
+    assert [item.name for item in items if item.get_closest_marker("ci")] == ["robots"]

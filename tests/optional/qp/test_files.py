@@ -1,6 +1,5 @@
 """Programs in files of others, and the command ``qp``."""
 
-import subprocess
 import sys
 from pathlib import Path
 
@@ -15,6 +14,8 @@ import quasistatic_ref as qr
 from quasistatic_ref.lab.study.store import rows_read
 from quasistatic_ref.optional.qp.files import load_qp
 from tests.helpers import one_sentence
+from tests.pages import ROOT
+from tests.processes import python
 
 DATA = Path(__file__).parent / "data"
 PROVED = {"HS21": 0.04, "HS35MOD": 0.25 - 9, "HS76": -4.681818181818182, "HS118": 664.82045,
@@ -142,22 +143,17 @@ LIGHT = """
 import sys
 sys.modules |= dict.fromkeys(("cvxpy", "scipy", "tqdm", "pinocchio", "coal", "matplotlib"))
 from quasistatic_ref.cli.main import main, parsed, status
-sys.exit(status(parsed(sys.argv[1:])))
+for command in sys.argv[1:]:
+    outcome = status(parsed(command.split()))
+sys.exit(outcome)
 """
 
 
-@pytest.mark.parametrize(
-    ("command", "missing"),
-    [
-        (["qp", DATA / "LIPMWALK0.npz"], None),
-        (["qp", DATA / "LIPMWALK0.npz", "--solvers", "clarabel"], "scipy"),
-        (["run", "bunny_grasp"], "pinocchio"),
-        (["demo"], "pinocchio"),
-        (["figures"], "matplotlib"),
-    ],
-)
-def test_a_light_installation_does_its_own_and_says_what_else_is_missing(command, missing):
-    ended = subprocess.run([sys.executable, "-c", LIGHT, *command], capture_output=True, text=True)
-    assert ended.returncode == (0 if missing is None else 2)
-    if missing is not None:
-        assert f"this needs {missing}, which is not installed here" in one_sentence(ended.stderr)
+def test_a_light_installation_does_its_own_and_says_what_else_is_missing():
+    program = f"qp {(DATA / 'LIPMWALK0.npz').relative_to(ROOT)}"
+    python("-c", LIGHT, program)
+    others = {f"{program} --solvers clarabel": "scipy", "figures": "matplotlib"}
+    others |= {"run bunny_grasp": "pinocchio"}
+    said = python("-c", LIGHT, *others, status=2).stderr.splitlines()
+    for missing, sentence in zip(others.values(), said, strict=True):
+        assert f"this needs {missing}, which is not installed here" in sentence
