@@ -33,7 +33,7 @@ from tests.optional.derivatives.free_bodies import (
 from tests.tolerances import DIFFERENCE_OF_STEPS
 
 DIGITS = 5
-PARTS = 20
+PARTS = 40
 IS_KINK = "/kink/"
 HARDEST = "derivative/random/96"
 """Its derivatives by q are the least well known, and small."""
@@ -46,11 +46,11 @@ def parts(count):
     return [0, *(pytest.param(part, marks=pytest.mark.long) for part in range(1, count))]
 
 
-@pytest.mark.parametrize("part", parts(4))
+@pytest.mark.parametrize("part", parts(8))
 def test_every_kink_of_the_vectors_is_seen(part):
     kinks = [case for case in cases("derivative") if IS_KINK in case.id]
     assert len(kinks) == 57
-    for case in kinks[part::4]:
+    for case in kinks[part::8]:
         try:
             posed = posed_case(case.input)
             found = derivatives(posed.simulator, posed.q, posed.q_bar_a, posed.force, by="q")
