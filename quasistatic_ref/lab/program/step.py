@@ -22,6 +22,12 @@ def pose_in_world(shape, at):
     return R @ R_shape, R @ t_shape + t
 
 
+def sides_of(case, pair, at):
+    """The two shapes of a pair, each with its pose in the world."""
+    entries = {side: case["shapes"][pair[side]] for side in ("alpha", "beta")}
+    return {side: (one["shape"], pose_in_world(one, at)) for side, one in entries.items()}
+
+
 def entry_of(case, pair):
     """What all contacts of a pair have in common."""
     entry = {"pair": pair["name"]}
@@ -33,13 +39,10 @@ def contacts_of(case, at):
     """The contacts, pair by pair, without J."""
     contacts = []
     for pair in case["pairs"]:
-        alpha = case["shapes"][pair["alpha"]]
-        beta = case["shapes"][pair["beta"]]
         k = pair["k"]
-        phi, a, b, n, index, late = candidates(
-            alpha["shape"], pose_in_world(alpha, at), beta["shape"], pose_in_world(beta, at), k
-        )
-        rank = gaps(phi, smaller(alpha["shape"], beta["shape"]))
+        alpha, beta = sides_of(case, pair, at).values()
+        phi, a, b, n, index, late = candidates(*alpha, *beta, k)
+        rank = gaps(phi, smaller(alpha[0], beta[0]))
         for i in k_first(rank, index, late, k):
             d1, d2 = tangents(n[i])
             contact = {"index": int(index[i])}

@@ -11,17 +11,18 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.lab.program.distance import closest_points, corners
+from quasistatic_ref.lab.program.candidates import candidates
 from quasistatic_ref.lab.program.layers import plain
 from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.program.rows import cone_table
-from quasistatic_ref.lab.program.step import contacts_of, pose_in_world, step_at
+from quasistatic_ref.lab.program.step import contacts_of, sides_of, step_at
 from quasistatic_ref.lab.scenes.at_random import Rng, random_contacts
 from quasistatic_ref.lab.scenes.at_random import random_step as random_program
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.lab.vectors.agreed import agreed_record
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import few_digits, random_step
 from quasistatic_ref.lab.vectors.challenge.random_scenes import EASY, HARD, random_scene
+from quasistatic_ref.lab.vectors.check.valid_witness import Sides
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.own.step import with_compliance
 from quasistatic_ref.lab.vectors.trees import Json
@@ -102,12 +103,11 @@ def _kept(entries: Json, *keys: str) -> Json:
     return [{key: entry[key] for key in keys} for entry in entries]
 
 
-def _sides(rng: Rng, case: Json) -> Json:
+def _sides(rng: Rng, case: Json) -> Sides:
     """The two shapes of a pair of a scene, with their poses in the world."""
-    at = kinematics(case["mechanism"], np.array(case["q"]))
     pair = case["pairs"][int(rng.integers(len(case["pairs"])))]
-    entries = {side: case["shapes"][pair[side]] for side in ("alpha", "beta")}
-    return {side: (entry["shape"], pose_in_world(entry, at)) for side, entry in entries.items()}
+    sides: Sides = sides_of(case, pair, kinematics(case["mechanism"], np.array(case["q"])))
+    return sides
 
 
 def _distance(rng: Rng, level: int, case: Json, contacts: Json) -> Json:
@@ -123,22 +123,16 @@ def _distance(rng: Rng, level: int, case: Json, contacts: Json) -> Json:
 
 
 def _selection(rng: Rng, level: int, case: Json, contacts: Json) -> Json:
-    """Distances of all points of the pairs, in whole mm where they are to be equal."""
+    """Distances of the candidates of a pair, in whole mm where they are to be equal."""
     sides = _sides(rng, case)
-    shapes = [shape for shape, _ in sides.values()]
-    digits = int(rng.choice([2, 3, 9]))
-    nearest = closest_points(*sides["alpha"], *sides["beta"])
-    phi, _, _, n = nearest
-    cut: Json = {"k": int(rng.integers(1, 6))}
-    if "cloud" in (shape["kind"] for shape in shapes):
-        return {**cut, "phi": [few_digits(phi, digits), few_digits(phi[:1]), []]}
-    for side, (shape, pose) in sides.items():
-        if len(corners(shape)):
-            points = {"kind": "cloud", "points": corners(shape)}
-            cornered = {**sides, side: (points, pose)}
-            heights, _, _, normals = closest_points(*cornered["alpha"], *cornered["beta"])
-            return {**cut, "phi": [few_digits([*heights, phi], digits)], "normals": [[*normals, n]]}
-    return {**cut, "phi": [few_digits(np.round(rng.standard_normal(12), 1)), [phi]]}
+    phi_of_candidates, _, _, n, *_ = candidates(*sides["alpha"], *sides["beta"], 5)
+    phi = few_digits(phi_of_candidates, int(rng.choice([2, 3, 9])))
+    k = int(rng.integers(1, 6))
+    if "cloud" in (shape["kind"] for shape, _ in sides.values()):
+        return {"k": k, "phi": [phi, phi[:1], []]}
+    if len(phi) == 1:
+        return {"k": k, "phi": [few_digits(rng.standard_normal(12), 1), phi]}
+    return {"k": k, "phi": [phi], "normals": [np.array(n, dtype=np.float64)]}
 
 
 def _jacobian(rng: Rng, level: int, case: Json, contacts: Json) -> Json:

@@ -67,14 +67,7 @@ def random_scene(rng: Rng, level: int) -> Json:
     """The input of a case."""
     kind = int(rng.integers(4))
     if level != EASY and kind == 0:
-        makers = (
-            _brick_beside,
-            _brick_on_solid,
-            _brick_over_edge,
-            _cloud_in_plate,
-            _cloud_in_plate,
-        )
-        return makers[int(rng.integers(len(makers)))](rng)
+        return (_cloud_in_plate if rng.integers(5) < 2 else _bricks)(rng)
     tree = _bodies(rng, level, kind)
     bodies = {"bodies": tree}
     q = random_q(rng, bodies)
@@ -232,48 +225,28 @@ def _free(rng: Rng, shape: Json, q: list[float]) -> Json:
     return scene([body], {"body": on("body0", shape)}, q, pairs=[])
 
 
-def _brick_on_solid(rng: Rng) -> Json:
-    """A brick that is turned by more or less than 0.25 rad on a box, or on a ball."""
-    world = random_quaternion(rng)
-    place = few_digits(rng.uniform(-1, 1, 3))
-    size = few_digits(rng.uniform(0.05, 0.2, 3), 2)
-    case = _free(rng, {"kind": "box", "size": size}, [*place, *world])
-    half_angle = float(rng.choice([0.02, 0.05, 0.1, 0.2, 0.3])) * rng.uniform(0.9, 1.1)
-    turn = [*np.sin(half_angle) * _direction(rng), np.cos(half_angle)]
-    case["shapes"]["body"]["pose"]["quaternion"] = few_digits(turn, 4)
-    shape = _shape(rng, "sphere" if rng.integers(4) == 0 else "box")
-    under = {"body": None, "pose": {"xyz": place, "quaternion": world}, "shape": shape}
-    R, _ = frame(under["pose"])
-    away = R @ [*rng.uniform(-0.08, 0.08, 2), -0.5]
-    _put_against(case, "under", under, float(rng.choice(GAPS[:3])), away)
-    _add_pair(rng, case, "under", "body", int(rng.integers(2, 9)))
-    return case
-
-
-def _brick_beside(rng: Rng) -> Json:
-    """Bricks along the same axes, of equal widths: corners on edges, and corners on corners."""
-    top = rng.choice([0.125, 0.25, 0.5], 3)
-    under = np.where(rng.integers(2, size=3), top, rng.choice([0.125, 0.25, 0.5], 3))
-    along = int(rng.integers(3))
-    place = (top - under) / 2 * rng.integers(-1, 2, 3)  # flush faces, or middles that meet
-    place[along] = (top + under)[along] / 2 + float(rng.choice([0.0, -1 / 64, 1 / 1024]))
-    case = _free(rng, {"kind": "box", "size": top.tolist()}, [*place.tolist(), *UPRIGHT])
-    case["shapes"]["under"] = on(None, {"kind": "box", "size": under.tolist()})
-    _add_pair(rng, case, "under", "body", int(rng.integers(2, 9)))
-    return case
-
-
-def _brick_over_edge(rng: Rng) -> Json:
-    """A brick that lies askew over the edge of another, tilted, with a corner on that edge."""
+def _bricks(rng: Rng) -> Json:
+    """A brick on a brick: flush, turned by some 0.25 rad, or askew with a corner over an edge."""
     top, under = rng.choice([0.125, 0.25, 0.5], (2, 3))
-    angles = [rng.uniform(-1.1, -0.4), rng.uniform(-0.2, -0.02)]
-    turn = Rotation.from_euler("zx", angles)
-    # By ASIDE off the edge, or rounding would decide which of the corner's edges crosses it.
-    edge = [rng.uniform(-0.05, 0.05), under[1] / 2 + ASIDE * rng.choice([-1, 1]), under[2] / 2]
-    depth = float(rng.choice([0.0, 1 / 64, 1 / 1024]))
-    place = edge + turn.apply(top / 2 - [0.0, 0.0, depth])
-    q = [*place.tolist(), *turn.as_quat().tolist()]
-    case = _free(rng, {"kind": "box", "size": top.tolist()}, q)
+    depth = float(rng.choice([0.0, 1 / 64, -1 / 1024]))
+    kind = int(rng.integers(3))
+    turn = Rotation.identity()
+    corner = -top / 2  # that touches
+    if kind == 0:
+        under = np.where(rng.integers(2, size=3), top, under)
+        place = (top - under) / 2 * rng.integers(-1, 2, 3)  # flush faces, or middles that meet
+    elif kind == 1:
+        angle = float(rng.choice([0.04, 0.1, 0.2, 0.4, 0.6])) * rng.uniform(0.9, 1.1)
+        turn = Rotation.from_rotvec(angle * _direction(rng))
+        corner = -np.sign(turn.as_matrix()[2]) * top / 2
+        place = np.array(few_digits(rng.uniform(-0.1, 0.1, 3)))
+    else:
+        turn = Rotation.from_euler("zx", [rng.uniform(-1.1, -0.4), rng.uniform(-0.2, -0.02)])
+        # By ASIDE off the edge, or rounding would decide which of the corner's edges crosses it.
+        edge = [rng.uniform(-0.05, 0.05), under[1] / 2 + ASIDE * rng.choice([-1, 1]), 0.0]
+        place = edge - turn.apply(corner)
+    place[2] = under[2] / 2 - depth - turn.apply(corner)[2]
+    case = _free(rng, {"kind": "box", "size": top.tolist()}, [*place, *turn.as_quat()])
     case["shapes"]["under"] = on(None, {"kind": "box", "size": under.tolist()})
     _add_pair(rng, case, "under", "body", int(rng.integers(2, 9)))
     return case

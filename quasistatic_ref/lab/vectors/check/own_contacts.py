@@ -6,7 +6,6 @@ in float64. So contacts are checked by what they have to be, the candidates bein
 program's. J, A and b of these contacts are the plain program's, too; the optimum is exact.
 """
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -16,12 +15,12 @@ from quasistatic_ref.lab.program.candidates import TIED as FACES
 from quasistatic_ref.lab.program.distance import closest_points, corners
 from quasistatic_ref.lab.program.layers import plain
 from quasistatic_ref.lab.program.mechanism import kinematics
-from quasistatic_ref.lab.program.step import entry_of, pose_in_world, step_at
+from quasistatic_ref.lab.program.rotation import AXES, unit
+from quasistatic_ref.lab.program.step import entry_of, sides_of, step_at
 from quasistatic_ref.lab.vectors.check.compare import tolerance_of
 from quasistatic_ref.lab.vectors.check.valid_witness import Sides, each_solid, witness_problem
 from quasistatic_ref.lab.vectors.layers.qp import exact_optimum
 from quasistatic_ref.lab.vectors.trees import Json
-from quasistatic_ref.numbers.arrays import Array
 
 FIELDS = ("phi", "alpha", "beta", "n")
 SAME_WAY = 1e-12
@@ -55,67 +54,34 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
     rounding = 2 * (allowed if "negligible" in record else min(allowed, ROUNDING))
     at = kinematics(case["mechanism"], np.array(case["q"]))
     for pair in case["pairs"]:
-        of_pair_contacts = [c for c in contacts if c["pair"] == pair["name"]]
-        due = sorted(c["phi"] for c in wanted if c["pair"] == pair["name"])
-        if len({c["index"] for c in of_pair_contacts}) < len(of_pair_contacts):
+        own = [c for c in contacts if c["pair"] == pair["name"]]
+        indices = [c["index"] for c in own]
+        if len({*indices}) < len(own):
             return f"{pair['name']} names a candidate twice"
-        depths = sorted(float(c["phi"]) for c in of_pair_contacts)
-        if any(abs(one - other) > 2 * allowed for one, other in zip(depths, due, strict=True)):
+        due = sorted(c["phi"] for c in wanted if c["pair"] == pair["name"])
+        if np.abs(np.subtract(sorted(c["phi"] for c in own), due)).max(initial=0.0) > 2 * allowed:
             return f"the distances of {pair['name']} are others"
-        entries = {side: case["shapes"][pair[side]] for side in ("alpha", "beta")}
-        sides = {side: (e["shape"], pose_in_world(e, at)) for side, e in entries.items()}
-        known = _known_candidates(sides, pair["k"])
-        for contact in of_pair_contacts:
-            if contact["index"] not in known:
-                return f"{pair['name']} has no candidate {contact['index']}"
-        indices = [contact["index"] for contact in of_pair_contacts]
-        if problem := _rank_problem(sides, pair["k"], indices, rounding):
-            return f"{pair['name']}: {problem}"
-        for contact in of_pair_contacts:
-            if problem := _contact_problem(known[contact["index"]], contact, allowed):
-                others = (i for i, c in known.items() if not _contact_problem(c, contact, allowed))
-                if (place := next(others, None)) is not None:
-                    problem = f"its point is candidate {place}: candidates have a documented order"
-                return f"{pair['name']}/{contact['index']}: {problem}"
+        sides: Sides = sides_of(case, pair, at)
+        *columns, index, late = candidates(*sides["alpha"], *sides["beta"], pair["k"])
+        every = [dict(zip(FIELDS, values, strict=True)) for values in zip(*columns, strict=True)]
+        known = dict(zip(index.tolist(), every, strict=True))
+        unknown = [i for i in indices if i not in known]
+        if unknown:
+            return f"{pair['name']} has no candidate {unknown[0]}"
+        size = smaller(*(shape for shape, _ in sides.values()))
+        rank = gaps(columns[0], size)
+        distance_from_half = RANKED * size / 2 - np.abs(columns[0] - RANKED * size * rank)
+        if size and np.all(distance_from_half > rounding):  # rounding decides no rank
+            first = index[k_first(rank, index, late, pair["k"])].tolist()
+            missing = [i for i in first if i not in indices]
+            if missing:
+                return f"{pair['name']}: candidate {missing[0]} is as near, and of a lower index"
+        for contact in own:
+            i = contact["index"]
+            solids = _closest(sides, pair["k"], i, known[i])
+            if problem := _contact_problem(known[i], solids, contact, allowed):
+                return f"{pair['name']}/{i}: {problem}"
     return None
-
-
-def _rank_problem(sides: Sides, k: int, indices: list[int], rounding: float) -> str | None:
-    """Which candidate should be kept by its rank and index, but where rounding decides a rank."""
-    phi, _, _, _, index, late = candidates(*sides["alpha"], *sides["beta"], k)
-    size = smaller(*(shape for shape, _ in sides.values()))
-    rank = gaps(phi, size)
-    if not size or np.any(np.abs(phi - RANKED * size * rank) + rounding >= RANKED * size / 2):
-        return None
-    due = index[k_first(rank, index, late, k)].tolist()
-    missing = [i for i in due if i not in indices]
-    return f"candidate {missing[0]} is as near, and of a lower index" if missing else None
-
-
-@dataclass(frozen=True)
-class Candidate:
-    """A possible contact of a pair.
-
-    Parameters
-    ----------
-    numbers : dict
-        ``phi``, ``alpha``, ``beta`` and ``n``.
-    closest : Sides, optional
-        The two solids whose closest points it is; None if it bears along another way.
-    """
-
-    numbers: Json
-    closest: Sides | None
-
-
-def _known_candidates(sides: Sides, k: int) -> dict[int, Candidate]:
-    """The candidates of a pair by their index."""
-    *numbers, index, _ = candidates(*sides["alpha"], *sides["beta"], k)
-    every = [dict(zip(FIELDS, values, strict=True)) for values in zip(*numbers, strict=True)]
-    return {
-        i: Candidate(one, _closest(sides, k, i, one))
-        for i, one in zip(index.tolist(), every, strict=True)
-    }
 
 
 def _closest(sides: Sides, k: int, index: int, numbers: Json) -> Sides | None:
@@ -138,30 +104,26 @@ def _closest(sides: Sides, k: int, index: int, numbers: Json) -> Sides | None:
     return sides if index < last + min(k, last + 9) else None
 
 
-def _contact_problem(candidate: Candidate, contact: Json, allowed: float) -> str | None:
+def _contact_problem(
+    candidate: Json, solids: Sides | None, contact: Json, allowed: float
+) -> str | None:
     alpha, beta, n, d1, d2 = (
         np.array(contact[name], dtype=np.float64) for name in ("alpha", "beta", "n", "d1", "d2")
     )
-    for key in ("phi",) if candidate.closest else FIELDS:
-        if np.abs(np.subtract(contact[key], candidate.numbers[key])).max() > 2 * allowed:
+    for key in ("phi",) if solids else FIELDS:
+        if np.abs(np.subtract(contact[key], candidate[key])).max() > 2 * allowed:
             return f"its {key} is another"
-    if candidate.closest:
+    if solids:
         gap = float((beta - alpha) @ n)  # also of what fills the number, whose phi is none
-        problem = witness_problem(candidate.closest, gap, alpha, beta, n, 2 * allowed)
-        if problem:
+        if problem := witness_problem(solids, gap, alpha, beta, n, 2 * allowed):
             return problem
     sizes = np.abs(n)
     near = np.flatnonzero(sizes <= sizes.min() + TIED)
     if (sizes[near] == sizes.min()).all():
         near = near[:1]
-    if not any(np.abs(d1 - _tangent_along_axis(int(i), n)).max() <= 4 * allowed for i in near):
+    if not any(np.abs(d1 - unit(AXES[i] - n[i] * n)).max() <= 4 * allowed for i in near):
         return "d1 is not the projection of the axis farthest from n, the first of equals"
     return None if np.abs(d2 - np.cross(n, d1)).max() <= 4 * allowed else "d2 is not n x d1"
-
-
-def _tangent_along_axis(axis: int, n: Array) -> Array:
-    d = np.eye(3)[axis] - n[axis] * n
-    return np.asarray(d / np.linalg.norm(d))
 
 
 def record_from(case: Json, record: Json, contacts: Json) -> Json:
