@@ -3,7 +3,6 @@
 import json
 import shlex
 
-import numpy as np
 import pytest
 
 from quasistatic_ref import InputError
@@ -26,29 +25,9 @@ def answer(name, case):
     return plain(PROGRAM[name](case))
 
 
-def without_spin(name, case):
-    output = answer(name, case)
-    output["J"] = [[*J[:3], [-x for x in J[3]]] for J in output["J"]]
-    return output
-
-
-def springs_one_by_one(name, case):
-    n_a = len(case["K_q"])
-    K_q = np.diag(np.diag(np.array(case["K_q"]).reshape(n_a, n_a))).tolist()
-    return answer(name, {**case, "K_q": K_q})
-
-
-def the_later_of_equal_distances(name, case):
-    output = answer(name, case)
-    if "normals" not in case:
-        order = [np.lexsort((-np.arange(len(phi)), phi))[: case["k"]] for phi in case["phi"]]
-        output["indices"] = [one.tolist() for one in order]
-    return output
-
-
 def test_the_same_seed_gives_the_same_findings_and_another_other_cases():
     def first(seed):
-        found = challenge(without_spin, layers=["jacobian"], cases=20, seed=seed)
+        found = challenge(lambda *_: {}, layers=["jacobian"], cases=20, seed=seed)
         return [finding.record for finding in found.findings]
 
     assert first(3) == first(3)
@@ -98,17 +77,6 @@ def test_the_command_writes_counterexamples_that_can_be_asked_again(tmp_path, cl
     assert record == json.loads((folder / "counterexample.json").read_text())
     right = command("right", tmp_path)
     cli(*again, f"--command '{right}' --quiet")
-
-
-@pytest.mark.parametrize(
-    ("name", "program"),
-    [
-        pytest.param("step", springs_one_by_one, marks=pytest.mark.long),
-        ("selection", the_later_of_equal_distances),
-    ],
-)
-def test_a_bug_that_shows_in_special_cases_alone_is_found(name, program):
-    assert challenge(program, layers=[name], cases=120).findings
 
 
 @pytest.mark.parametrize("seeds", [range(3), pytest.param(range(3, 12), marks=pytest.mark.long)])
