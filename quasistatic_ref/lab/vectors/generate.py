@@ -5,7 +5,7 @@ What is copied was made once, and keeps its bytes.
 
 import hashlib
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from quasistatic_ref.errors import InputError, QuasistaticError
@@ -80,7 +80,7 @@ def generate_folder(source: Path, out: Path, progress: bool = True) -> dict[str,
         known = expected_read(source, name) if (source / path).exists() else {}
         records = [
             known[case.id] if case.id in known else new_record(name, case)
-            for case in _with_progress(cases, name, progress)
+            for case in progress_bar(cases, words=name, unit="case", shown=progress)
         ]
         files[path] = expected_text(name, records).encode()
         counts[name] = len(cases)
@@ -108,15 +108,10 @@ def own_written(source: Path, out: Path, names: Sequence[str], progress: bool = 
     writable_folder(out)
     paths = []
     for name in names:
-        cases = _with_progress(inputs_read(source, name), name, progress)
+        cases = progress_bar(inputs_read(source, name), words=name, unit="case", shown=progress)
         outputs = {case.id: layer(name).own(case.input) for case in cases}
         paths.append(answers_written(out, name, f"quasistatic_ref {__version__}", outputs))
     return paths
-
-
-def _with_progress(cases: list[Case], name: str, progress: bool) -> Iterable[Case]:
-    bar: Iterable[Case] = progress_bar(cases, words=name, unit="case", shown=progress)
-    return bar
 
 
 def manifest_text(files: dict[str, bytes]) -> str:

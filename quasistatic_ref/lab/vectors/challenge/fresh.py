@@ -16,9 +16,7 @@ from quasistatic_ref.lab.program.layers import plain
 from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.lab.program.step import contacts_of, sides_of, step_at
-from quasistatic_ref.lab.scenes.at_random import Rng, random_contacts
-from quasistatic_ref.lab.scenes.at_random import random_step as random_program
-from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.agreed import agreed_record
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import few_digits, random_step
 from quasistatic_ref.lab.vectors.challenge.random_scenes import EASY, HARD, random_scene
@@ -26,7 +24,6 @@ from quasistatic_ref.lab.vectors.check.valid_witness import Sides
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.own.step import with_compliance
 from quasistatic_ref.lab.vectors.trees import Json
-from quasistatic_ref.step.standard_form import standard_form
 
 CHALLENGED = LAYERS[:-1]
 """Layers with new cases: all but `derivative`."""
@@ -91,9 +88,9 @@ def cut_scene(seed: tuple[int, ...], level: int) -> dict[str, Json]:
             contacts = contacts_of(case, at)
             program = step_at(case, at, contacts)  # gives the contacts their J
             cases = {name: plain(cut(rng, level, case, contacts)) for name, cut in CUTS.items()}
-            qp = _special_qp(rng) if level == HARD and rng.integers(2) else None
-            cases["qp"] = qp or plain({key: program[key] for key in ("H", "g", "A", "b")})
-            return cases
+            special = level == HARD and rng.integers(2)
+            qp = {key: program[key] for key in ("H", "g", "A", "b")}
+            return cases | {"qp": plain(_special_qp(rng, program, contacts) if special else qp)}
     except REFUSALS:
         return {}
 
@@ -176,27 +173,22 @@ def _step(rng: Rng, level: int, case: Json, contacts: Json) -> Json:
         return case
 
 
-def _special_qp(rng: Rng) -> Json:
-    """A program that is badly scaled, has no room, or has second-order cones."""
-    n_a, n_u, n_c = (int(v) for v in rng.integers(1, 5, 3))
+def _special_qp(rng: Rng, program: Json, contacts: Json) -> Json:
+    """A scene's program badly scaled, without room, or with second-order cones."""
+    H, g, A, b = (program[key] for key in ("H", "g", "A", "b"))
     kind = int(rng.integers(3))
-    at = random_contacts(rng, n_c, n_a + n_u)
-    if kind == 2:
-        at = repeated(at, range(n_c), phi=abs(at.phi))
-    ratio = 10.0 ** int(rng.integers(9)) if kind == 0 else 1.0
-    step = random_program(rng, n_a, n_u, at, ratio, cone="ellipsoid" if kind == 2 else "pyramid")
-    form = standard_form(step)
-    program: Json = form._asdict()
-    if kind == 1:  # a row and its opposite, that leave no room
-        program |= {"A": np.vstack([form.A, -form.A[:1]]), "b": np.append(form.b, 1e-3 - form.b[0])}
-    if kind == 2:
-        torsion = np.where(at.rows == 6, at.mu_omega, 0.0)
-        mu = np.stack([np.ones(n_c), at.mu_v, at.mu_v, torsion], axis=1)
-        F = form.A.reshape(n_c, 4, -1) * mu[:, :, None]
-        blocks = [{"F": F_j, "f": [phi, 0.0, 0.0, 0.0]} for F_j, phi in zip(F, at.phi, strict=True)]
-        program = {"H": form.H, "g": form.g, "second_order": blocks}
-    cut: Json = plain(program)
-    return cut
+    if kind == 0:
+        scale = 10.0 ** rng.integers(-2, 3, len(g))
+        return {"H": scale[:, None] * H * scale, "g": scale * g, "A": A * scale, "b": b}
+    if kind == 1:  # a row and its opposite
+        opposed = {"A": np.vstack([A, -A[:1]]), "b": np.append(b, 1e-3 - b[0])}
+        return {"H": H, "g": g, **opposed}
+    blocks = []
+    for c in contacts:
+        sides = np.array([c["n"], c["mu_v"] * c["d1"], c["mu_v"] * c["d2"]]) @ c["J"][:3]
+        spin = c["mu_omega"] * (c["rows"] == 6) * c["J"][3:]
+        blocks.append({"F": np.vstack([sides, spin]), "f": [abs(c["phi"]), 0.0, 0.0, 0.0]})
+    return {"H": H, "g": g, "second_order": blocks}
 
 
 CUTS: dict[str, Callable[[Rng, int, Json, Json], Json]] = {

@@ -12,7 +12,7 @@ from quasistatic_ref.lab.program.distance import closest_points
 from quasistatic_ref.lab.program.mechanism import kinematics, slices
 from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.program.step import pose_in_world
-from quasistatic_ref.lab.scenes.at_random import Rng
+from quasistatic_ref.lab.scenes.at_random import Rng, spread_matrix
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
     BASES,
     KINDS,
@@ -78,7 +78,7 @@ def random_scene(rng: Rng, level: int) -> Json:
         {},
         q,
         pairs=[],
-        K_q=_stiffness(rng, n_a),
+        K_q=np.round(spread_matrix(rng, n_a, 200.0)).tolist(),
         q_bar_a=_target(rng, bodies, np.array(q[:n_q_a])),
         cone=str(rng.choice(CONES)),
         gravity=GRAVITY if rng.integers(2) else few_digits(rng.uniform(-10, 10, 3), 1),
@@ -128,16 +128,6 @@ def _target(rng: Rng, bodies: Json, q_a: Array) -> list[float]:
             cosine_sine = slice(place.stop - 2, place.stop)
             far[cosine_sine] = np.abs(far[cosine_sine]) * [-1.0, -0.125]
     return few_digits(far)
-
-
-def _stiffness(rng: Rng, n_a: int) -> Json:
-    """Springs of each joint alone, or a symmetric matrix: diagonally dominant, hence definite."""
-    stiff = np.diag(np.round(rng.uniform(5, 500, n_a)))
-    if n_a > 1 and rng.integers(3):
-        between = np.triu(np.round(rng.uniform(-50, 50, (n_a, n_a))), 1)
-        between += between.T
-        stiff += between + np.diag(abs(between).sum(axis=1))
-    return stiff.tolist()
 
 
 def _add_pair(rng: Rng, case: Json, alpha: str, beta: str, k: int) -> None:

@@ -9,7 +9,9 @@ from quasistatic_ref.lab.vectors.check.compare import (
     CONTACT,
     OPTIONAL,
     differences,
+    field_names,
     shape_problem,
+    without,
 )
 from quasistatic_ref.lab.vectors.check.derivative import existence_verdict
 from quasistatic_ref.lab.vectors.check.freedoms import FREEDOMS, aligned, plain_failure
@@ -56,15 +58,9 @@ def _asked_fields(layer: str, record: Json, answer: Json) -> tuple[Json, tuple[s
     if not isinstance(answer, dict):
         return answer, ()
     others = {"qp": CLAIMS, "step": CLAIMS, "derivative": ("reasons", *FIELDS.values())}
-    known = {*record["output"], *others.get(layer, ())}
-    extra = [name for name in answer if name not in known]
-    kept = {name: value for name, value in answer.items() if name in known}
-    contacts = kept.get("contacts")
-    if isinstance(contacts, list) and all(isinstance(one, dict) for one in contacts):
-        beyond = {name: None for one in contacts for name in one if name not in CONTACT}
-        extra += [f"contacts.{name}" for name in beyond]
-        kept["contacts"] = [{k: v for k, v in one.items() if k in CONTACT} for one in contacts]
-    return kept, tuple(one_line(name) for name in extra)
+    known = (*record["output"], *others.get(layer, ()), *(f"contacts.{key}" for key in CONTACT))
+    extra = [name for name in field_names(answer) if name not in known]
+    return without(answer, extra), tuple(map(one_line, extra))
 
 
 def _verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
@@ -84,7 +80,7 @@ def _verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
             return _unseen(case, record, answer)
     missing = omissions(expected, answer) if layer in IN_PART and isinstance(answer, dict) else ()
     if missing:
-        expected = _expected_without(expected, missing)
+        expected = without(expected, missing)
     return replace(_field_verdict(layer, case, record, expected, answer), without=missing)
 
 
@@ -123,21 +119,14 @@ def verdict_to_digits(
 
 def omissions(expected: Json, answer: Json) -> tuple[str, ...]:
     """Fields that an answer leaves out, if it has any others."""
-    names = [name for name in expected if name not in (*answer, *OPTIONAL["step"])]
-    contacts = answer.get("contacts")
-    if isinstance(contacts, list) and contacts and isinstance(contacts[0], dict):
-        wanted = expected["contacts"][0] if expected.get("contacts") else {}
-        names += [f"contacts.{key}" for key in CONTACT if key in wanted and key not in contacts[0]]
-    return tuple(names) if set(expected) & set(answer) else ()
-
-
-def _expected_without(expected: Json, missing: tuple[str, ...]) -> Json:
-    """The expected output without some of its fields."""
-    kept = {name: value for name, value in expected.items() if name not in missing}
-    if "contacts" in kept:
-        names = {key for key in CONTACT if f"contacts.{key}" not in missing}
-        kept["contacts"] = [{k: v for k, v in c.items() if k in names} for c in kept["contacts"]]
-    return kept
+    given = field_names(answer)
+    of_contacts = any("." in name for name in given)
+    missing = [
+        name
+        for name in field_names(expected)
+        if name not in (*given, *OPTIONAL["step"]) and (of_contacts or "." not in name)
+    ]
+    return tuple(missing) if set(expected) & set(answer) else ()
 
 
 def _unseen(case: Json, record: Json, answer: Json) -> Verdict:

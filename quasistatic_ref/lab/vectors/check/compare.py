@@ -1,7 +1,7 @@
 """Two outputs of one layer side by side: their shape, and number by number."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 from quasistatic_ref.lab.vectors.check.verdict import Difference, correct_digits
@@ -23,6 +23,25 @@ ORDER = (
     *("q", "q_next"),
 )
 """Fields in the order in which a step comes to them: what fails first is the cause of the rest."""
+
+
+def field_names(output: Json) -> list[str]:
+    """The fields of an output, and those of its contacts as ``contacts.phi``."""
+    contacts = output.get("contacts")
+    if not isinstance(contacts, list) or not all(isinstance(one, dict) for one in contacts):
+        return [*output]
+    return [*output, *dict.fromkeys(f"contacts.{name}" for one in contacts for name in one)]
+
+
+def without(output: Json, names: Collection[str]) -> Json:
+    """An output without some fields, as :func:`field_names` has them."""
+    kept = {name: value for name, value in output.items() if name not in names}
+    if len(field_names(kept)) > len(kept):
+        kept["contacts"] = [
+            {key: value for key, value in one.items() if f"contacts.{key}" not in names}
+            for one in kept["contacts"]
+        ]
+    return kept
 
 
 def shape_problem(layer: str, expected: Json, answer: Json) -> tuple[str, str] | None:

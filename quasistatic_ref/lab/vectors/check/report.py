@@ -1,6 +1,7 @@
 """The outcome of a check: by layer, as a table for people and as JSON for programs."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from quasistatic_ref.lab.vectors.check.usual import usual_sentence
 from quasistatic_ref.lab.vectors.check.verdict import (
@@ -42,10 +43,6 @@ class LayerReport:
     problem: str
     verdicts: tuple[Verdict, ...]
     must: bool = False
-
-    def required(self) -> "LayerReport":
-        """The report for a layer that must be answered: missing cases count as wrong."""
-        return replace(self, must=True)
 
     def count(self, verdict: str) -> int:
         """How many cases have a verdict."""
@@ -90,11 +87,8 @@ class LayerReport:
     @property
     def first(self) -> Verdict | None:
         """The first case that fails, or else the first that is missing."""
-        for kind in (FAILED, MISSING):
-            for verdict in self.verdicts:
-                if verdict.verdict == kind:
-                    return verdict
-        return None
+        by_kind = (v for kind in (FAILED, MISSING) for v in self.verdicts if v.verdict == kind)
+        return next(by_kind, None)
 
     @property
     def trouble(self) -> str:
@@ -108,18 +102,19 @@ class LayerReport:
     @property
     def partial(self) -> str:
         """A sentence on the outputs that the answers omit; empty if they omit none."""
-        partial = [v for v in self.verdicts if v.without]
-        names = ", ".join(dict.fromkeys(name for v in partial for name in v.without))
-        count = f"{len(partial)} of {len(self.verdicts)} answers are partial"
-        return f"{self.layer}: {count}: nothing is said of {names}" if partial else ""
+        return self._named([v.without for v in self.verdicts], "are partial: nothing is said of")
 
     @property
     def unasked(self) -> str:
         """A sentence on fields that the layer does not ask for; empty if there are none."""
-        extra = [v for v in self.verdicts if v.extra]
-        names = ", ".join(dict.fromkeys(name for v in extra for name in v.extra))
-        count = f"{len(extra)} of {len(self.verdicts)} answers have fields"
-        return f"{self.layer}: {count} that are not looked at: {names}" if extra else ""
+        words = "have fields that are not looked at:"
+        return self._named([v.extra for v in self.verdicts], words)
+
+    def _named(self, fields: Sequence[tuple[str, ...]], words: str) -> str:
+        """How many answers have such fields, and which; empty if none has."""
+        names = ", ".join(dict.fromkeys(name for of_one in fields for name in of_one))
+        count = f"{sum(map(bool, fields))} of {len(fields)} answers"
+        return f"{self.layer}: {count} {words} {names}" if names else ""
 
     @property
     def row(self) -> tuple[str, ...]:
