@@ -41,30 +41,26 @@ def about_changes(settings: Changes, named: Mapping[str, Any]) -> Iterator[None]
 
 
 def _change(field: str, settings: Changes, named: Mapping[str, Any]) -> str | None:
-    """The text of the last change that wrote a field; None if no change did.
+    """The last change that wrote a field, as its user wrote it; None if no change did.
 
-    In Python it is the field itself; None where no change wrote it.
+    In Python it is the field itself.
     """
-    written: str | None = None
-    if isinstance(settings, Mapping):
-        in_order = [*settings.items()]
-    else:
-        in_order = [_of_text(one) for one in settings] if _are_several(settings) else []
-    for key, source in [*in_order, *named.items()]:
+    change: str | None = None
+    for key, words in [*_in_words(settings), *((key, "") for key in named)]:
         inner = field.removeprefix(key)
-        if not field.startswith(key) or inner[:1] not in ("", ".", "["):
-            continue
-        if isinstance(settings, Mapping) or key in named:
-            written = field
+        if field.startswith(key) and inner[:1] in ("", ".", "["):
+            change = f"{words}: {inner.lstrip('.')}" if words and inner else words or field
+    return change
+
+
+def _in_words(settings: Changes) -> Iterator[tuple[str, str]]:
+    """The dotted key of each change, and its text; no text of a value from Python."""
+    for one in settings if _are_several(settings) else ():
+        if isinstance(settings, Mapping):
+            yield one, ""
         else:
-            written = f"{source}: {inner.lstrip('.')}" if inner else source
-    return written
-
-
-def _of_text(setting: str) -> tuple[str, str]:
-    """The dotted key of a ``key=value`` change, and the text of the change."""
-    written = setting.option if isinstance(setting, OptionChange) else f"{SET} {setting}"
-    return setting.partition("=")[0].strip(), written
+            words = one.option if isinstance(one, OptionChange) else f"{SET} {one}"
+            yield one.partition("=")[0].strip(), words
 
 
 def apply_settings(
