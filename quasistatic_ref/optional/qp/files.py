@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import math
 import pickle
 from collections.abc import Mapping
 from importlib import import_module
@@ -18,13 +17,11 @@ from quasistatic_ref.files.content import json_read
 from quasistatic_ref.files.npz import npz_arrays
 from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.optional.qp.answer import QP_FORMAT, VERSION, ExactQP, QPInfeasible
-from quasistatic_ref.optional.qp.program import FIELDS, QuadraticProgram, program_of
+from quasistatic_ref.optional.qp.program import FIELDS, NO_LIMIT, QuadraticProgram, program_of
 
 SUFFIXES: Final = (".npz", ".mat", ".parquet", ".json")
 BOUNDLESS: Final = 9e19
 """What a .mat file of the Maros-Meszaros set has, or more, where there is no limit."""
-LIMITS: Final = {"h": math.inf, "lb": -math.inf, "ub": math.inf}
-"""What null stands for in our files."""
 
 
 def _nothing() -> frozenset[bytes]:
@@ -106,8 +103,8 @@ def _answer(top: TableReader) -> ExactQP | QPInfeasible:
 
 def _limits(field: str, value: Any) -> Any:
     """A field of JSON, whose nulls are infinite."""
-    if field in LIMITS and isinstance(value, list):
-        return [LIMITS[field] if v is None else v for v in value]
+    if field in NO_LIMIT and isinstance(value, list):
+        return [NO_LIMIT[field] if v is None else v for v in value]
     return value
 
 

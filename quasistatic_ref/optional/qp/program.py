@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import islice
+from itertools import chain, islice
 from typing import Any, Protocol
 
 import numpy as np
@@ -17,6 +17,8 @@ from quasistatic_ref.optional.qp.form import Block, blocks_of
 
 FIELDS = ("P", "q", "G", "h", "A", "b", "lb", "ub")
 """The names of its arrays, in the order of the arguments of qpsolvers."""
+NO_LIMIT = {"h": np.inf, "lb": -np.inf, "ub": np.inf}
+"""The infinite number that an array may hold: there is no limit then."""
 
 
 class HasProgram(Protocol):
@@ -71,16 +73,19 @@ class QuadraticProgram(Plain, Shown):
             ("lb", -1, at_box, eye, -self.lb, np.isfinite(self.lb) & ~fixed),
             ("ub", 1, at_box, -eye, self.ub, np.isfinite(self.ub) & ~fixed),
         ]
-        some = [
-            (name, sign, first, a, c, np.flatnonzero(there))
-            for name, sign, first, a, c, there in groups
-        ]
+        parts = []
+        for name, of_row, first, rows, sides, there in groups:
+            at = np.flatnonzero(there)
+            labels = [f"{name}[{i}]" for i in at]
+            numbers = rows[at] + 0.0, sides[at] + 0.0
+            parts.append((labels, first + at, np.full(len(at), of_row), *numbers))
+        names, slot, sign, a, c = zip(*parts, strict=True)
         return Rows(
-            names=[f"{name}[{i}]" for name, _, _, _, _, at in some for i in at],
-            slot=np.concatenate([first + at for _, _, first, _, _, at in some]),
-            sign=np.concatenate([np.full(len(at), sign) for _, sign, _, _, _, at in some]),
-            a=np.concatenate([a[at] for _, _, _, a, _, at in some]) + 0.0,
-            c=np.concatenate([c[at] for _, _, _, _, c, at in some]) + 0.0,
+            names=[*chain(*names)],
+            slot=np.concatenate(slot),
+            sign=np.concatenate(sign),
+            a=np.concatenate(a),
+            c=np.concatenate(c),
             equations=e + int(fixed.sum()),
         )
 
@@ -152,9 +157,8 @@ def program_of(P: Any, *arrays: Any) -> QuadraticProgram:
     n = np.size(given["q"])
     k, e = (np.size(given[name]) if given[name] is not None else 0 for name in ("h", "b"))
     shapes = dict(zip(FIELDS, ((n, n), (n,), (k, n), (k,), (e, n), (e,), (n,), (n,)), strict=True))
-    default = {"lb": -np.inf, "ub": np.inf}
     values = {
-        name: np.full(shape, default.get(name, 0.0))
+        name: np.full(shape, NO_LIMIT.get(name, 0.0))
         if given[name] is None
         else _checked(name, given[name], shape)
         for name, shape in shapes.items()
@@ -167,10 +171,6 @@ def program_of(P: Any, *arrays: Any) -> QuadraticProgram:
         problem = f"is above ub[{i}] = {values['ub'][i]:g}"
         raise InputError(problem, field=f"lb[{i}]", value=float(values["lb"][i]))
     return QuadraticProgram(**{name: read_only(array) for name, array in values.items()})
-
-
-NO_LIMIT = {"h": np.inf, "lb": -np.inf, "ub": np.inf}
-"""The infinite number that an array may hold: there is no limit then."""
 
 
 def _checked(name: str, value: Any, shape: tuple[int, ...]) -> Array:
