@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from io import StringIO
@@ -216,13 +217,12 @@ def table_read(path: str | PathLike[str]) -> tuple[list[str], Array, Array]:
     if names[0] != "t" or len(names) < 2 or not rest.strip():
         problem = "must begin with a row of names, t and then actuators or joints"
         raise InputError(problem, field="targets")
-    try:
+    numbers = np.zeros((0, 0))
+    with suppress(ValueError):
         numbers = np.loadtxt(StringIO(rest), delimiter=",", ndmin=2)
-    except ValueError:
-        problem = f"must be rows of {len(names)} numbers below the names"
-        raise InputError(problem, field="targets") from None
     if numbers.shape[1] != len(names):
-        raise InputError(f"must be rows of {len(names)} numbers", field="targets", value=rest)
+        problem = f"must be rows of {len(names)} numbers below the names"
+        raise InputError(problem, field="targets", value=rest)
     if not (np.isfinite(numbers).all() and (np.diff(numbers[:, 0]) > 0).all()):
         raise InputError("must be finite, and times must increase", field="targets")
     return names[1:], numbers[:, 0], numbers[:, 1:]

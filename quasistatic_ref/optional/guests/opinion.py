@@ -172,10 +172,12 @@ def _table(
         cells = []
         for field, unit in columns.values():
             its = unit * getattr(theirs, field)
-            ours = None if exact is None else unit * getattr(exact, field)
-            cells += [_digits(its), "-", "-"] if ours is None else [
-                _digits(its), _digits(ours), _digits(its - ours, max(1.0, 1e3 * its, 1e3 * ours))
-            ]  # fmt: skip
+            cells.append(_digits(its))
+            if exact is None:
+                cells += ["-", "-"]
+                continue
+            ours = unit * getattr(exact, field)
+            cells += [_digits(ours), _digits(its - ours, max(1.0, 1e3 * its, 1e3 * ours))]
         rows.append((name, *cells))
     return rows
 
