@@ -30,6 +30,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.contact.corners import least_distances
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.normals import (
     BISECTOR,
@@ -61,6 +62,10 @@ SPANNED: Final = 1e-6
 """How far out of the convex hull of other contacts a closest pair may be, relative to the smaller
 shape [-], for its rows to follow from theirs: on surfaces that are nearly parallel closest points
 are not known better."""
+
+START: Final = 4
+"""For how many corners of each contact distances are formed at first, and how many times more
+where fewer than k of them are candidates."""
 
 FEW = 50
 """Most points of a plane of which each two are taken in turn; of more, those of its outline."""
@@ -105,26 +110,6 @@ class ClosestPoints(NamedTuple):
     def chosen(self, index: Indices | Mask | tuple[Indices, ...]) -> "ClosestPoints":
         """The contacts of an `index`, in its order and shape."""
         return ClosestPoints._make(field[index] for field in self)
-
-
-class Search(NamedTuple):
-    """The N candidates of a pair, or the points of a cloud, from which contacts are chosen.
-
-    Parameters
-    ----------
-    rank : ndarray, shape (N,)
-        Signed distances by which they are chosen, not yet rounded; infinite of those that rank
-        last [m].
-    number : ndarray of int, shape (N,)
-        Their :attr:`ClosestPoints.point`.
-    nearest, candidates : ClosestPoints
-        The closest pair of two solids, and all candidates; of a cloud none.
-    """
-
-    rank: Array
-    number: Indices
-    nearest: ClosestPoints
-    candidates: ClosestPoints
 
 
 def joined_contacts(lists: Sequence[ClosestPoints]) -> ClosestPoints:
@@ -175,9 +160,9 @@ def _solid_on_solid(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> Clos
     nearest = nearest_of_solids(pair, a, b)
     if pair.n_c == 1:
         return nearest
-    candidates = search(pair, a, b, nearest)
-    order = closest(rounded_gaps(candidates.rank, pair.resolution), pair.k)
-    kept = candidates.candidates.chosen(order)
+    candidates, rank = ranked_candidates(pair, a, b, nearest)
+    order = closest(rounded_gaps(rank, pair.resolution), pair.k)
+    kept = candidates.chosen(order)
     beyond = np.maximum(FILLED, 2 * nearest.phi)
     far = nearest._replace(phi=beyond, tie=np.array([UNIQUE_NORMAL]))
     missing = np.arange(pair.n_c - len(order))
@@ -185,26 +170,50 @@ def _solid_on_solid(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> Clos
     return joined_contacts([kept, filling])
 
 
-def search(
-    pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints | None = None
-) -> Search:
-    """The candidates among which the contacts of a pair are chosen.
+def ranked_candidates(
+    pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints
+) -> tuple[ClosestPoints, Array]:
+    """Candidates of two solids among which are the k that rank first, in order.
 
-    Raises
-    ------
-    ContactError
-        As of :meth:`~quasistatic_ref.contact.all_pairs.AllPairs.closest_points`.
+    Returns
+    -------
+    candidates : ClosestPoints
+    rank : ndarray, shape (N,)
+        Their distances, infinite of those that repeat an earlier one [m].
     """
-    if pair.has_cloud:
-        solid, cloud = (a, b) if isinstance(b.shape, PointCloud) else (b, a)
-        assert isinstance(cloud.shape, PointCloud)
-        x = moved(relative_pose(solid, cloud), cloud.shape.points)
-        none = joined_contacts([])
-        return Search(solid.shape.signed_distance(x)[0], np.arange(len(x)), none, none)
-    nearest = nearest_of_solids(pair, a, b) if nearest is None else nearest
-    every = every_candidate(pair, a, b, nearest)
-    rank = np.where(repeated(every, np.zeros(len(every.phi), int)), np.inf, every.phi)
-    return Search(rank, every.point, nearest, every)
+    n = nearest.n[0]
+    of_a = Corners(b, a, nearest.alpha[0], -n)
+    of_b = Corners(a, b, nearest.beta[0], n)
+    crossing = _crossings(pair, a, b, nearest)
+    split = len(of_a.least)
+    least = np.concatenate([of_a.least, of_b.least])
+    order = least.argsort()[: np.count_nonzero(least < np.inf)]
+    count = START * pair.k
+    while True:
+        some = np.sort(order[:count])
+        on_b = of_a.contacts(some[some < split]).swapped()
+        on_a = of_b.contacts(some[some >= split] - split)
+        on_a = on_a._replace(point=split + on_a.point)
+        candidates = _candidates(pair, nearest, on_b, on_a, crossing)
+        repeats = repeated(candidates, np.zeros_like(candidates.point))
+        rank = np.where(repeats, np.inf, candidates.phi)
+        limit = _limit(rank[candidates.point != pair.corners], pair, nearest)
+        needed = int(np.count_nonzero(least[order] <= limit))
+        if needed <= count:
+            return candidates, rank
+        count = needed if limit < np.inf else START * count
+
+
+def _limit(rank: Array, pair: ContactPair, nearest: ClosestPoints) -> float:
+    """The distance beyond which no other candidate counts [m], given the ranks of some.
+
+    One beyond it neither ranks before the k-th of these, nor is repeated by it, nor spans the
+    closest pair.
+    """
+    if pair.k > len(rank):
+        return np.inf
+    kth = np.partition(rank, pair.k - 1)[pair.k - 1]
+    return float(max(kth, nearest.phi[0]) + 2 * pair.resolution + REPEATED)
 
 
 def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
@@ -220,9 +229,15 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
         [m].
     """
     a, b = in_world(pair, R, t)
-    if not (pair.has_cloud or _places(a, b) < FAR * pair.size):
-        a, b, _ = _from_near(a, b)
-    phi = search(replace(pair, k=pair.candidates), a, b).rank
+    if isinstance(b.shape, PointCloud):
+        a, b = b, a
+    if isinstance(a.shape, PointCloud):
+        phi, _ = b.shape.signed_distance(moved(relative_pose(b, a), a.shape.points))
+    else:
+        if _places(a, b) >= FAR * pair.size:
+            a, b, _ = _from_near(a, b)
+        pair = replace(pair, k=pair.candidates)
+        _, phi = ranked_candidates(pair, a, b, nearest_of_solids(pair, a, b))
     return int(np.count_nonzero(phi <= phi.min() + within + pair.resolution))
 
 
@@ -239,8 +254,12 @@ def nearest_of_solids(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> Cl
     )
 
 
-def every_candidate(
-    pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints
+def _candidates(
+    pair: ContactPair,
+    nearest: ClosestPoints,
+    on_b: ClosestPoints,
+    on_a: ClosestPoints,
+    crossing: ClosestPoints,
 ) -> ClosestPoints:
     """All candidates: alpha's corners on beta, beta's on alpha, the closest pair, crossings.
 
@@ -248,12 +267,6 @@ def every_candidate(
     pair is none where others span it.
     """
     n = nearest.n[0]
-    corners_a, radius_a = a.shape.corners(_towards(a, nearest.alpha[0], n))
-    corners_b, radius_b = b.shape.corners(_towards(b, nearest.beta[0], -n))
-    on_b = _corners_on_solid(b, a, corners_a, radius_a, -n).swapped()
-    on_a = _corners_on_solid(a, b, corners_b, radius_b, n)
-    on_a = on_a._replace(point=len(corners_a) + on_a.point)
-    crossing = _crossings(pair, a, b, nearest)
     others = joined_contacts([on_b, on_a, crossing])
     alone = [] if spanned(nearest, others, pair) else [nearest]
     every = joined_contacts([on_b, on_a, *alone, crossing])
@@ -378,19 +391,42 @@ def _cloud_on_solid(pair: ContactPair, solid: ShapeInWorld, cloud: ShapeInWorld)
     return contacts_over(solid.pose, cloud.pose, cloud.shape.points[point], 0.0, surface, point)
 
 
-def _corners_on_solid(
-    solid: ShapeInWorld, other: ShapeInWorld, corners: Array, radius: float, n: Array
-) -> ClosestPoints:
-    """Closest points of another solid's corners with balls; n points out of this solid."""
-    if not len(corners):
-        return joined_contacts([])
-    relative = relative_pose(solid, other)
-    x = moved(relative, corners)
-    within = rounding(solid, other)
-    near = OVER_FACE * solid.shape.extent + within
-    surface = corner_surface(solid.shape, x, product(solid.R.T, n), within, near)
-    number = np.arange(len(corners))
-    return contacts_over(solid.pose, other.pose, corners, radius, surface, number)
+class Corners:
+    """The corners of another solid, with balls about them, over a solid.
+
+    Parameters
+    ----------
+    solid, other : ShapeInWorld
+    nearest : ndarray, shape (3,)
+        The closest point of the other [m].
+    n : ndarray, shape (3,)
+        The pair's normal out of the solid [-].
+
+    Attributes
+    ----------
+    least : ndarray, shape (N,)
+        Lower bounds of their distances as candidates, infinite of those that are none [m].
+    """
+
+    def __init__(self, solid: ShapeInWorld, other: ShapeInWorld, nearest: Array, n: Array) -> None:
+        self._points, self._radius = other.shape.corners(_towards(other, nearest, -n))
+        self._solid = solid
+        self._other = other
+        self._x = moved(relative_pose(solid, other), self._points)
+        self._way = product(solid.R.T, n)
+        self._within = rounding(solid, other)
+        self._near = OVER_FACE * solid.shape.extent + self._within
+        least = least_distances(solid.shape, self._x, self._way, self._near)
+        self.least = least - self._radius
+
+    def contacts(self, some: Indices) -> ClosestPoints:
+        """Closest points of the corners of some numbers, the solid being alpha's."""
+        if not len(some):
+            return joined_contacts([])
+        x = self._x[some]
+        surface = corner_surface(self._solid.shape, x, self._way, self._within, self._near)
+        poses = self._solid.pose, self._other.pose
+        return contacts_over(*poses, self._points[some], self._radius, surface, some)
 
 
 def relative_pose(solid: ShapeInWorld, other: ShapeInWorld) -> Array:

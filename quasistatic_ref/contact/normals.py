@@ -219,9 +219,11 @@ def faces_apart(heights: Array, normals: Array, within: float | Array) -> tuple[
     """
     every = np.arange(len(heights))
     highest = heights.argmax(axis=1)
-    level = heights >= (heights[every, highest] - within)[:, None]
-    away = np.abs(normals - normals[every, highest][:, None]).max(axis=2)
-    return highest, level & (away > SAME_NORMAL)
+    rivals = heights >= (heights[every, highest] - within)[:, None]
+    point, face = rivals.nonzero()
+    away = np.abs(normals[point, face] - normals[point, highest[point]]).max(axis=1)
+    rivals[point, face] = away > SAME_NORMAL
+    return highest, rivals
 
 
 def corner_surface(
@@ -255,12 +257,12 @@ def corner_surface(
     block = max(1, CHUNK // max(1, shape.at_points(slice(1)).faces(x[:1])[0].size))
     for start in range(0, len(undecided), block):
         some = undecided[start : start + block]
-        known = phi[some], normal[some]
-        there = shape.at_points(some)
-        over, phi[some], normal[some] = _facing(
-            there, x[some], n[some], *known, within[some], near[some]
+        over, height, facing = _facing(
+            shape.at_points(some), x[some], n[some], within[some], near[some]
         )
-        edge = some[~over]
+        phi[some[over]] = height
+        normal[some[over]] = facing
+        edge = np.delete(some, over)
         gap = dot(x[edge], n[edge]) - reach[edge]
         on_edge = _over(shape.at_points(edge), x[edge], gap, n[edge], near[edge])
         phi[edge[on_edge]] = gap[on_edge]
@@ -270,19 +272,20 @@ def corner_surface(
 
 
 def _facing(
-    shape: Shape, x: Array, n: Array, phi: Array, normal: Array, within: Array, near: Array
-) -> tuple[Mask, Array, Array]:
-    """Mask of points over a face that faces n, and their normals, gaps and feet there."""
+    shape: Shape, x: Array, n: Array, within: Array, near: Array
+) -> tuple[Indices, Array, Array]:
+    """Numbers of points over a face that faces n, and their heights and normals there."""
     heights, normals = shape.faces(x)
     if not heights.size:
-        return np.zeros(len(x), dtype=bool), phi, normal
+        return np.zeros(0, dtype=np.int64), np.zeros(0), np.zeros((0, 3))
     heights = np.where(dot(normals, n[:, None]) >= TURNED, heights, -np.inf)
-    face, rivals = faces_apart(heights, normals, within)
-    chosen = np.arange(len(x)), face
-    height = heights[chosen]
-    facing = normals[chosen]
-    over = _over(shape, x, height, facing, near) & ~rivals.any(axis=1)
-    return over, np.where(over, height, phi), np.where(over[:, None], facing, normal)
+    highest = heights.max(axis=1)
+    low = np.flatnonzero(np.isfinite(highest) & (highest <= near))
+    face, rivals = faces_apart(heights[low], normals[low], within[low])
+    height = highest[low]
+    facing = normals[low, face]
+    over = _over(shape.at_points(low), x[low], height, facing, near[low]) & ~rivals.any(axis=1)
+    return low[over], height[over], facing[over]
 
 
 def _over(shape: Shape, x: Array, height: Array, normal: Array, near: Array) -> Mask:

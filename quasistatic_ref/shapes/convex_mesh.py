@@ -90,7 +90,7 @@ class ConvexMesh(Shape):
         normal = self.normals[face].copy()
         outside = np.flatnonzero(phi > 0)
         if len(outside):
-            away = self._nearest_offsets(points[outside])
+            away = self.facets.offsets_from(points[outside])
             distance = norm(away)
             # Near the surface p - x is all rounding; the face's normal is right to that distance.
             size = np.abs(self.vertices).max()
@@ -105,36 +105,6 @@ class ConvexMesh(Shape):
     def facets(self) -> Facets:
         """The hull's triangles, prepared for distances."""
         return Facets(self.vertices[self.triangles], self.normals, self.offsets)
-
-    def _nearest_offsets(self, points: Array) -> Array:
-        """Vectors (N, 3) to points outside of the hull from its nearest points [m]."""
-        facets = self.facets
-        near = facets.near(points)
-        every = np.arange(len(points))
-        n = self.normals[near]
-        along = facets.along[near]
-        # The nearest point of each edge, clamped to its ends; of equal ones the first edges' first.
-        arm = points[:, None, None] - facets.corners[near]
-        s = np.clip(dot(arm, along) / facets.square[near], 0.0, 1.0)
-        away = arm - s[..., None] * along
-        square = dot(away, away).swapaxes(1, 2)
-        k, i = np.divmod(square.reshape(len(points), -1).argmin(axis=1), square.shape[2])
-        best = square[every, k, i]
-        offset = away[every, i, k]
-        # Whether the projection on a face's plane is on its side of each edge.
-        within = (dot(arm, facets.inward[near]) >= 0).all(axis=2)
-        level = dot(arm[:, :, 0], n)
-        above = within & (level > 0)
-        # A point above the inside of a face is nearest to that face. If an edge seems nearer, that
-        # is rounding, and the edge's direction is the less accurate one. For a point on a face,
-        # rounding decides the sign of its level.
-        some = np.asarray(above.any(axis=1))
-        best = np.where(some, np.inf, best)
-        heights = np.where(np.where(some[:, None], above, within), level * level, np.inf)
-        i = heights.argmin(axis=1)
-        nearer = heights[every, i] < best
-        facing = self.normals[np.broadcast_to(near, level.shape)[every, i]]
-        return np.where(nearer[:, None], level[every, i, None] * facing, offset)
 
     def faces(self, points: Array) -> tuple[Array, Array]:
         """Heights of `points`, shape (N, 3) [m], above all triangles' planes, and normals."""

@@ -1,4 +1,4 @@
-"""Of fine meshes few faces and edges are looked at, and the answer has the same bits.
+"""Of fine meshes few faces, edges and corners are looked at, and the answer has the same bits.
 
 ``pytest tests/contact/solids/test_near_features.py --count 2000`` takes as many pairs.
 """
@@ -6,13 +6,16 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, Capsule, convex_hull
+from quasistatic_ref import Box, Capsule, ContactError, convex_hull
+from quasistatic_ref.contact import distance
+from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.contact.normals import rounding, tied_normals
 from quasistatic_ref.contact.solids import near_features, polytope_pair
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.formats.plain import bits
-from tests.contact.still import in_world
+from quasistatic_ref.shapes import facets
+from tests.contact.still import in_world, pair, placed_shape, standing_links
 
 KINDS = ("apart", "far", "touching", "flush", "crossing", "deep", "nearly aligned")
 UP = np.array([0.0, 0.0, 1.0])
@@ -69,14 +72,34 @@ def found(a, b):
     return bits((*nearest, tied_normals(a, b, nearest, within, every)))
 
 
+def contacts(a, b, k):
+    """Some contacts of a pair, or the sentence that refuses it."""
+    sides = (placed_shape(solid.shape, i) for i, solid in enumerate((a, b), 1))
+    links = standing_links((a.R, a.t), (b.R, b.t))
+    try:
+        return bits(pair_closest_points(pair(*sides, k), links.R, links.t))
+    except ContactError as error:
+        return str(error)
+
+
+def look_at_all(patch):
+    """Leave out no faces, edges, triangles or corners."""
+    patch.setattr(polytope_pair, "are_fine", lambda *_: False)
+    patch.setattr(facets, "FEW", np.inf)
+    patch.setattr(distance, "least_distances", lambda shape, x, *_: np.full(len(x), -np.inf))
+
+
 def test_random_pairs_have_the_bits_of_a_search_of_all(monkeypatch, count):
     fewer = 0
     for seed in range(4 * count if count < 2000 else count):
         a, b = random_pair(seed)
-        monkeypatch.setattr(polytope_pair, "are_fine", lambda *_: False)
-        whole = found(a, b)
-        monkeypatch.setattr(polytope_pair, "are_fine", lambda *_: True)
-        assert found(a, b) == whole, seed
+        k = (1, 2, 4, 8)[seed // len(KINDS) % 4]
+        with monkeypatch.context() as patch:
+            look_at_all(patch)
+            whole = found(a, b), contacts(a, b, k)
+        with monkeypatch.context() as patch:
+            patch.setattr(polytope_pair, "are_fine", lambda *_: True)
+            assert (found(a, b), contacts(a, b, k)) == whole, seed
         P, Q = (polytope(solid.shape).alone for solid in (a, b))
         R = (a.R.T @ b.R)[None]
         near = near_features.near_features(P, Q.moved(R, ((b.t - a.t) @ a.R)[None]), 0.0)
@@ -115,13 +138,23 @@ def test_a_fine_pair_is_looked_at_near_its_contact_alone(monkeypatch):
     points = rng.normal(size=(500, 3))
     ball = convex_hull(0.05 * points / np.linalg.norm(points, axis=1, keepdims=True))
     P = polytope(ball).alone
-    for distance in (0.099, 0.101, 2.0):
-        Q = P.moved(np.eye(3)[None], distance * UP[None])
+    settled = []
+    whole = distance.corner_surface
+
+    def counted(shape, x, *others):
+        settled.append(len(x))
+        return whole(shape, x, *others)
+
+    monkeypatch.setattr(distance, "corner_surface", counted)
+    for place in (0.099, 0.101, 2.0):
+        Q = P.moved(np.eye(3)[None], place * UP[None])
         near = near_features.near_features(P, Q, 1e-12)
         assert max(map(len, near)) < 200
         assert len(near.faces_a) + len(near.faces_b) > 0
-        one, other = in_world(ball, np.zeros(3)), in_world(ball, distance * UP)
-        small = found(one, other)
+        one, other = in_world(ball, np.zeros(3)), in_world(ball, place * UP)
+        settled.clear()
+        few = contacts(one, other, 4)
+        assert 0 < sum(settled) < 100
         with monkeypatch.context() as patch:
-            patch.setattr(polytope_pair, "are_fine", lambda *_: False)
-            assert found(one, other) == small
+            look_at_all(patch)
+            assert contacts(one, other, 4) == few
