@@ -11,7 +11,6 @@ import runpy
 import matplotlib.pyplot as plt
 import pytest
 
-from tests.extras import marked_as_long
 from tests.pages import ROOT
 from tests.processes import python
 
@@ -19,8 +18,6 @@ FOLDER = ROOT / "docs" / "notebooks"
 SCRIPTS = sorted(FOLDER.glob("*.py"))
 LARGEST = 300_000  # bytes
 WITHOUT_ROBOTS = "one_contact"
-SHORT = {"quickstart"}
-"""The notebook that README's line runs."""
 
 
 def cells(script):
@@ -34,9 +31,11 @@ def cells(script):
             yield "code", source
 
 
-@pytest.mark.parametrize(
-    "script", marked_as_long([s for s in SCRIPTS if s.stem != WITHOUT_ROBOTS], SHORT)
-)
+OTHERS = [script for script in SCRIPTS if script.stem != WITHOUT_ROBOTS]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("script", OTHERS, ids=lambda script: script.stem)
 def test_a_script_runs(script, monkeypatch):
     monkeypatch.setattr(plt, "show", lambda: plt.close("all"))
     runpy.run_path(str(script))

@@ -104,7 +104,7 @@ def test_a_quiet_run_still_says_its_findings(tmp_path, cli):
     assert "1 note: equilibrium (smooth)" in printed
 
 
-NAMES = ("product", "facets-6", "frictionless", "ellipsoid")
+NAMES = ("facets-6", "ellipsoid")
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -26,7 +26,7 @@ from tests.oracles.rational_kkt import exact, proved_optimum, solution
 from tests.oracles.rational_kkt import fractions as in_python
 from tests.oracles.solution_truth import gap, program
 
-SEEDS = (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13)
+SEEDS = range(6)
 """Of mixed steps that have a solution."""
 
 

@@ -55,7 +55,7 @@ def test_a_step_that_changes_linearly_along_random_directions_has_a_derivative(s
     found = derivatives(simulator, q, NONE, force)
     assert found.differentiable, found.reasons
     move = simulator.system.integrate
-    for e in rng.uniform(-1, 1, (6, 6)):
+    for e in rng.uniform(-1, 1, (3, 6)):
         for sign in (1e-6, -1e-6):
             near, far = (
                 after(simulator, found.result.q, move(q, t * sign * e), NONE, force) for t in (1, 2)

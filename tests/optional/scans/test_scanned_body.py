@@ -107,7 +107,7 @@ def test_thinned_points_keep_the_corners_and_cover_the_rest():
 def run_at_rest(folder, text, within):
     """The run of a scene in which a body stays where it is, but for a distance [m]."""
     (folder / "scene.toml").write_text(text)
-    run = qr.load_scenario(folder / "scene.toml").run()
+    run = qr.load_scenario(folder / "scene.toml", fast=True).run()
     assert not [one for one in run.findings if one.grave]
     assert abs(run["q"][-1] - run["q"][0]).max() < within
     return run
