@@ -1,10 +1,10 @@
 """Arrays of a step, checked: real numbers of the right shape, read-only."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
-from contextvars import ContextVar, copy_context
-from typing import Any, TypeVar
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
+from contextvars import Context, ContextVar, copy_context
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,39 +18,35 @@ Mask = NDArray[np.bool_]
 Result = TypeVar("Result")
 Scalar = TypeVar("Scalar", bound=np.generic)
 
-_WARNINGS: ContextVar[Mapping[str, Any] | None] = ContextVar("_WARNINGS", default=None)
-"""How NumPy's errors are handled around :func:`without_warnings`; None outside of it."""
+_QUIET = copy_context()
+_QUIET.run(np.seterr, all="ignore")
+
+_CALLER: ContextVar[Context | None] = ContextVar("_CALLER", default=None)
+"""The context around :func:`without_warnings`; None outside of it."""
 
 
 def without_warnings(function: Callable[..., Result], *arguments: object) -> Result:
     """What a function returns, called where NumPy does not warn.
 
     An overflow shows in the result, and the flags of the processor, on which NumPy's warnings
-    depend, get lost between BLAS's threads. All else is the caller's context.
+    depend, get lost between BLAS's threads. (To call ``np.seterr`` each time takes longer.)
     """
-    return copy_context().run(_quietly, function, arguments)
+    caller = _CALLER.get()
+    caller = copy_context() if caller is None else caller
+    return _QUIET.copy().run(_called_from, caller, function, arguments)
 
 
-def _quietly(function: Callable[..., Result], arguments: tuple[object, ...]) -> Result:
-    before = np.seterr(all="ignore")
-    if _WARNINGS.get() is None:
-        _WARNINGS.set(before)
+def _called_from(
+    caller: Context, function: Callable[..., Result], arguments: tuple[object, ...]
+) -> Result:
+    _CALLER.set(caller)
     return function(*arguments)
 
 
-@contextmanager
-def with_warnings() -> Iterator[None]:
-    """A context for a user's code within :func:`without_warnings`, where NumPy warns again."""
-    before = _WARNINGS.get()
-    if before is None:
-        yield
-        return
-    inside = _WARNINGS.set(None)
-    try:
-        with np.errstate(**before):
-            yield
-    finally:
-        _WARNINGS.reset(inside)
+def as_caller(function: Callable[..., Result], *arguments: object) -> Result:
+    """What a user's function returns, called in the context around :func:`without_warnings`."""
+    caller = _CALLER.get()
+    return function(*arguments) if caller is None else caller.run(function, *arguments)
 
 
 def read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:

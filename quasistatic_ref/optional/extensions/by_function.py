@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import BackendError, InputError
-from quasistatic_ref.numbers.arrays import Array, Mask, with_warnings
+from quasistatic_ref.numbers.arrays import Array, Mask, as_caller
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.solver import BackendSolver, Reply
 from quasistatic_ref.solve.units import ScaledStep
@@ -70,7 +70,7 @@ class FunctionSolver(BackendSolver):
         """The reply of the user's function to the program in natural units."""
         H, g, A, b = self.form
         with apart():
-            returned = self.function(H.copy(), -g, -A, -b)
+            returned = as_caller(self.function, H.copy(), -g, -A, -b)
         return reply_of(returned, len(g), len(b))
 
 
@@ -118,8 +118,6 @@ def real_numbers(values: object) -> Array:
 def apart() -> Iterator[None]:
     """A context for a user's code: prints go to standard error, and exits become errors.
 
-    It runs in the caller's context.
-
     Raises
     ------
     RuntimeError
@@ -131,7 +129,7 @@ def apart() -> Iterator[None]:
         kept = os.dup(1)
         os.dup2(2, 1)
     try:
-        with with_warnings(), redirect_stdout(sys.stderr):
+        with redirect_stdout(sys.stderr):
             yield
     except (Exception, KeyboardInterrupt):
         raise

@@ -8,7 +8,7 @@ import numpy as np
 
 from quasistatic_ref.certify.groups import Group
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.numbers.arrays import Array, read_only
+from quasistatic_ref.numbers.arrays import Array, all_finite, read_only
 from quasistatic_ref.optional.fast.joined import Masses
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.steps import Steps
@@ -142,7 +142,7 @@ class Workspace:
         reply = self._solved(H, warm=True) if self._warm else None
         if reply is None or not reply.solved:
             reply = self._solved(H, warm=False)
-        if not np.isfinite(reply.answer[0]).all():
+        if not all_finite(reply.answer[0]):
             self._set_up(H)
             reply = self._solved(H, warm=False)
         self._warm = reply.solved
