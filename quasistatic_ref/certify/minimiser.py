@@ -265,23 +265,27 @@ class Minimiser:
         guessed = list(compress(some, near.tolist()))
         if not guessed:
             return some
-        n = slice(0, self.form.n + 1)
-        of_W = columns(self.form.exact_rows(self.working), n)
+        every = columns(self.form.exact_rows([*self.working, *guessed]), slice(0, self.form.n + 1))
+        sums = exact_matrix(np.hstack([halves[near], -np.eye(len(guessed))]))
         with working_precision(EXACT):
-            sums = exact_matrix(halves[near]) * of_W
-            differences = (sums - columns(self.form.exact_rows(guessed), n)).tolist()
+            differences = (sums * every).tolist()
         proved = {*compress(guessed, _vanish(differences))}
         return [i for i in some if i not in proved]
 
     def implied(self, some: Sequence[int]) -> list[int]:
         """The given rows [a, c] that are linear combinations of rows of W, in ascending order."""
-        doubtful = self.doubtful(self.beyond_cones(some))
+        beyond = self.beyond_cones(some)
+        return sorted({*some} - {*beyond} | {*self.combined(beyond)})
+
+    def combined(self, some: list[int]) -> list[int]:
+        """Those of the given rows that W implies, whatever the cones of its contacts imply."""
+        doubtful = self.doubtful(some)
         values = []
         if doubtful:
             with working_precision(EXACT):
                 values = self.form.values(doubtful, arb_mat(self.null_space))
-        combined = {*compress(doubtful, _vanish(values))}
-        return sorted({*some} - ({*doubtful} - combined))
+        independent = {*doubtful} - {*compress(doubtful, _vanish(values))}
+        return [i for i in some if i not in independent]
 
     @cached_property
     def slack_balls(self) -> dict[int, arb]:
@@ -294,7 +298,9 @@ class Minimiser:
     def implied_rows(self) -> list[int]:
         """The open rows that W implies, in increasing order: their slacks are zero."""
         balls = self.slack_balls
-        return self.implied([i for i in self.open_rows if i not in balls or balls[i].contains(0)])
+        by_cone = [i for i in self.open_rows if i not in balls]
+        near_zero = [i for i, ball in balls.items() if ball.contains(0)]
+        return sorted([*by_cone, *self.combined(near_zero)])
 
     @cached_property
     def slack_signs(self) -> dict[int, int]:

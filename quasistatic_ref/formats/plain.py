@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Mapping
 from dataclasses import Field, fields
+from functools import cache
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -44,6 +45,7 @@ class Plain:
         return cls
 
     @classmethod
+    @cache
     def kept(cls) -> tuple[str, ...]:
         """Names of the fields that copies and pickles keep."""
         return tuple(field.name for field in fields(cls))
@@ -99,6 +101,7 @@ class Late(Plain):
         return cls.__bases__[1]
 
     @classmethod
+    @cache
     def kept(cls) -> tuple[str, ...]:
         """Names of the parent's fields, without those that are computed late."""
         every = (name for name in super().kept() if name not in cls.formed)

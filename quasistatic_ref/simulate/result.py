@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -72,6 +73,7 @@ class StepResult(Plain, Shown):
             freeze_copies(self, "q_start")
 
     @classmethod
+    @cache
     def kept(cls) -> tuple[str, ...]:
         """Names of the fields that copies and pickles keep: all but the scene and the end."""
         return tuple(name for name in super().kept() if name not in ("scene", "end"))

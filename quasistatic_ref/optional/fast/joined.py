@@ -33,7 +33,7 @@ class JoinedContacts(Late, Contacts):
     @cached_property
     def J(self) -> Array:
         """J of Eq. :eq:`eq-3`, shape (n_c, 4, n_v)."""
-        return read_only(spread(self.own_J, self.column[:, None], self.n_v))
+        return read_only(spread(self.own_J, self.column, self.n_v))
 
     @property
     def moved(self) -> tuple[Indices, Indices]:
@@ -62,8 +62,7 @@ class JoinedContacts(Late, Contacts):
         """J of some contacts, (k,), and some coordinates, (n,): shape (k, 4, n)."""
         place = np.full(self.n_v + 1, len(coordinates))
         place[coordinates] = np.arange(len(coordinates))
-        column = place[self.column[contacts]][:, None]
-        return spread(self.own_J[contacts], column, len(coordinates))
+        return spread(self.own_J[contacts], place[self.column[contacts]], len(coordinates))
 
 
 class Masses:
@@ -165,17 +164,17 @@ class JoinedStep(Late, StepData):
         return self.of_masses.some(some)
 
 
-def spread(rows: Array, column: Indices, n: int) -> Array:
-    """Rows of a few columns spread over n columns, zero elsewhere, shape (..., n).
+def spread(J: Array, column: Indices, n: int) -> Array:
+    """A few columns of each contact's J among n columns, zero elsewhere, shape (k, rows, n).
 
     Parameters
     ----------
-    rows : ndarray, shape (..., w)
-        [any unit].
-    column : ndarray of int, shape (..., w), or one that is broadcast to it
+    J : ndarray, shape (k, rows, w)
+        [m, rad].
+    column : ndarray of int, shape (k, w)
         Which columns these are; n stands for none.
     n : int
     """
-    every = np.zeros((*rows.shape[:-1], n + 1))
-    np.put_along_axis(every, column, rows, axis=-1)
-    return every[..., :n].copy()
+    every = np.zeros((len(J), n + 1, J.shape[1]))
+    every[np.arange(len(J))[:, None], column] = J.transpose(0, 2, 1)
+    return every[:, :n].transpose(0, 2, 1).copy()

@@ -182,7 +182,7 @@ def test_the_data_of_a_step_are_those_of_the_plain_path_wherever_it_is(cone):
         in_c, points_in_c = fast._steps.form(system.actuated_difference(q, goal) + 0.0, force)
         rows = fast._steps.rows
         column = fast._steps.column
-        A = spread(rows["A"], np.repeat(column, rows["rows"], axis=0), system.n_v)
+        A = spread(rows["A"][:, None], np.repeat(column, rows["rows"], axis=0), system.n_v)[:, 0]
         form = StandardForm(in_c.H, rows["g"], A, rows["b"])
         plain_form = standard_form(step)
         assert bits((in_c, form, points_in_c)) == bits((step, plain_form, points))
