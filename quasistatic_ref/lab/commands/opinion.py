@@ -23,7 +23,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", type=Path, help="an MJCF file (.xml)")
     parser.add_argument(
         "--settle", type=float, default=SETTLE, metavar="SECONDS",
-        help=f"how long MuJoCo simulates the scene before it is asked (default: {SETTLE:g})",
+        help="how long MuJoCo simulates the scene; the last 0.1 s, or the first if it is shorter, "
+        f"are looked at (default: {SETTLE:g})",
     )  # fmt: skip
     parser.add_argument("--keyframe", metavar="NAME", help="keyframe in which the scene begins")
     parser.add_argument(
@@ -40,13 +41,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print both answers, and what is found."""
     with needing("opinion"):
+        from quasistatic_ref.optional.guests.compared import WINDOW
         from quasistatic_ref.optional.guests.compiler import compiled_model
         from quasistatic_ref.optional.guests.mujoco_opinion import mujoco_opinion
         from quasistatic_ref.optional.guests.settled import settled
     control = controls(options.control)
     with about_file(options.scene):
         model = compiled_model(options.scene, options.roots)
-        data = settled(model, options.settle, options.keyframe, control)
+        before = max(options.settle - WINDOW, min(options.settle, 0.0))
+        data = settled(model, before, options.keyframe, control)
         start = settled(model, 0.0, options.keyframe, control)
         opinion = mujoco_opinion(model, data, options.tolerance, start)
     if options.json:

@@ -45,7 +45,8 @@ def mujoco_opinion(
     ----------
     model : mujoco.MjModel
     data : mujoco.MjData
-        Neither is changed. A state that has settled says most.
+        Neither is changed. MuJoCo is looked at in the 0.1 s from this state on. A state that has
+        settled says most.
     tolerance : float
         Speed up to which a contact holds [m/s].
     start : mujoco.MjData, optional

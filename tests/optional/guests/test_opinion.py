@@ -160,6 +160,18 @@ def test_the_command_prints_json_of_the_schema_and_ends_with_1(tmp_path, cli):
     assert "no finding" in cli(*command, "--tolerance 0.01").out
 
 
+@pytest.mark.usefixtures("compiled_here")
+def test_the_command_looks_at_the_end_of_settling(tmp_path, cli):
+    """A box slides with g (sin - mu cos): in the last 0.1 s of 1 s its speed is that at 0.95 s."""
+    box = free("box", 'type="box" size=".1 .1 .1" mass="1" friction="0.3"', "0 0 .1")
+    floor = '<geom type="plane" size="5 5 .1" friction="0.3"/>'
+    scene = tmp_path / "slope.xml"
+    option = '<option gravity="4.104 0 -9.119"/>'
+    scene.write_text(f"<mujoco>{option}<worldbody>{floor}{box}</worldbody></mujoco>")
+    (body,) = json.loads(cli("opinion", scene, "--settle 1 --json", status=1).out)["bodies"]
+    assert body["theirs"]["speed"] == pytest.approx(0.95 * (4.104 - 0.3 * 9.119), rel=0.05)
+
+
 REFUSED = {
     "joint[x].springyield": "",
     "--keyframe gripp": "--keyframe gripp",
