@@ -186,7 +186,7 @@ def refuse_unless_touching(name: str, phi: float, normals: Array, within: float)
         one, other = (
             np.array2string(normal + 0.0, precision=4, separator=", ") for normal in normals[:2]
         )
-        remedy = "start them less deep along one of the two"
+        remedy = "start them apart, or less deep along one of the two"
         if dot(normals[0], normals[1]) >= np.cos(FACING):
             table = f"contacts.{name.partition('(')[0]}"
             remedy = (

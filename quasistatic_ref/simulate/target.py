@@ -65,7 +65,9 @@ class JointTrack(Plain):
         freeze_copies(self, "times", "values")
         if not (np.diff(self.times) > 0).all():
             field = f"targets of {self.joint.name}"
-            raise ScenarioError("waypoint times must increase", field=field, value=self.times)
+            raise ScenarioError(
+                "waypoint times must increase", field=field, value=self.times.tolist()
+            )
 
     def over(self, t: Array) -> Array:
         """The joint's entries of q at times t, shape (T,): shape (T, nq)."""
