@@ -51,11 +51,12 @@ def lost(run: Run) -> Iterator[Finding]:
         k = int(scores.argmax())
         alone = body.contacts & driven
         answer = missing(run, k, [body], contacts=alone).get(body)
-        lacks = None if isinstance(answer, str) else answer
+        lacks = answer if isinstance(answer, Missing) else None
         agrees = lacks is not None and _agreement(run, body, k, on[k], lacks) > AGREES
         if not agrees and (run.touches[k] & body.contacts & ~driven).any():
             continue  # it is stroked, and others bear it
-        yield _finding(run, body, k, on[k], _normal(run, k, alone), lacks, slips, turns)
+        normal = _normal(run, k, alone)
+        yield _finding(run, body, k, on[k], normal, lacks, answer is None, slips, turns)
 
 
 def _slips(run: Run, slips: Array, turns: Array) -> bool:
@@ -105,6 +106,7 @@ def _finding(
     on: Mask,
     normal: Array,
     lacks: Missing | None,
+    held: bool,
     slips: Array,
     turns: Array,
 ) -> Finding:
@@ -115,7 +117,8 @@ def _finding(
     turn = float(turns.sum(axis=0).max())
     pressed = float(normal[on].sum())
     says = f"the grip presses with {pressed:.3g} N in all, "
-    more = "" if lacks is None else f", and {lacks} are missing"
+    more = ", which holds it once targets stop" if held else ""
+    more = more if lacks is None else f", and {lacks} are missing"
     slipped = way > SLIPPED * float(run.sizes[on].min())
     if turn > TURNED and (not slipped or (lacks is not None and lacks.turning > COUNTS)):
         six = "condim 4" if run.system.of_mjcf else "rows = 6"
@@ -132,7 +135,7 @@ def _finding(
     return Finding(
         "lost-grip",
         True,
-        remedy,
+        f"move more slowly, or {remedy}" if held else remedy,
         f"{body.name} {does}; at {run['t'][k]:.2f} s {says}{more}",
         {
             "slip_mm": 1e3 * way,

@@ -21,6 +21,7 @@ from quasistatic_ref.optional.doctor.start import (
 from quasistatic_ref.optional.doctor.tolerances import NEAR, SUNK
 from quasistatic_ref.optional.doctor.undecided import Undecided, failure
 from quasistatic_ref.optional.doctor.unsupported import fall, held, sinks
+from quasistatic_ref.shapes.half_space import HalfSpace
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import SAME_NORMAL
@@ -42,10 +43,13 @@ def gravity(start: Start) -> Iterator[Finding]:
         if rest is None or not borne(start, rest, name):
             pair, _, up = world[0]
             x, y, z = start.gravity
+            planes = [x for x in (pair.alpha, pair.beta) if isinstance(x.shape, HalfSpace)]
             yield Finding(
                 "gravity",
                 True,
-                "check the direction of gravity",
+                " or ".join(
+                    ["check the direction of gravity", *(f"the normal of {x.name}" for x in planes)]
+                ),
                 f"gravity is ({x:g}, {y:g}, {z:g}) m/s^2, and does not press {name} on what it "
                 "lies on, "
                 f"{pair.name}",
