@@ -6,6 +6,7 @@ import sys
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from importlib import import_module
+from itertools import combinations
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import SimpleNamespace
@@ -60,12 +61,24 @@ def whole(tmp_path_factory):
     return arrays_of(save_trajectory(tmp_path_factory.mktemp("whole") / "run.npz", run))
 
 
-GONE = ["", *(pytest.param(name, marks=pytest.mark.long) for name in PARTS)]
+def in_turn(names):
+    """Six selections, each of half of the names: of any two, each is once there without the other.
+
+    That is so as none of the twenty ways to take part in three of six is within another.
+    """
+    ways = [*combinations(range(6), 3)]
+    assert len(names) <= len(ways)
+    return [[name for name, way in zip(names, ways, strict=False) if k in way] for k in range(6)]
 
 
-@pytest.mark.parametrize("gone", GONE, ids=lambda name: name or "all parts")
-def test_the_grasp_has_the_same_bits_where_a_part_is_deleted(copied, whole, gone):
-    with deleted(copied / "quasistatic_ref" / "optional" / gone):
+GONE = [[""], *(pytest.param(names, marks=pytest.mark.long) for names in in_turn(PARTS))]
+
+
+@pytest.mark.parametrize("gone", GONE, ids=lambda gone: " ".join(gone) or "all parts")
+def test_the_grasp_has_the_same_bits_where_parts_are_deleted(copied, whole, gone):
+    with ExitStack() as missing:
+        for name in gone:
+            missing.enter_context(deleted(copied / "quasistatic_ref" / "optional" / name))
         python("-m", "quasistatic_ref", "run", GRASP, "--set", f"steps={STEPS}", cwd=copied)
     assert arrays_of(copied / "results" / f"{GRASP}.npz") == whole
 
@@ -94,14 +107,11 @@ def checkout(tmp_path_factory):
     return folder
 
 
-OF_LAB = [
-    ["lab/bench"], ["lab/claims"], ["lab/reality"], ["lab/study"], ["lab/vectors", "lab/program"],
-]  # fmt: skip
-EACH = [*([f"optional/{name}"] for name in PARTS), *OF_LAB]
-FOLDERS = [
-    [name for each in EACH for name in each],
-    *(pytest.param(each, marks=pytest.mark.long) for each in EACH),
-]
+OF_LAB = [f"lab/{name}" for name in ("bench", "claims", "reality", "study", "vectors")]
+EACH = [*(f"optional/{name}" for name in PARTS), *OF_LAB]
+FOLDERS = [EACH, *(pytest.param(names, marks=pytest.mark.long) for names in in_turn(EACH))]
+WITH = {"lab/vectors": "lab/program"}
+"""A folder of the lab, and the one that leaves with it."""
 SKIPPED = re.compile(r"^SKIPPED \[\d+\] tests/(\w+/[\w/]+)(?:\.py)?:", re.MULTILINE)
 OF_CORE_AND_PARTS = {
     "analytic/test_blocks",
@@ -130,9 +140,9 @@ OF_CORE_AND_PARTS = {
 
 
 @pytest.mark.parametrize("folders", FOLDERS, ids=lambda folders: " ".join(folders)[:20])
-def test_what_is_left_is_collected_where_a_part_is_deleted_with_its_tests(checkout, folders):
+def test_what_is_left_is_collected_where_parts_are_deleted_with_their_tests(checkout, folders):
     with ExitStack() as gone:
-        for name in folders:
+        for name in [*folders, *(WITH[name] for name in folders if name in WITH)]:
             for place in ("quasistatic_ref", "tests"):
                 if (folder := checkout / place / name).is_dir():
                     gone.enter_context(deleted(folder))
