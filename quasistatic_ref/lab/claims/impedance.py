@@ -6,6 +6,7 @@ from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, sum_
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step
 from quasistatic_ref.lab.thresholds import exact, grid
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 
@@ -30,28 +31,27 @@ def free_evidence() -> list[Comparison]:
     return [sum_of_terms("delta_q_a [m]", np.concatenate(moved), terms, CLOSED_FORM)]
 
 
-def pressed_evidence() -> list[Comparison]:
+def pressed_step(K: float, phi: float, beyond: float, tau: float) -> StepData:
     """A finger of stiffness K whose target lies `beyond` a wall at the gap phi."""
-    moved = []
-    pressed = []
-    gaps = []
-    forces = []
-    loads = []
-    for K, phi, beyond, tau in grid([10, 1e3, 1e5], [0, 1e-4, 2e-3], [-1e-3, 0, 1e-3], [0, 0.7]):
-        J = np.zeros((1, 4, 1))
-        J[0, 0, 0] = -1.0  # towards the wall, along -n
-        frame = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
-        wall = contacts_of(phi, frame, J, 0.5)
-        answer = exact(actuated_step([[K]], [tau], [phi + beyond], wall, 0.01))
-        load = K * beyond + tau
-        moved.append(answer.delta_q[0])
-        gaps.append(phi + min(load, 0.0) / K)
-        pressed.append(answer.wrench[0, 2])
-        forces.append(max(load, 0.0))
-        loads.append(max(abs(K * beyond), tau))
+    J = np.zeros((1, 4, 1))
+    J[0, 0, 0] = -1.0  # towards the wall, along -n
+    frame = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
+    return actuated_step([[K]], [tau], [phi + beyond], contacts_of(phi, frame, J, 0.5), 0.01)
+
+
+def pressed_evidence() -> list[Comparison]:
+    """Motion and force of a finger whose target lies before, at or behind a wall."""
+    sweep = grid([10, 1e3, 1e5], [0, 1e-4, 2e-3], [-1e-3, 0, 1e-3], [0, 0.7])
+    K, phi, beyond, tau = sweep.T
+    answers = [exact(pressed_step(*of)) for of in sweep]
+    moved = [answer.delta_q[0] for answer in answers]
+    pressed = [answer.wrench[0, 2] for answer in answers]
+    load = K * beyond + tau
+    gap = phi + np.minimum(load, 0.0) / K
+    size = np.maximum(abs(K * beyond), tau)
     return [
-        comparison("delta_q_a [m]", moved, gaps, CLOSED_FORM, scale=1e-3),
-        comparison("normal force [N]", pressed, forces, CLOSED_FORM, scale=loads),
+        comparison("delta_q_a [m]", moved, gap, CLOSED_FORM, scale=1e-3),
+        comparison("normal force [N]", pressed, np.maximum(load, 0.0), CLOSED_FORM, scale=size),
     ]
 
 

@@ -44,14 +44,14 @@ def peg_evidence() -> list[Comparison]:
     measured = thresholds(pushed_peg, sweep, expected, (0.2, 5.0))
     wedged = (pushed_peg(0.99 * limit, *of) for limit, of in zip(expected, sweep, strict=True))
     rest = [exact(step).delta_q for step in wedged]
-    solved = []
-    formula = []
-    for width, mu, over, force in grid([0.01, 0.04], [0.1, 0.3, 0.8], [1.05, 2, 6], [0.1, 5.0]):
-        depth = over * mu * width
-        solved.append(exact(pushed_peg(depth, width, mu, force)).delta_q)
-        theta, x = 2 * mu / depth, -(mu**2) * width / depth  # per unit of descent
-        descent = H**2 * force / (PEG_M * (1 + x**2) + PEG_INERTIA * theta**2)
-        formula.append(descent * np.array([x, 0, -1, 0, theta, 0]))
+    width, mu, over, force = grid([0.01, 0.04], [0.1, 0.3, 0.8], [1.05, 2, 6], [0.1, 5.0]).T
+    depth = over * mu * width
+    pegs = zip(depth, width, mu, force, strict=True)
+    solved = [exact(pushed_peg(*of)).delta_q for of in pegs]
+    theta, x = 2 * mu / depth, -(mu**2) * width / depth  # per unit of descent
+    descent = H**2 * force / (PEG_M * (1 + x**2) + PEG_INERTIA * theta**2)
+    none = 0 * x
+    formula = (descent * np.array([x, none, none - 1, none, theta, none])).T
     size = np.abs(formula).max(1, keepdims=True)
     return [
         comparison("depth below which it wedges [m]", measured, expected, CLOSED_FORM, expected),
@@ -108,29 +108,22 @@ def locked_guide_evidence() -> list[Comparison]:
     """Slips and turns of a body between walls, under small to huge loads, against a formula."""
     shares = [0.01, 0.5, 0.99, 1.01, 2.0, 1e3, 1e6]
     gaps = [0.0, 1e-5, 1e-3]
-    slips = []
-    expected = []
-    pressed = []
-    balance = []
-    for share, angle, phi in grid(shares, np.radians([0.0, 20.0, 45.0, 90.0]), gaps):
-        force = share * GUIDE_M * max(phi, 1e-5) / (MU_V * H**2)
-        free = H**2 * force / GUIDE_M * np.array([np.cos(angle), np.sin(angle)])
-        most = phi / MU_V
-        answer = guide_step(force, angle, phi)
-        slips.append(answer.delta_q[[0, 2]])
-        expected.append(np.minimum(free, most))
-        # What does not move the body, the walls bear: mu_v N along each tangent.
-        pressed.append(MU_V * answer.wrench[:, 2].sum() / force)
-        balance.append((GUIDE_M / H**2 * (free - expected[-1])).sum() / force)
-    turns = []
-    limits = []
-    for share, phi in grid(shares, gaps):
-        torque = share * GUIDE_INERTIA * max(phi, 1e-5) / (MU_OMEGA * H**2)
-        turns.append(guide_turn(torque, phi))
-        limits.append(min(H**2 * torque / GUIDE_INERTIA, phi / MU_OMEGA))
-    scale = np.abs(expected).max(axis=1, keepdims=True) + 1e-5
+    share, angle, phi = grid(shares, np.radians([0.0, 20.0, 45.0, 90.0]), gaps).T
+    force = share * GUIDE_M * np.maximum(phi, 1e-5) / (MU_V * H**2)
+    free = H**2 * force / GUIDE_M * np.array([np.cos(angle), np.sin(angle)])
+    slips = np.minimum(free, phi / MU_V)
+    answers = [guide_step(*of) for of in zip(force, angle, phi, strict=True)]
+    moved = np.array([answer.delta_q[[0, 2]] for answer in answers]).T
+    # What does not move the body, the walls bear: mu_v N along each tangent.
+    pressed = MU_V * np.array([answer.wrench[:, 2].sum() for answer in answers]) / force
+    balance = (GUIDE_M / H**2 * (free - slips)).sum(axis=0) / force
+    share, phi = grid(shares, gaps).T
+    torque = share * GUIDE_INERTIA * np.maximum(phi, 1e-5) / (MU_OMEGA * H**2)
+    turns = [guide_turn(*of) for of in zip(torque, phi, strict=True)]
+    limits = np.minimum(H**2 * torque / GUIDE_INERTIA, phi / MU_OMEGA)
+    scale = np.abs(slips).max(axis=0) + 1e-5
     return [
-        comparison("slip along d1 and d2 [m]", slips, expected, CLOSED_FORM, scale),
+        comparison("slip along d1 and d2 [m]", moved, slips, CLOSED_FORM, scale),
         comparison("mu_v times the load of the walls, over the force [-]", pressed, balance,
                    CLOSED_FORM, 1.0),
         comparison("turn [rad]", turns, limits, CLOSED_FORM, 1.0),

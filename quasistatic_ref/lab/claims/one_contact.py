@@ -112,21 +112,18 @@ def slip_evidence() -> list[Comparison]:
         formula.append(slip(fx, side * fx, mu, phi, h))
         scale.append(max(h**2 * GRAVITY * max(1.0, share) * mu, abs(phi)))
     gaps = []
-    layers = []
-    rest = []
-    for mu, share in grid([0.2, 0.5, 1.0], [1.2, 3.0]):
+    mus, shares = grid([0.2, 0.5, 1.0], [1.2, 3.0]).T[:, :, None]
+    for mu, share in zip(mus.flat, shares.flat, strict=True):
         phi = 0.0
-        k = np.arange(POINT_STEPS)
-        layer = mu * H**2 * (share - 1) * mu * GRAVITY
         for _ in range(POINT_STEPS):
             gaps.append(phi)
             phi += float(point_displacement(share * mu * POINT_M * GRAVITY, 0.0, mu, phi)[2])
-        layers.append(np.full(POINT_STEPS, layer))
-        rest.append(-layer * (mu**2 / (1 + mu**2)) ** k)
-    terms = [np.array(layers).ravel(), np.array(rest).ravel()]
+    layer = mus * H**2 * (shares - 1) * mus * GRAVITY
+    rest = -layer * (mus**2 / (1 + mus**2)) ** np.arange(POINT_STEPS)
+    gaps_of = np.reshape(gaps, rest.shape)
     return [
         comparison("delta_q [m]", solved, formula, CLOSED_FORM, np.array(scale)[:, None]),
-        sum_of_terms("phi_k while sliding [m]", gaps, terms, CLOSED_FORM),
+        sum_of_terms("phi_k while sliding [m]", gaps_of, [layer, rest], CLOSED_FORM),
     ]
 
 
@@ -212,20 +209,14 @@ def sequence(tau: float, phi: float, h: float, mu: float) -> Array:
 
 def recurrence_evidence() -> list[Comparison]:
     """Gaps of a turning sphere, step after step, from several first gaps, against a formula."""
-    gaps = []
-    fixed = []
-    left = []
-    for start, share, h, mu in grid(STARTS, [1.2, 3.0], [1e-3, 1e-2], [0.01, 0.05]):
-        if start > h**2 * GRAVITY:  # it would fall first
-            continue
-        limit = mu * SPHERE_M * GRAVITY
-        ratio = SPHERE_M * mu**2 / (SPHERE_INERTIA + SPHERE_M * mu**2)
-        layer = mu * h**2 * (share - 1) * limit / SPHERE_INERTIA
-        k = np.arange(SPHERE_STEPS)
-        gaps.append(sequence(share * limit, start, h, mu))
-        fixed.append(np.full(SPHERE_STEPS, layer))
-        left.append((start - layer) * ratio**k)
-    return [sum_of_terms("phi_k [m]", gaps, [fixed, left], CLOSED_FORM)]
+    sweep = grid(STARTS, [1.2, 3.0], [1e-3, 1e-2], [0.01, 0.05])
+    start, share, h, mu = sweep[sweep[:, 0] <= sweep[:, 2] ** 2 * GRAVITY].T  # others fall first
+    limit = mu * SPHERE_M * GRAVITY
+    ratio = SPHERE_M * mu**2 / (SPHERE_INERTIA + SPHERE_M * mu**2)
+    layer = mu * h**2 * (share - 1) * limit / SPHERE_INERTIA
+    gaps = [sequence(*of) for of in zip(share * limit, start, h, mu, strict=True)]
+    left = (start - layer)[:, None] * ratio[:, None] ** np.arange(SPHERE_STEPS)
+    return [sum_of_terms("phi_k [m]", gaps, [layer[:, None], left], CLOSED_FORM)]
 
 
 STEP = Claim(

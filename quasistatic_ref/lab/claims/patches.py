@@ -149,25 +149,20 @@ def flat_patch_evidence() -> list[Comparison]:
         return bool(abs(exact(loaded_patch(share * limit)).delta_q[5]) > 1e-14)
 
     held = threshold_near(turns_it, 1.0, (0.3, 2.0))
-    turns = []
-    forms = []
-    scales = []
-    inner = []
-    for share in (1.01, 1.5, 4.0):
-        answer = exact(loaded_patch(share * limit))
-        mass = DISK_INERTIA + M * (DISK_MU * DISK_RADIUS) ** 2
-        turns.append(answer.delta_q[5])
-        forms.append(H**2 * (share - 1) * limit / mass)
-        scales.append(H**2 * share * limit / mass)
-        load = answer.wrench[:, 2].reshape(DISK_RINGS, POINTS).sum(1)
-        inner.append(load[:-1].sum() / load.sum())
+    shares = np.array([1.01, 1.5, 4.0])
+    answers = [exact(loaded_patch(share * limit)) for share in shares]
+    turn_of_limit = H**2 * limit / (DISK_INERTIA + M * (DISK_MU * DISK_RADIUS) ** 2)
+    turns = [answer.delta_q[5] for answer in answers]
+    load = np.array([answer.wrench[:, 2] for answer in answers])
+    inner = load[:, :-POINTS].sum(axis=1) / load.sum(axis=1)
     words = "its torque over that of a uniform load [-]"
     return [
         comparison("torque that turns it, over mu m g a [-]", held, 1.0, CLOSED_FORM),
-        comparison("turn [rad]", turns, forms, CLOSED_FORM, scales),
+        comparison("turn [rad]", turns, (shares - 1) * turn_of_limit, CLOSED_FORM,
+                   shares * turn_of_limit),
         comparison("share of the load inside the rim [-]", inner, 0.0, 0.0),
         comparison(words, held * limit / uniform, DISK_RADIUS / r.mean(), CLOSED_FORM),
-    ]
+    ]  # fmt: skip
 
 
 FLAT_PATCH = Claim(

@@ -52,51 +52,38 @@ def displacements(results: list[StepResult]) -> Array:
 
 def slide_evidence() -> list[Comparison]:
     """Slips of low blocks that rest or slide on slopes, step by step, against a formula."""
-    stuck = []
-    slips = []
-    fixed = []
-    left = []
-    sideways = []
-    k = np.arange(BLOCK_STEPS)
-    for slope, mu, z in grid(np.radians([5, 15, 25, 35, 50]), [0.2, 0.5, 0.9], [0.01, 0.05]):
-        if np.isclose(np.tan(slope), mu, rtol=1e-3):
-            continue
-        if np.tan(slope) < mu:
-            stuck.append(displacements(block_steps(slope, mu, z, 1)) / (H**2 * GRAVITY))
-            continue
-        delta_q = displacements(block_steps(slope, mu, z, BLOCK_STEPS))
-        steady = H**2 * GRAVITY * (np.sin(slope) - mu * np.cos(slope))
-        slips.append(delta_q[:, 0])
-        fixed.append(np.full(BLOCK_STEPS, steady))
-        left.append(-steady * (mu**2 / (1 + mu**2)) ** (k + 1))
-        sideways.append(delta_q[:, [1, 3, 4, 5]] / (H**2 * GRAVITY / L))
+    sweep = grid(np.radians([5, 15, 25, 35, 50]), [0.2, 0.5, 0.9], [0.01, 0.05])
+    over = np.tan(sweep[:, 0]) / sweep[:, 1]
+    stuck = [displacements(block_steps(a, mu, z, 1)) for a, mu, z in sweep[over < 1 - 1e-3]]
+    sliding = sweep[over > 1 + 1e-3]
+    blocks = (block_steps(a, mu, z, BLOCK_STEPS) for a, mu, z in sliding)
+    delta_q = np.array([displacements(steps) for steps in blocks])
+    slope, mu, _ = sliding.T[:, :, None]
+    steady = H**2 * GRAVITY * (np.sin(slope) - mu * np.cos(slope))
+    left = -steady * (mu**2 / (1 + mu**2)) ** np.arange(1, BLOCK_STEPS + 1)
+    fall = H**2 * GRAVITY
+    sideways = delta_q[:, :, [1, 3, 4, 5]] / (fall / L)
     return [
-        comparison("stuck: motion, in h^2 g [-]", np.array(stuck), 0.0, CLOSED_FORM),
-        sum_of_terms("slip of step k [m]", slips, [fixed, left], 4 * CLOSED_FORM),
-        comparison("sliding: sideways and turns [-]", np.array(sideways), 0.0, 4 * CLOSED_FORM),
+        comparison("stuck: motion, in h^2 g [-]", np.array(stuck) / fall, 0.0, CLOSED_FORM),
+        sum_of_terms("slip of step k [m]", delta_q[:, :, 0], [steady, left], 4 * CLOSED_FORM),
+        comparison("sliding: sideways and turns [-]", sideways, 0.0, 4 * CLOSED_FORM),
     ]
 
 
 def tip_evidence() -> list[Comparison]:
     """High blocks whose friction would hold them: they tip at tan a = L / z."""
-    turns = []
-    up = []
-    down = []
-    held = []
-    for z, share in grid([0.1, 0.2, 0.4], [0.9, 0.999, 1.001, 1.1, 1.4]):
-        slope = np.arctan(share * L / z)
-        delta_q = displacements(block_steps(slope, 1.5, z, 1))[0]
-        if share < 1:
-            held.append(delta_q / (H**2 * GRAVITY))
-            continue
-        about_edge = BLOCK_M / 3 * (L**2 + z**2) + BLOCK_M * (L**2 + z**2)
-        unit = H**2 * BLOCK_M * GRAVITY / about_edge
-        turns.append(delta_q[4])
-        down.append(unit * z * np.sin(slope))
-        up.append(-unit * L * np.cos(slope))
+    z, share = grid([0.1, 0.2, 0.4], [0.9, 0.999, 1.001, 1.1, 1.4]).T
+    slope = np.arctan(share * L / z)
+    blocks = zip(slope, z, strict=True)
+    delta_q = np.array([displacements(block_steps(a, 1.5, of, 1))[0] for a, of in blocks])
+    tips = share > 1
+    about_edge = BLOCK_M / 3 * (L**2 + z**2) + BLOCK_M * (L**2 + z**2)
+    unit = H**2 * BLOCK_M * GRAVITY / about_edge
+    terms = [(unit * z * np.sin(slope))[tips], (-unit * L * np.cos(slope))[tips]]
+    held = delta_q[~tips] / (H**2 * GRAVITY)
     return [
         comparison("held: motion, in h^2 g [-]", held, 0.0, CLOSED_FORM),
-        sum_of_terms("turn about the lower edge [rad]", turns, [down, up], CLOSED_FORM),
+        sum_of_terms("turn about the lower edge [rad]", delta_q[tips, 4], terms, CLOSED_FORM),
     ]
 
 
@@ -153,13 +140,7 @@ def limit_of_rolling() -> Comparison:
 
 def evidence() -> list[Comparison]:
     """Forces along several directions, each step compared with the one before."""
-    turned = []
-    wanted = []
-    heights = []
-    dips = []
-    closed = []
-    ahead = []
-    along = []
+    points = []
     for force, azimuth, h in grid([0.05, 0.3, 1.0], [0.0, 0.7, 2.5], [0.01, 0.03]):
         text = body_text(BALL_M, (INERTIA,) * 3)
         system = system_of({"ball": text}, ball={"xyz": (0.1, -0.2, RADIUS)})
@@ -169,25 +150,23 @@ def evidence() -> list[Comparison]:
         direction = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
         q = system.q_start
         theta = h**2 * force / (BALL_M + INERTIA / RADIUS**2) / RADIUS
-        sinc = np.sin(theta) / theta
         for _ in range(BALL_STEPS):
             push = system.load(q, "ball", force * direction)
             result = steps_of(simulator, 1, q=q, force=push)[0]
-            phi = q[2] - RADIUS
-            # exp6 of a twist that rolls by theta and rises by -phi: an arc, not a straight line.
-            turned.append(np.linalg.norm(result.solution.delta_q[3:]))
-            wanted.append(theta)
-            heights.append(result.q[2])
-            dips.append(q[2] - RADIUS * (1 - np.cos(theta)))
-            closed.append(-sinc * phi)
-            ahead.append(direction @ (result.q[:3] - q[:3]))
-            along.append(sinc * RADIUS * theta - (1 - np.cos(theta)) / theta * phi)
+            turned = np.linalg.norm(result.solution.delta_q[3:])
+            ahead = direction @ (result.q[:3] - q[:3])
+            points.append((theta, turned, q[2], result.q[2], ahead))
             q = result.q
-    rolled = np.array(wanted)
+    rolled, turn, before, after, way = np.array(points).T
+    phi = before - RADIUS
+    # exp6 of a twist that rolls by theta and rises by -phi: an arc, not a straight line.
+    sinc = np.sin(rolled) / rolled
+    dip = RADIUS * (1 - np.cos(rolled))
+    along = sinc * RADIUS * rolled - dip / RADIUS / rolled * phi
     return [
-        comparison("turn of a step [rad]", turned, rolled, 10 * CLOSED_FORM, rolled),
-        sum_of_terms("height [m]", heights, [dips, closed], CLOSED_FORM),
-        comparison("way of a step [m]", ahead, along, 10 * CLOSED_FORM, RADIUS * rolled),
+        comparison("turn of a step [rad]", turn, rolled, 10 * CLOSED_FORM, rolled),
+        sum_of_terms("height [m]", after, [before - dip, -sinc * phi], CLOSED_FORM),
+        comparison("way of a step [m]", way, along, 10 * CLOSED_FORM, RADIUS * rolled),
         limit_of_rolling(),
     ]
 
