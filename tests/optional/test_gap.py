@@ -10,7 +10,6 @@ from flint import arb, fmpq
 
 from quasistatic_ref import solve_step
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.tolerances import IMPULSES
@@ -21,6 +20,7 @@ from quasistatic_ref.optional.gap import (
     free_energy,
     nearest_above,
 )
+from tests.oracles.grasp_steps import grasp_step
 from tests.oracles.random_steps import any_step, mixed_step
 from tests.oracles.rational_kkt import exact, proved_optimum, solution
 from tests.oracles.rational_kkt import fractions as in_python

@@ -10,8 +10,8 @@ import numpy as np
 from quasistatic_ref import Extra, StepData
 from quasistatic_ref.lab.scenes.at_random import divided, random_frames, spread_matrix
 from quasistatic_ref.lab.scenes.contacts import contacts_of, repeated
-from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
+from tests.oracles.grasp_steps import grasp_step
 
 CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
 

@@ -12,8 +12,8 @@ from quasistatic_ref.certify.form import ExactForm
 from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.certify.optimum import Certificate, SolverStatistics
 from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.solve import solve
+from tests.oracles.grasp_steps import grasp_step
 
 
 @pytest.fixture(scope="module")

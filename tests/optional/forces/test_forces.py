@@ -13,7 +13,6 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of, repeated
-from quasistatic_ref.lab.scenes.loads import loaded_pile
 from quasistatic_ref.lab.scenes.rigid import free_step, rigid_step
 from quasistatic_ref.optional.forces.of_group import COMPLIANCE, HARDLY_MOVES, group_compliance
 from quasistatic_ref.optional.friction import scaled_by
@@ -23,6 +22,7 @@ from tests.closeness import assert_relative, assert_within
 from tests.helpers import EAST, WEST, changed, point_between_walls, point_on_floor, two_bodies
 from tests.optional.forces.blocks import MU_V, POLYHEDRAL, G, H, M, block, walled_block
 from tests.oracles import force_checks as checks
+from tests.oracles.loaded_piles import loaded_pile
 from tests.oracles.random_steps import mixed_step
 from tests.tolerances import ROUNDING
 

@@ -6,7 +6,6 @@ from scipy.optimize import nnls
 
 from quasistatic_ref import contact_forces, solve_step
 from quasistatic_ref.certify.form import exact_matrix
-from quasistatic_ref.lab.scenes.loads import loaded_pile
 from quasistatic_ref.optional.forces import eliminated, face_guess, forces
 from quasistatic_ref.optional.forces.face_guess import guessed_faces, nearest_rows
 from quasistatic_ref.optional.forces.faces import face, nearest_face, rows_of
@@ -15,6 +14,7 @@ from quasistatic_ref.optional.friction import cone_matrix
 from tests.closeness import assert_within
 from tests.optional.forces.blocks import POLYHEDRAL, block, walled_block
 from tests.oracles import force_checks as checks
+from tests.oracles.loaded_piles import loaded_pile
 
 
 @pytest.mark.parametrize("step", [block(push=1.0), walled_block()])
