@@ -3,14 +3,17 @@
 What `own` answers must go the way that users' robots go; so each tree becomes the text of a URDF.
 """
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.formats.json_text import plain
 from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of, words
 from quasistatic_ref.lab.vectors.converters import places
@@ -62,6 +65,13 @@ def own_system(mechanism: dict[str, Any]) -> OwnSystem:
         If the mechanism is none that the package can hold: a floating or planar joint between
         two bodies, a floating base with a frame of its own, a planar base that is not upright.
     """
+    return _own_system(json.dumps(plain(mechanism)))
+
+
+@lru_cache(maxsize=8)  # cases of one scene follow each other
+def _own_system(text: str) -> OwnSystem:
+    """The System of a mechanism that is written as JSON."""
+    mechanism = json.loads(text)
     bodies = mechanism["bodies"]
     tree: dict[str, int] = {}
     for k, body in enumerate(bodies):
