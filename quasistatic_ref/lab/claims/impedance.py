@@ -32,7 +32,7 @@ def free_evidence() -> list[Comparison]:
 
 
 def pressed_step(K: float, phi: float, beyond: float, tau: float) -> StepData:
-    """A finger of stiffness K whose target lies `beyond` a wall at the gap phi."""
+    """A finger of stiffness K whose target lies `beyond` [m] a wall at the gap phi."""
     J = np.zeros((1, 4, 1))
     J[0, 0, 0] = -1.0  # towards the wall, along -n
     frame = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
