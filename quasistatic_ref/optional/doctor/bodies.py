@@ -18,21 +18,17 @@ from quasistatic_ref.optional.doctor.start import FARTHEST
 if TYPE_CHECKING:
     from quasistatic_ref.optional.doctor.start import Start
 
-EARTH = 9.80665
-"""Unit of acceleration in a sentence [m/s^2]."""
 COUNTS = 0.1
 """Part of an amount from which on it is said [-]."""
 NOTHING = 1e-4
 """Part of the first kinetic energy [-] that is none: a torque of a hundredth of the force times the
 radius of gyration, which is how right r is."""
-
-
 REACTION = 1e-3
 """Part of the first power of a body that a joint has which stays [-]."""
 
 
 class Missing(NamedTuple):
-    """What a body lacks for equilibrium in a step, and the accelerations with which it would start.
+    """What a body lacks for equilibrium in a step.
 
     Parameters
     ----------
@@ -42,8 +38,6 @@ class Missing(NamedTuple):
     force, torque : float
         Of a free body about its centre of mass; else along its joints that slide and that turn
         [N, N m].
-    slides, turns : float
-        Acceleration with which it would start [m/s^2, rad/s^2].
     r : ndarray
         What would have to be added, along its coordinates [N, N m].
     turning : float
@@ -53,8 +47,6 @@ class Missing(NamedTuple):
     amount: float
     force: float
     torque: float
-    slides: float
-    turns: float
     r: Array
     turning: float
 
@@ -65,13 +57,6 @@ class Missing(NamedTuple):
         if self.turning > COUNTS:
             parts.append(f"{self.torque:.3g} N m")
         return " and ".join(parts)
-
-    @property
-    def starts(self) -> str:
-        """How the body would start to move, in words."""
-        if self.turning > 1 - COUNTS:
-            return f"{self.turns:.2g} rad/s^2"
-        return f"{self.slides / EARTH:.2g} g"
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,18 +118,18 @@ class Body:
             r = np.where(power > REACTION * power.sum(), r, 0.0)
             starts = np.asarray(np.linalg.solve(M, r), dtype=np.float64)
         force, torque = r[self.lengths], r[~self.lengths]
-        slides, turns = starts[self.lengths], starts[~self.lengths]
         if self.free:
             S = M[3:6, :3] / M[0, 0]  # [c]x, of the centre of mass
             torque = torque - S @ force
-            slides = force / M[0, 0]
         whole = float(r @ starts)
-        turning = float(torque @ turns) / (whole or 1.0)
-        forces = np.linalg.norm([force, slides], axis=1) * (abs(1 - turning) > NOTHING)
-        torques = np.linalg.norm([torque, turns], axis=1) * (abs(turning) > NOTHING)
-        (force, slides), (torque, turns) = forces.tolist(), torques.tolist()
-        amount = math.sqrt(self.mass * max(whole, 0.0))
-        return Missing(amount, force, torque, slides, turns, r, turning)
+        turning = float(torque @ starts[~self.lengths]) / (whole or 1.0)
+        return Missing(
+            amount=math.sqrt(self.mass * max(whole, 0.0)),
+            force=float(np.linalg.norm(force)) * (abs(1 - turning) > NOTHING),
+            torque=float(np.linalg.norm(torque)) * (abs(turning) > NOTHING),
+            r=r,
+            turning=turning,
+        )
 
     def named(self, lack: Missing) -> str:
         """The body's name, or names of its joints that lack force."""
@@ -153,17 +138,6 @@ class Body:
         of = dict(zip(self.coordinates.tolist(), lack.r.tolist(), strict=True))
         joints = [j.name for j in self.joints if any(of[i] for i in range(j.v.start, j.v.stop))]
         return listed(joints)
-
-    def moves(self, q: Array) -> tuple[float, float]:
-        """How far the body gets from its start over the steps q, (n, n_q): [m] and [rad]."""
-        far = [0.0, 0.0]
-        for joint in self.joints:
-            places = q[:, joint.q].tolist()
-            for here in places[1:]:
-                change = joint.change(places[0], here)
-                far[0] = max(far[0], float(np.linalg.norm(change[: joint.lengths])))
-                far[1] = max(far[1], float(np.linalg.norm(change[joint.lengths :])))
-        return far[0], far[1]
 
 
 def bodies(start: Start) -> Iterator[Body]:

@@ -71,8 +71,8 @@ def bearing(step: StepData, touching: Mask, at_most: Array | float = np.inf) -> 
     along = np.linalg.solve(root, np.column_stack([rows[:, step.n_a :].T, step.tau_u]))
     load = along[:, -1]
     size = float(np.abs(load).max(initial=0.0)) or 1.0
-    pressing = np.zeros((step.contacts.n_c, len(rows) + 2 * n_u))
-    pressing[contact, np.arange(len(rows))] = 1.0  # a row pushes by 1 along n
+    of_contact = np.equal.outer(np.arange(step.contacts.n_c), contact)  # it pushes by 1 along n
+    pressing = np.hstack([of_contact, np.zeros((step.contacts.n_c, 2 * n_u))])
     at_most = np.broadcast_to(at_most, touching.shape)
     limited = np.isfinite(at_most) & touching
     answer = linprog(
@@ -108,8 +108,7 @@ def unsqueezed(step: StepData, touching: Mask) -> Array:
     along = rows[:, step.n_a :]
     along = along / np.abs(along).max(axis=0, initial=TINY)
     size = float(normal.max())
-    of_contact = np.zeros((len(normal), len(rows)))
-    of_contact[contact, np.arange(len(rows))] = 1.0
+    of_contact = np.equal.outer(np.arange(len(normal)), contact)
     answer = linprog(
         np.full(len(rows), -1.0),
         A_ub=np.vstack([along.T, -along.T, of_contact]),

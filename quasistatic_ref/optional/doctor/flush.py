@@ -57,7 +57,7 @@ def flush(start: Start) -> Iterator[Finding]:
         return
     bears = start.touching(points.phi)
     for on in _sides(slices(start.pairs), points, bears):
-        for ahead in _sides(_near(start, on), points, ~bears):
+        for ahead in _sides(start.pairs_of[start.body(on.link)], points, ~bears):
             if _joined(ahead, on, start.kinematics):
                 along = ahead.normals[0]
                 reach = _reach(ahead.other, along, start.kinematics)
@@ -76,7 +76,7 @@ def pushed_back(run: Run) -> Iterator[Finding]:
         presses = f_n[k] > COUNTS * force
         points = run.points_of(k)
         for ahead in _sides([(pair, at)], points, presses):
-            for on in _sides(_near(run, ahead), points, presses):
+            for on in _sides(run.pairs_of[run.body(ahead.link)], points, presses):
                 if on.pair is ahead.pair or force <= COUNTS * f_n[k, on.at].max():
                     continue
                 if _joined(ahead, on, run.system.kinematics(run["q"][k])):
@@ -85,11 +85,6 @@ def pushed_back(run: Run) -> Iterator[Finding]:
                     how = f"and their seam pushes it back with {along:.3g} N in step {k}"
                     yield _finding(run, ahead, on, how, {"along_N": along, "step": k})
                     return
-
-
-def _near(start: Start, side: Side) -> list[tuple[ContactPair, slice]]:
-    """The pairs of a side's body."""
-    return start.pairs_of[start.body(side.link)]
 
 
 def _finding(start: Start, ahead: Side, on: Side, how: str, numbers: dict[str, float]) -> Finding:

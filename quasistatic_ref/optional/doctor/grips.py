@@ -34,8 +34,6 @@ def lost(run: Run) -> Iterator[Finding]:
     grips = driven & run.touches
     every_slip = np.where(grips, np.linalg.norm(run.slips[..., :2], axis=2), 0.0)
     every_turn = np.where(grips, np.abs(run.noted("moved")[..., 3]), 0.0)
-    if not _slips(run, every_slip, every_turn):
-        return
     for body in run.bodies_of:
         on = body.contacts & grips
         slips = np.where(on, every_slip, 0.0)

@@ -12,7 +12,7 @@ from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.doctor.artifacts import pressing
 from quasistatic_ref.optional.doctor.equilibrium import at_rest, borne, unsqueezed
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.optional.doctor.start import Start, table
 from quasistatic_ref.optional.doctor.telling import amount
 from quasistatic_ref.optional.doctor.undecided import optimum
 from quasistatic_ref.simulate.finding import Finding
@@ -209,10 +209,9 @@ def _holds(start: Start, guide: Guide, step: StepData, squeezed: bool) -> bool:
 
 
 def _remedy(start: Start, guide: Guide, step: StepData) -> str:
-    names = [start.simulator.layout.names[j] for j in guide.contacts]
     of_mjcf = start.system.of_mjcf
-    words = "contact[{}]".format if of_mjcf else lambda name: f"contacts.{name.partition('(')[0]}"
-    tables = " or ".join(sorted(set(map(words, names))))
+    pairs = [start.pairs[i] for i in start.pair_of[list(guide.contacts)].tolist()]
+    tables = " or ".join(sorted({table(start, pair) for pair in pairs}))
     joints = _joints(start, guide)
     joint = start.system.joint(joints[0])
     name = joint.name.partition("/")[0]

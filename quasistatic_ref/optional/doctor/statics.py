@@ -9,7 +9,7 @@ from quasistatic_ref.optional.doctor.bodies import COUNTS
 from quasistatic_ref.optional.doctor.compared import SLIP, SPIN, TORQUE
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.slow import SAME
-from quasistatic_ref.optional.doctor.telling import amount, table_of
+from quasistatic_ref.optional.doctor.telling import amount
 from quasistatic_ref.optional.doctor.undecided import Undecided, undecided
 from quasistatic_ref.optional.doctor.unsupported import alone, falls
 from quasistatic_ref.simulate.finding import Finding
@@ -43,8 +43,6 @@ def out_of_balance(run: Run) -> Iterator[Finding | Undecided]:
             {
                 "missing_N": lack.force,
                 "missing_Nm": lack.torque,
-                "starts_m_s2": lack.slides,
-                "starts_rad_s2": lack.turns,
                 "step": k,
             },
             body.named(lack),
@@ -119,5 +117,5 @@ def artifact(run: Run) -> Iterator[Finding | Undecided]:
             f"layer_{unit}".replace(" ", ""): change.layer,
             "step": change.k,
         },
-        table_of(pair),
+        pair.name.partition("(")[0],
     )

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.measures import Drive, Motion, PairMeasures, measures
 from quasistatic_ref.tolerances import FILLED, UNMOVED
@@ -19,8 +18,8 @@ if TYPE_CHECKING:
 PRINTED = 4
 """Lines of a kind that are printed."""
 
-UNITS = {"m": "m", "mm": "mm", "s": "s", "deg": "deg", "rad": "rad", "N": "N", "Nm": "N m"}
-"""Units at the end of a word, as they are printed."""
+UNITS = ("m", "mm", "s", "deg", "rad", "N", "Nm")
+"""Units at the end of a word."""
 
 Numbers = Mapping[str, Mapping[str, Mapping[str, float]]]
 """By kind, name and word [any unit]."""
@@ -99,7 +98,7 @@ def in_words(word: str, value: float) -> str:
     name, _, unit = word.rpartition("_")
     if unit not in UNITS:
         return f"{word.replace('_', ' ')} {value:.4g}"
-    return f"{name.replace('_', ' ')} {value:.4g} {UNITS[unit]}"
+    return f"{name.replace('_', ' ')} {value:.4g} {unit.replace('Nm', 'N m')}"
 
 
 def lines(numbers: Numbers) -> Iterator[str]:
@@ -119,11 +118,6 @@ def by_name(numbers: Numbers) -> dict[str, float]:
         for name, each in names.items()
         for word, value in each.items()
     }
-
-
-def table_of(pair: ContactPair) -> str:
-    """The name of the table that a pair is of."""
-    return pair.name.partition("(")[0]
 
 
 def amount(x: float, unit: str) -> str:
