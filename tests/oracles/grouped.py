@@ -9,8 +9,7 @@ from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.optimum import form_optimum, step_optimum
 from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.lab.scenes.at_random import divided
-from tests.oracles.random_steps import mixed_step
+from tests.oracles.random_steps import divided, mixed_step
 
 SAME = ("delta_q", "net")
 """What of an optimum no choice is left of, beside what its rows without slack say."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from quasistatic_ref import Extra, StepData
-from quasistatic_ref.lab.scenes.at_random import divided, random_frames, spread_matrix
+from quasistatic_ref.lab.scenes.at_random import random_frames, spread_matrix
 from quasistatic_ref.lab.scenes.contacts import contacts_of, repeated
 from quasistatic_ref.lab.scenes.rigid import free_step
 from tests.oracles.grasp_steps import grasp_step
@@ -182,4 +182,27 @@ def designed_step(seed):
         contacts=replace(contacts, phi=factor * contacts.phi),
         extra=Extra(extra.names, extra.A, factor * extra.b),
         cone=CONES[seed % len(CONES)],
+    )
+
+
+def divided(rng, step, classes):
+    """The same step without what couples coordinates of different classes, drawn at random.
+
+    Parameters
+    ----------
+    rng : Generator
+    step : StepData
+        Without rows of a user's own.
+    classes : int
+        How many; the step then has at least as many groups as there are classes with a coordinate.
+    """
+    of_a = rng.integers(classes, size=step.n_a)
+    of_u = rng.integers(classes, size=step.n_u)
+    contacts = step.contacts
+    of_contact = rng.integers(classes, size=step.contacts.n_c)
+    coupled = of_contact[:, None, None] == np.concatenate([of_a, of_u])
+    return step.replace(
+        K_q=step.K_q * (of_a[:, None] == of_a),
+        M_u=step.M_u * (of_u[:, None] == of_u),
+        contacts=repeated(contacts, range(contacts.n_c), J=contacts.J * coupled),
     )

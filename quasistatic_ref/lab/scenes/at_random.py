@@ -55,26 +55,3 @@ def random_step(
         contacts=contacts,
         cone=cone,
     )
-
-
-def divided(rng: Rng, step: StepData, classes: int) -> StepData:
-    """The same step without what couples coordinates of different classes, drawn at random.
-
-    Parameters
-    ----------
-    rng : Generator
-    step : StepData
-        Without rows of a user's own.
-    classes : int
-        How many; the step then has at least as many groups as there are classes with a coordinate.
-    """
-    of_a = rng.integers(classes, size=step.n_a)
-    of_u = rng.integers(classes, size=step.n_u)
-    contacts = step.contacts
-    of_contact = rng.integers(classes, size=step.contacts.n_c)
-    coupled = of_contact[:, None, None] == np.concatenate([of_a, of_u])
-    return step.replace(
-        K_q=step.K_q * (of_a[:, None] == of_a),
-        M_u=step.M_u * (of_u[:, None] == of_u),
-        contacts=repeated(contacts, range(contacts.n_c), J=contacts.J * coupled),
-    )
