@@ -5,7 +5,6 @@ import pytest
 from tests.lab.vectors.committed_cases import VECTORS, answer_file, right_answers
 
 BAD = {
-    "own --layer row --out out": "did you mean 'rows'?",
     "generate --vectors nowhere --out out": "no such file",
     "check nowhere": "is not a folder of answers",
     "check .": "answers no layer",
