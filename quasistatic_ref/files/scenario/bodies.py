@@ -73,14 +73,15 @@ class BodyEntry(Plain):
         """Whether the body has joint friction, a support or joint limits, which extend the step."""
         return any(x is not None for x in (self.joint_friction, self.support, self.joint_limits))
 
-    def actuated(self, system: System) -> list[Joint]:
-        """The actuated joints of this body, in the order of q."""
+    def joints(self, system: System) -> dict[str, Joint]:
+        """The joints of this body in the order of q, by their names without the body's."""
         prefix = f"{self.body.name}/"
-        return [j for j in system.joints if j.actuated and j.name.startswith(prefix)]
+        of_body = [joint for joint in system.joints if joint.name.startswith(prefix)]
+        return {joint.name.removeprefix(prefix): joint for joint in of_body}
 
-    def short(self, joint: Joint) -> str:
-        """A joint's name without the body's."""
-        return joint.name.removeprefix(f"{self.body.name}/")
+    def actuated(self, system: System) -> dict[str, Joint]:
+        """The actuated ones of its joints."""
+        return {name: joint for name, joint in self.joints(system).items() if joint.actuated}
 
 
 class OfBodies(Protocol):
@@ -162,11 +163,9 @@ def stiffnesses(system: System, entry: BodyEntry) -> Iterator[tuple[str, Indices
     joints = entry.actuated(system)
     table = entry.table
     if entry.K_q is None and joints:
-        raise table.error_about(
-            "K_q", f"is missing for {', '.join(entry.short(j) for j in joints)}"
-        )
+        raise table.error_about("K_q", f"is missing for {', '.join(joints)}")
     if isinstance(entry.K_q, list | int | float):
-        every = [i for joint in joints for i in range(joint.v.start, joint.v.stop)]
+        every = [i for joint in joints.values() for i in range(joint.v.start, joint.v.stop)]
         yield table.name("K_q"), np.array(every, dtype=np.int64), entry.K_q
         return
     of_joints = TableReader(
@@ -175,9 +174,8 @@ def stiffnesses(system: System, entry: BodyEntry) -> Iterator[tuple[str, Indices
     for name, problem in _followers(system, entry).items():
         if name in of_joints:
             raise of_joints.error_about(name, problem)
-    names = [entry.short(joint) for joint in joints]
-    of_joints.only(names)
-    for name, joint in zip(names, joints, strict=True):
+    of_joints.only(joints)
+    for name, joint in joints.items():
         numbers = of_joints.take(name)
         yield of_joints.name(name), np.arange(joint.v.start, joint.v.stop), numbers
 
@@ -190,7 +188,7 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
     ScenarioError
         If a waypoint names what has no target, or asks for more than half a turn at once.
     """
-    joints = {entry.short(joint): joint for joint in entry.actuated(system)}
+    joints = entry.actuated(system)
     followers = _followers(system, entry)
     times: dict[str, list[float]] = {}
     values: dict[str, list[Any]] = {}

@@ -281,7 +281,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     tracks = []
     wrenches = []
     for entry in entries.values():
-        for joint in entry.actuated(system):
+        for joint in entry.actuated(system).values():
             gravity_acts[joint.v] = not entry.gravity_compensated
         tracks += joint_tracks(system, entry)
         if entry.wrenches is not None:

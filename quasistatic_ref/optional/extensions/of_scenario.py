@@ -112,11 +112,7 @@ def joint_limits(system: System, entry: BodyEntry) -> dict[str, tuple[float, flo
     """
     table = {} if entry.joint_limits in (None, URDF) else entry.joint_limits
     fields = TableReader(table, entry.table.name("joint_limits"), ScenarioError)
-    joints = {
-        entry.short(joint): joint
-        for joint in system.joints
-        if joint.name.startswith(f"{entry.body.name}/") and len(joint.positions) == 1
-    }
+    joints = {name: one for name, one in entry.joints(system).items() if len(one.positions) == 1}
     fields.only(joints)
     limits = {}
     for name in fields.names_left():
@@ -140,12 +136,10 @@ def joint_friction(system: System, entry: BodyEntry) -> dict[str, float]:
         return urdf_friction(system, entry.body.name)
     table = {} if entry.joint_friction is None else entry.joint_friction
     fields = TableReader(table, entry.table.name("joint_friction"), ScenarioError)
-    joints = [joint for joint in system.joints if joint.name.startswith(f"{entry.body.name}/")]
-    rubbed = [joint for joint in joints if not joint.free]
-    fields.only(entry.short(joint) for joint in rubbed)
+    rubbed = {name: joint for name, joint in entry.joints(system).items() if not joint.free}
+    fields.only(rubbed)
     friction: dict[str, float] = {}
-    for joint in rubbed:
-        name = entry.short(joint)
+    for name, joint in rubbed.items():
         coordinates = joint.coordinates
         if name not in fields:
             continue
