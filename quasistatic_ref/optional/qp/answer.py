@@ -117,12 +117,12 @@ class ExactQP(Plain, Shown):
     def _digits(self, errors: Iterable[arb_mat]) -> float:
         """Correct digits from the errors of each block."""
         with working_precision(PRECISION):
-            pairs = zip(self.problem.blocks, errors, strict=True)
-            off = sum((_square(e, block.form.H * e) for block, e in pairs), arb(0))
+            off = arb(0)
             length = arb(0)
             free = arb(0)
-            for block in self.problem.blocks:
+            for block, error in zip(self.problem.blocks, errors, strict=True):
                 x = _column(self.x[block.coordinates])
+                off += _square(error, block.form.H * error)
                 length += _square(x, block.form.H * x)
                 free += _square(block.form.g, block.form.free)
             longer = max(length.mid(), free.mid())
