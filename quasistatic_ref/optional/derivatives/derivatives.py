@@ -17,7 +17,7 @@ from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import System
-from quasistatic_ref.numbers.arrays import Array, checked_numbers
+from quasistatic_ref.numbers.arrays import Array, checked_array, checked_numbers
 from quasistatic_ref.optional.derivatives.column import Column, column
 from quasistatic_ref.optional.derivatives.nearby import Nearby
 from quasistatic_ref.optional.derivatives.reason import Reason
@@ -231,13 +231,12 @@ def directed(near: Nearby, directions: Mapping[str, ArrayLike]) -> tuple[Column,
         check_name(near, name, "along")
         sizes = near.sizes[name]
         where = f"along.{name}"
-        change = checked_numbers(value, where, InputError)
-        if change.shape != sizes.shape and not (len(sizes) == 1 and change.shape == ()):
-            raise InputError(f"must have shape {sizes.shape}", field=where, value=change.shape)
-        if not np.isfinite(change).all():
-            raise InputError("must contain finite numbers only", field=where)
+        numbers = checked_numbers(value, where, InputError)
+        if sizes.shape == (1,) and numbers.shape == ():
+            numbers = numbers[None]
+        change = checked_array(numbers, where, sizes.shape, InputError)
         if change.any():
-            changes[name] = np.broadcast_to(change, sizes.shape)
+            changes[name] = change
     scale = max(
         [np.abs(change / near.sizes[name]).max() for name, change in changes.items()] or [1.0]
     )
