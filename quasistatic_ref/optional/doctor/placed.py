@@ -18,6 +18,7 @@ from quasistatic_ref.optional.doctor.start import (
     slices,
     table,
 )
+from quasistatic_ref.optional.doctor.telling import length
 from quasistatic_ref.optional.doctor.tolerances import NEAR, SUNK
 from quasistatic_ref.optional.doctor.undecided import Undecided, failure
 from quasistatic_ref.optional.doctor.unsupported import fall, held, sinks
@@ -79,9 +80,8 @@ def in_the_air(start: Start) -> Iterator[Finding | Undecided]:
             yield Finding(
                 "starts-in-the-air",
                 True,
-                f"lower {name} by {1e3 * gap:.4g} mm, or check its origin",
-                f"{name} starts in the air, {1e3 * gap:.4g} mm above what may bear it "
-                f"({pair.name})",
+                f"lower {name} by {length(gap)}, or check its origin",
+                f"{name} starts in the air, {length(gap)} above what may bear it ({pair.name})",
                 {"gap_mm": 1e3 * gap},
             )
         else:
@@ -105,10 +105,8 @@ def penetration(start: Start) -> Iterator[Finding]:
         name = table(start, pair)
         deeper = name not in deepest or 1e3 * depth > deepest[name].numbers["depth_mm"]
         if depth > SUNK * least(pair) and deeper:
-            remedy = (
-                f"start {pair.alpha.name} and {pair.beta.name} {1e3 * depth:.3g} mm farther apart"
-            )
-            cause = f"{pair.name} is {1e3 * depth:.3g} mm deep at the start"
+            remedy = f"start {pair.alpha.name} and {pair.beta.name} {length(depth)} farther apart"
+            cause = f"{pair.name} is {length(depth)} deep at the start"
             if hollow := hull_alone(start, pair, SUNK * least(pair)):
                 remedy = f"split the mesh of {hollow.name} into convex parts, each a <collision>"
                 cause += f": the hull of {hollow.name} overlaps, and the mesh itself does not"
@@ -148,7 +146,7 @@ def inside(start: Start) -> Iterator[Finding]:
                     "starts-inside",
                     False,
                     f"start {side.name} outside of {name}",
-                    f"the middle of {side.name} is {1e3 * depth:.3g} mm inside of the hull of "
+                    f"the middle of {side.name} is {length(depth)} inside of the hull of "
                     f"{name}, none of "
                     "which it touches: what is between the points or shapes of a body is empty",
                     {"depth_mm": 1e3 * depth},

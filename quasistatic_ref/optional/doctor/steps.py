@@ -8,7 +8,7 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
-from quasistatic_ref.optional.doctor.telling import amount
+from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.optional.doctor.tolerances import BEYOND, SUNK
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import FILLED
@@ -46,17 +46,17 @@ def leaps(run: Run) -> Iterator[Finding]:
         lengths = joint.lengths
         extents = [side.shape.extent for side in moved]
         size = max((x for x in extents if 0 < x < np.inf), default=np.inf)
-        length = np.linalg.norm(motion[:, :lengths], axis=1)
+        way = np.linalg.norm(motion[:, :lengths], axis=1)
         angle = np.linalg.norm(motion[:, lengths:], axis=1)
-        share = np.maximum(length / size, angle)
+        share = np.maximum(way / size, angle)
         jump = jumps.get(joint.name, 0.0) if share[0] > JUMP else 0.0
         long = share > (JUMP if jump > BEYOND else LEAP)
         if not (moved and long.any()):
             continue
         k = int(long.argmax())
         how = f"turns by {np.degrees(angle[k]):.3g} degrees"
-        if length[k] / size > angle[k]:
-            how = f"moves by {1e3 * length[k]:.3g} mm, {share[k]:.2g} of the size of what it moves"
+        if way[k] / size > angle[k]:
+            how = f"moves by {length(way[k])}, {share[k]:.2g} of the size of what it moves"
         remedy = "take a smaller h, move slower, or start nearer to the first target"
         why = "and a step is right to first order only"
         if jump > BEYOND:
@@ -67,7 +67,7 @@ def leaps(run: Run) -> Iterator[Finding]:
             True,
             remedy,
             f"{joint.name} {how}, in step {k}, {why}",
-            {"length_m": float(length[k]), "angle_rad": float(angle[k]), "step": k},
+            {"length_m": float(way[k]), "angle_rad": float(angle[k]), "step": k},
         )
         leaps_of_pairs.append((k, -float(share[k]), finding))
     if leaps_of_pairs:

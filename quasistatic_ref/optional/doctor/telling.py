@@ -21,6 +21,9 @@ PRINTED = 4
 UNITS = ("m", "mm", "s", "deg", "rad", "N", "Nm")
 """Units at the end of a word."""
 
+LONG = 999.5
+"""Length that is said in metres, since three digits of it are 1e+03 [mm]."""
+
 Numbers = Mapping[str, Mapping[str, Mapping[str, float]]]
 """By kind, name and word [any unit]."""
 
@@ -136,6 +139,8 @@ def rounded(x: float, towards: Callable[[float], float]) -> float:
 
 
 def length(x: float) -> str:
-    """A length [m] in millimetres, to three digits, at least a hundredth of one."""
+    """A length [m] to three digits, in millimetres up to 1 m; none below a hundredth of one."""
     mm = 1e3 * abs(x)
+    if mm >= LONG:
+        return f"{abs(x):.3g} m"
     return "0 mm" if mm < 0.005 else f"{mm:.3g} mm"
