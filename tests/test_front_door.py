@@ -172,19 +172,6 @@ def test_without_jax_one_sentence_names_the_extra(monkeypatch):
         qr.step_jax(simulator)
 
 
-def test_what_takes_steps_says_what_it_is():
-    scenario = qr.load_scenario("block_push", steps=1)
-    system = repr(scenario.system)
-    assert system == "<System of pusher, block: n_a = 1, n_u = 6, 3 links>"
-    simulator = repr(scenario.simulator())
-    assert simulator == (
-        f"<Simulator of {system}: h = 0.01 s, 8 contacts, cone pyramid, backend clarabel>"
-    )
-    step = scenario.run(progress=False).step_data(0)
-    page = repr(qr.StepProblem(step))
-    assert page == f"<StepProblem of 7 unknowns, {step.m} rows: h = 0.01 s, cone pyramid>"
-
-
 def test_no_name_is_that_of_a_module_which_python_would_put_in_its_place():
     modules = {path.stem for path in PACKAGE.iterdir()}
     assert {"simulate", "step", "errors"} <= modules

@@ -280,14 +280,29 @@ def test_what_toml_leaves_out_python_leaves_out_and_a_far_limit_is_one():
     assert far.step(free.q_start, []).q[2] < free.q_start[2]
 
 
-def test_what_people_print_fits_on_a_line():
+ALONE = qr.System([BLOCK])
+OF_TWO = "<System of finger, block: n_a = 6, n_u = 6, 2 links>"
+OF_ONE = "<System of block: n_a = 0, n_u = 6, 1 link>"
+SHOWN = {
+    OF_TWO: SYSTEM,
+    OF_ONE: ALONE,
+    f"<Simulator of {OF_TWO}: h = 0.01 s, 4 contacts, cone pyramid, backend clarabel>": SIMULATOR,
+    f"<Simulator of {OF_ONE}: h = 0.01 s, 1 contact, cone pyramid, backend clarabel>": (
+        qr.Simulator(ALONE, [pair(beta=ALONE.shapes[0], k=1)], h=0.01)
+    ),
+    "<StepProblem of 12 unknowns, 16 rows: h = 0.01 s, cone pyramid>": qr.StepProblem(STEP),
+    "<Named of finger/base, block/base>": SYSTEM.named,
+    "<ClosestPoints of 4 contacts, phi from 0 m>": SIMULATOR.step(Q, Q_A).points,
+}
+
+
+@pytest.mark.parametrize("line", SHOWN)
+def test_what_people_print_fits_on_a_line(line):
+    assert repr(SHOWN[line]) == line
+
+
+def test_an_answer_says_whether_it_is_proved_and_shows_its_forces():
     solution = qr.solve_step(STEP)
     assert solution.proved
     assert not qr.solve_step(STEP, certify="residual").proved
-    result = SIMULATOR.step(Q, Q_A)
-    assert repr(SYSTEM.named) == "<Named of finger/base, block/base>"
-    assert repr(result.points) == "<ClosestPoints of 4 contacts, phi from 0 m>"
     assert repr(solution.compliant).startswith("ContactForces(wrench=array(4, 4), delta_q=array(")
-    assert repr(qr.System([BLOCK])) == "<System of block: n_a = 0, n_u = 6, 1 link>"
-    alone = qr.ContactPair("f", FLOOR, qr.System([BLOCK]).shapes[0], mu_v=0.3, mu_omega=0.0)
-    assert ", 1 contact, " in repr(qr.Simulator(qr.System([BLOCK]), [alone], h=0.01))

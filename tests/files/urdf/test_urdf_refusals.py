@@ -90,10 +90,6 @@ REFUSED = {
         WHEELS.replace('"j" type="continuous"', '"j" type="ball"'), "RATIO", "1",
         r"\[k\].mimic: a ball joint, which has no single position, can neither mimic.*'j'",
     ),
-    "balls that mimic": (
-        WHEELS.replace('type="continuous"', 'type="ball"'), "RATIO", "1",
-        r"\[k\].mimic: a ball joint, which has no single position, can neither mimic.*'j'",
-    ),
     "a very long name": (
         TWO, 'name="a"', f'name="{"a" * 10_000}"', r"link.name: is longer than 4000 characters",
     ),
