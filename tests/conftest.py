@@ -1,4 +1,8 @@
-"""Shared fixtures: random numbers, and what Hypothesis draws, are the same in every run."""
+"""Shared fixtures: random numbers, and what Hypothesis draws, are the same in every run.
+
+Fixtures import what they use, so that light tests, and the process that shares out the tests, stay
+light.
+"""
 
 import gc
 import os
@@ -10,10 +14,8 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from quasistatic_ref import load_scenario
 from tests import missing_parts
 from tests.extras import is_in_test, is_missing, reason
-from tests.scenes import PUSH, chain_scene, written_scenario
 
 settings.register_profile("same", derandomize=True, deadline=None, max_examples=15, database=None)
 settings.register_profile("new", deadline=None, max_examples=15, print_blob=True)
@@ -95,7 +97,7 @@ def cli(capsys):
 
     Its words are given as in a shell, several in one text; a path is one word.
     """
-    from quasistatic_ref.cli.main import main  # here, so that light tests stay light
+    from quasistatic_ref.cli.main import main
 
     def printed(*parts, status=0):
         words = []
@@ -110,7 +112,7 @@ def cli(capsys):
 @pytest.fixture(scope="session")
 def things(tmp_path_factory):
     """One of every kind of public data, by name."""
-    from tests.step.public_data import public_data  # here, so that light tests stay light
+    from tests.step.public_data import public_data
 
     return public_data(tmp_path_factory.mktemp("scene"))
 
@@ -118,6 +120,8 @@ def things(tmp_path_factory):
 @pytest.fixture
 def scene(tmp_path):
     """A floating arm, actuated in part; a fixed one on a tilted desk; a free box."""
+    from tests.scenes import chain_scene
+
     return chain_scene(tmp_path)
 
 
@@ -130,6 +134,8 @@ def q(scene, rng):
 @pytest.fixture
 def load(tmp_path):
     """The scenario PUSH with some of its lines replaced."""
+    from quasistatic_ref import load_scenario
+    from tests.scenes import PUSH, written_scenario
 
     def loaded(*changes):
         text = PUSH
