@@ -20,8 +20,9 @@ from quasistatic_ref.optional.doctor.undecided import NO_ANSWER, TOO_MANY, Undec
 
 if TYPE_CHECKING:
     from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+    from quasistatic_ref.optional.doctor.programs import Alike
     from quasistatic_ref.optional.doctor.run import Run
-    from quasistatic_ref.optional.doctor.slow import Alike, Slow
+    from quasistatic_ref.optional.doctor.slow import Slow
 
 SLID = 0.01
 """Slip over the smaller shape, or spin [rad], of a pair in a run, from which it counts [-]."""
@@ -100,18 +101,18 @@ def _changes(
     run: Run, k: int, slow: Slow, of: Indices, stays: Mask
 ) -> Iterator[Change | Undecided]:
     """The changes of pairs that stay in some groups, unless something in their group falls."""
-    last = slow.last(of)
-    up = np.flatnonzero(~last.found)
-    if up.size:
-        last.put(up, slow.climb(of[up], last.some(up)).last)
+    last = slow.slowly(of)
     motion = np.abs(last.delta_q[:, slow.groups.n_a :]).max(axis=1, initial=0.0)
-    stands = ~last.found | (motion <= FALLS * last.T**2)
+    stands = ~last.found | (motion <= FALLS * slow.T**2)
     delta_q, forces, solved = slow.convex(of)
-    known = last.found & solved & (slow.end <= last.T)
+    known = last.found & solved
     yield from _undecided(run, stays, slow.groups.contacts[of[stands & ~known]], NO_ANSWER)
     for j in np.flatnonzero(stands & known).tolist():
         group = slow.groups.some(of[j : j + 1])
-        laws = [(x[j], group.motion(q[j : j + 1])[0]) for x, q in ((forces, delta_q), last[3:1:-1])]
+        laws = [
+            (x[j], group.motion(q[j : j + 1])[0])
+            for x, q in ((forces, delta_q), (last.forces, last.delta_q))
+        ]
         yield from _of_group(run, k, group, laws, stays)
 
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.certify.groups import Group, parted
-from quasistatic_ref.optional.doctor.slow import SLOWLY, STRAIGHT, Alike, Slow
+from quasistatic_ref.optional.doctor.programs import Alike
+from quasistatic_ref.optional.doctor.slow import SLOWLY, STRAIGHT, Slow
 from quasistatic_ref.parts.solve import posed
 
 if TYPE_CHECKING:

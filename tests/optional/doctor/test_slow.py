@@ -7,8 +7,19 @@ from quasistatic_ref import Sphere, coulomb_step
 from quasistatic_ref.optional.doctor import slow
 from quasistatic_ref.optional.doctor.scenes import Scene
 from quasistatic_ref.optional.doctor.stopped import missing
-from tests.optional.doctor.drawn_scenes import finger
-from tests.optional.doctor.words import block, free, scene, solid
+from tests.files.urdf.urdf_texts import collision, inertial, link, robot
+from tests.optional.doctor.drawn_scenes import G, finger
+from tests.optional.doctor.words import (
+    TIP,
+    block,
+    driven,
+    free,
+    joint,
+    placed,
+    scene,
+    slides,
+    solid,
+)
 
 
 def run_of(cone="pyramid", seed=3, count=6):
@@ -50,10 +61,10 @@ def test_a_rung_of_all_groups_is_the_certified_step(cone):
         whole = coulomb_step(run.at(2).step.replace(h=T))
         assert whole.converged
         every = [*rungs_of(run, T)]
-        assert sorted(len(rung.T) for _, rung in every) == [1, 1, 2, 2]
+        assert sorted(len(rung.found) for _, rung in every) == [1, 1, 2, 2]
         for groups, rung in every:
             exact = whole.delta_q[groups.coordinates]
-            np.testing.assert_allclose(rung.delta_q, exact, atol=1e-9 * np.abs(exact).max())
+            np.testing.assert_allclose(rung.delta_q, exact, atol=1e-6 * np.abs(exact).max())
 
 
 def test_forces_of_the_ellipsoid_obey_coulombs_law():
@@ -79,21 +90,83 @@ def test_forces_of_the_ellipsoid_obey_coulombs_law():
         assert np.abs(work).max() < 1e-5 * f_n.max() * np.abs(slip).max()
 
 
+@pytest.mark.parametrize("seed", [5, 8])
 @pytest.mark.parametrize("cone", ["pyramid", "ellipsoid"])
-def test_what_is_missing_depends_on_no_ladder_and_on_no_other_group(cone, monkeypatch):
-    """With T that climb by factors of four, but of what a soft spring stops; and alone."""
-    run = run_of(cone, seed=11)
+def test_what_is_missing_depends_on_no_ladder_and_on_no_other_group(cone, seed, monkeypatch):
+    """With other T in the place of those that are a third of each other; and alone.
+
+    In the ellipsoid the first box turns against its finger on four corners, which share its weight
+    in many ways. There may be no answer of it, but never another one.
+    """
+    run = run_of(cone, seed)
     lacks = missing(run, 3, run.bodies_of)
     known = {body: lack for body, lack in lacks.items() if not isinstance(lack, str)}
-    assert len(known) >= 2
+    assert {body.name for body in known} >= {"b2", "b5"}
+    assert ("b0" in {body.name for body in known}) == (cone == "pyramid")
     for body, lack in known.items():
         alone = missing(run, 3, [body])[body]
         np.testing.assert_allclose(alone.r, lack.r, rtol=1e-12)
-    monkeypatch.setattr(slow, "FACTOR", 4.0)
-    others = missing(run, 3, run.bodies_of)
-    assert lacks.keys() == others.keys()
-    free = [body for body in known if body.name != "b0"]
-    assert len(free) >= 2
-    for body in free:
-        r = known[body].r
-        np.testing.assert_allclose(r, others[body].r, atol=2e-3 * np.abs(r).max())
+    for factor in (2.0, 5.0):
+        monkeypatch.setattr(slow, "FACTOR", factor)
+        others = missing(run, 3, run.bodies_of)
+        assert {body for body, lack in others.items() if not isinstance(lack, str)} == {*known}
+        for body, lack in known.items():
+            np.testing.assert_allclose(lack.r, others[body].r, atol=2e-3 * np.abs(lack.r).max())
+
+
+def pulled(force, fingers):
+    """A box of 1 kg and 0.1 m on a floor with mu_v = 0.4, pulled by a force; fingers touch it.
+
+    Of each finger side, stiffness along x and depth of its target; across they are stiff.
+    """
+    box = block(1.0, (0.1, 0.1, 0.1))
+    bodies = {"b": free(box, (0, 0, 0.05), force)}
+    tables = {"floor": ("floor", "b", 0.4, 4)}
+    for i, (side, K, e) in enumerate(fingers):
+        to = [{"t": 0.0, "x": -side * e}]
+        bodies[f"f{i}"] = finger((side * 0.06, 0, 0.05), {"x": K}, to)
+        tables[f"f{i}"] = (f"f{i}/tip", "b", 0.5, 1)
+    run = scene(bodies, tables, 1, h=1e-3, fast=True).run(progress=False, findings=False)
+    (lack,) = missing(run.header.at, 0, run.header.at.bodies_of).values()
+    return lack.force
+
+
+FRICTION = 0.4 * G
+
+
+@pytest.mark.parametrize("K", [5.0, 50.0, 500.0])
+def test_a_spring_that_is_left_behind_is_no_part_of_what_is_missing(K):
+    """It pushes with 1 N along the pull, until it is at its target; then the pull goes on alone."""
+    assert pulled((6.0, 0, 0), [(-1, K, 1 / K)]) == pytest.approx(6.0 - FRICTION, rel=2e-3)
+
+
+@pytest.mark.parametrize("K", [(100.0, 300.0), (200.0, 200.0), (2000.0, 100.0)])
+def test_two_springs_share_what_they_press_with_before_a_box_slips_between_them(K):
+    """One presses with 3 N, the other with 1 N: the box moves by 2 N / (K_1 + K_2) at first.
+
+    Then both press with N. The pull across them is along an axis of the pyramid.
+    """
+    N = 3.0 - K[0] * 2.0 / sum(K)
+    springs = [(-1, K[0], 3.0 / K[0]), (1, K[1], 1.0 / K[1])]
+    lack = pulled((0, 12.0, 0), springs)
+    assert lack == pytest.approx(12.0 - FRICTION - 2 * 0.5 * N, rel=2e-3)
+
+
+@pytest.mark.parametrize("kind", ["revolute", "ball"])
+@pytest.mark.parametrize("K", [20.0, 1000.0])
+def test_a_spring_leaves_a_bar_that_falls_from_its_joint(K, kind):
+    """It presses with 1 N on the far end of a bar of 1 kg and 0.2 m, until it is at its target."""
+    shape = '<origin xyz="0.1 0 0"/>'
+    bar = link(
+        "bar",
+        collision("<box size='0.2 0.02 0.02'/>", shape),
+        inertial(1.0, (1e-3, 4e-3, 4e-3), shape),
+    )
+    urdf = robot(link("post", inertial=""), bar, joint("j", "post", "bar", "0 1 0", kind))
+    bodies = {"d": placed(urdf, (0, 0, 0.5))}
+    at, to = (0.2, 0, 0.52), [{"t": 0.0, "z": -1.0 / K}]
+    bodies["f"] = driven(slides("xyz", TIP), at, {"x": 1e6, "y": 1e6, "z": K}, to)
+    tables = {"f": ("f/tip", "d/bar", 0.0, 1)}
+    run = scene(bodies, tables, 1, h=1e-3, fast=True).run(progress=False, findings=False)
+    (lack,) = missing(run.header.at, 0, run.header.at.bodies_of).values()
+    assert lack.torque == pytest.approx(0.1 * G, rel=2e-3)
