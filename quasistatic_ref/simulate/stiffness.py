@@ -29,21 +29,21 @@ def stiffness_matrix(system: System, K_q: ArrayLike | Mapping[str, ArrayLike]) -
         not positive definite.
     """
     if not isinstance(K_q, Mapping):
-        return of_parts([("K_q", np.arange(system.n_a), K_q)], system.n_a)
+        return stiffness_of_parts([("K_q", np.arange(system.n_a), K_q)], system.n_a)
     places = {name: system.named.change(name) for name in K_q}
     check_apart(places, "K_q[{}]", StepDataError)
     for name, coordinates in places.items():
         if (coordinates >= system.n_a).any():
             raise StepDataError("is not actuated", field=f"K_q[{name}]", value=K_q[name])
     parts = [(f"K_q[{name}]", places[name], numbers) for name, numbers in K_q.items()]
-    matrix = of_parts(parts, system.n_a)
+    matrix = stiffness_of_parts(parts, system.n_a)
     for coordinate, stiffness in zip(system.coordinates, np.diag(matrix), strict=False):
         if stiffness == 0:
             raise StepDataError(f"has no stiffness for {coordinate.joint}", field="K_q")
     return matrix
 
 
-def of_parts(parts: Iterable[tuple[str, Indices, ArrayLike]], n: int) -> Array:
+def stiffness_of_parts(parts: Iterable[tuple[str, Indices, ArrayLike]], n: int) -> Array:
     """A stiffness matrix, shape (n, n) [N/m, N m/rad], whose parts nothing couples.
 
     Parameters

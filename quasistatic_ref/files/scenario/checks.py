@@ -42,7 +42,7 @@ def ignored_findings(table: TableReader) -> tuple[str, ...]:
 
 
 def run_fields(read: Callable[..., Any], solver: TableReader) -> dict[str, Any]:
-    """The fields of a :class:`.Scenario` that say how it runs, by name; no backend may be named.
+    """The fields of a :class:`.Scenario` that say how it runs; ``backend`` may be None.
 
     Parameters
     ----------

@@ -46,7 +46,7 @@ from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.simulate.stiffness import of_parts
+from quasistatic_ref.simulate.stiffness import stiffness_of_parts
 from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import Target
@@ -263,7 +263,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     shapes = placed_shapes(system, entries, read("shapes"), path.parent)
     pairs = contact_pairs(read("contacts"), shapes, system.kinematics(system.q_start))
     parts = (part for entry in entries.values() for part in stiffnesses(system, entry))
-    K_q = of_parts(parts, system.n_a)
+    K_q = stiffness_of_parts(parts, system.n_a)
     of_bodies = None
     if any(entry.extends for entry in entries.values()):
         pairs, of_bodies = extended_bodies(system, pairs, entries, run["h"], K_q, gravity)
