@@ -13,6 +13,8 @@ where the length is taken across n. The other vertices are the *top*, above whic
 are: with the height h over its lowest vertex, at most h tan t beyond it in any direction across n.
 """
 
+from typing import Final
+
 import numpy as np
 
 from quasistatic_ref.contact.normals import TURNED
@@ -22,6 +24,8 @@ from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, Shape
 from quasistatic_ref.tolerances import FACING, SAME_NORMAL
 
+FEW: Final = 16
+"""Corners of which all are looked at: bounds would take as long."""
 STEEP = np.tan(FACING + SAME_NORMAL)
 """The tangent of t, or a little more [-]."""
 EIGHTHS = np.arange(8) * (np.pi / 4)
@@ -47,8 +51,8 @@ def least_distances(shape: Shape, x: Array, n: Array, near: float) -> Array:
     ndarray, shape (N,)
         [m].
     """
-    if not len(x):
-        return np.zeros(0)
+    if len(x) <= FEW:
+        return np.full(len(x), -np.inf)
     if isinstance(shape, HalfSpace):
         height, _ = shape.signed_distance(x)
         return height

@@ -209,12 +209,7 @@ def hull_of_mesh(vertices: ArrayLike, triangles: Indices) -> ConvexMesh:
     enclosed = abs(float(np.sum(a * np.cross(b, c)))) / 6
     excess = abs(hull.volume - enclosed) / hull.volume
     if excess <= CONVEX_EXCESS:
-        excess = max(excess, _deepest(hull, every) / float(np.ptp(every, axis=0).max()))
+        deepest = -hull.signed_distance(every)[0].min()
+        excess = max(excess, float(deepest / np.ptp(every, axis=0).max()))
     surface = points[triangles] if excess > CONVEX_EXCESS else None
     return replace(hull, excess=min(excess, 1.0), surface=surface)
-
-
-def _deepest(hull: ConvexMesh, points: Array) -> float:
-    """Depth of the deepest point below the hull's surface [m]."""
-    blocks = np.array_split(points, 1 + len(points) * len(hull.triangles) // CHUNK)
-    return max(float(-hull.faces(block)[0].max(axis=1).min()) for block in blocks)

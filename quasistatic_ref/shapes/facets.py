@@ -10,7 +10,8 @@ from quasistatic_ref.numbers.ordered import dot, norm, product
 from quasistatic_ref.shapes.shape import CHUNK
 
 FEW: Final = 64
-"""Triangles of which none are left out: to tell which would take as long as their distances."""
+"""Triangles of which none are left out, nor of that many points: to tell which would take as long
+as their distances."""
 SAFE: Final = 1e-6
 """How much bounds give way, of sizes and places [-]: far more than what rounds, and far less than
 what parts most points of a cloud."""
@@ -98,7 +99,7 @@ class Facets:
             Of triangles, in ascending order, the last one several times.
         """
         T = len(self.normals)
-        if T <= FEW:
+        if T <= FEW or T * len(points) <= FEW**2:
             yield np.arange(len(points)), np.arange(T)[None]
             return
         squares = np.zeros((len(points), T))

@@ -11,7 +11,7 @@ few points p, those of b that faces of a come nearest to, bound all faces and ed
 below the gap along some face is neither nearest nor as near.
 """
 
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
@@ -35,20 +35,6 @@ bodies' sizes. With a normal that is off by r = ROUNDED the gap is off by r |d -
 which is less than r (1 + FAR) sizes up to 4e4 sizes: such edges are not left out."""
 POINTS: Final = 40
 """Most points of a body that bound the gaps of the other's faces."""
-
-
-class Near(NamedTuple):
-    """Numbers of faces and edges of both, each in ascending order.
-
-    Parameters
-    ----------
-    faces_a, faces_b, edges_a, edges_b : ndarray of int, shape (N,)
-    """
-
-    faces_a: Indices
-    faces_b: Indices
-    edges_a: Indices
-    edges_b: Indices
 
 
 def are_fine(a: Polytope, b: Polytope) -> bool:
@@ -104,7 +90,7 @@ class _Side:
         return int((self.points @ n).argmin())
 
 
-def near_features(a: Polytope, b: Polytope, within: float) -> Near:
+def near_features(a: Polytope, b: Polytope, within: float) -> list[Indices]:
     """The faces and edges that give the largest gap of two bodies, or one as large.
 
     Parameters
@@ -113,6 +99,11 @@ def near_features(a: Polytope, b: Polytope, within: float) -> Near:
         One each, in one frame.
     within : float
         Difference of gaps that are as large [m].
+
+    Returns
+    -------
+    faces_a, faces_b, edges_a, edges_b : ndarray of int, shape (N,)
+        Numbers of each, in ascending order.
     """
     sides = _Side(a, b), _Side(b, a)
     way = b.vertices[0].mean(axis=0) - a.vertices[0].mean(axis=0)
@@ -130,9 +121,8 @@ def near_features(a: Polytope, b: Polytope, within: float) -> Near:
         largest = max(largest, float(n @ point - side.offsets[face]))
         side.bounded_by(point)
     least = largest - within - gives
-    of_faces = [np.flatnonzero(side.bound >= least) for side in sides]
-    of_edges = [np.flatnonzero(side.edge_bound >= least) for side in sides]
-    return Near(*of_faces, *of_edges)
+    bounds = [side.bound for side in sides] + [side.edge_bound for side in sides]
+    return [np.flatnonzero(bound >= least) for bound in bounds]
 
 
 def near_corners(shape: ConvexMesh, corners: Array, n: Array, gives: float) -> Indices:

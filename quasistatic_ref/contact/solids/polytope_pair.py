@@ -141,13 +141,13 @@ def gaps_between(a: Polytope, b: Polytope, within: float) -> tuple[Array, Array]
     offsets_a = a.offsets
     offsets_b = b.offsets
     if within < np.inf and are_fine(a, b):
-        near = near_features(a, b, within)
-        normals_a = normals_a[:, near.faces_a]
-        normals_b = normals_b[:, near.faces_b]
-        offsets_a = offsets_a[:, near.faces_a]
-        offsets_b = offsets_b[:, near.faces_b]
-        a = a.part(near.edges_a)
-        b = b.part(near.edges_b)
+        faces_a, faces_b, edges_a, edges_b = near_features(a, b, within)
+        normals_a = normals_a[:, faces_a]
+        normals_b = normals_b[:, faces_b]
+        offsets_a = offsets_a[:, faces_a]
+        offsets_b = offsets_b[:, faces_b]
+        a = a.part(edges_a)
+        b = b.part(edges_b)
     along_a = product(normals_a, corners_b).min(axis=2) - offsets_a
     along_b = product(normals_b, corners_a).min(axis=2) - offsets_b
     pair, crossing, gaps = _crossing_edges(a, b)

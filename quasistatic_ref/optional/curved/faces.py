@@ -211,11 +211,9 @@ def _polygon(solid: ShapeInWorld, n: Array) -> Array:
     vertices = flat.vertices @ solid.R.T
     height = vertices @ n
     top = vertices[height >= height.max() - FLAT * np.abs(vertices).max()]
-    across = top - top.mean(axis=0)
-    e1 = across[np.sum(across * across, axis=1).argmax()]
-    angle = (
-        np.arctan2(across @ crossed(n[None], e1[None])[0], across @ e1)
-        if len(top) > 2
-        else np.zeros(1)
-    )
-    return np.asarray((top[np.argsort(angle)] if len(top) > 2 else top) + solid.t)
+    if len(top) > 2:
+        across = top - top.mean(axis=0)
+        e1 = across[np.sum(across * across, axis=1).argmax()]
+        e2 = crossed(n[None], e1[None])[0]
+        top = top[np.arctan2(across @ e2, across @ e1).argsort()]
+    return np.asarray(top + solid.t)
