@@ -61,6 +61,26 @@ def closest(phi: Array, k: int) -> Indices:
     return phi.argsort(kind="stable")
 
 
+def may_be_first(
+    solid: Shape, bound: Array, some: Array, k: int, resolution: float = 0.0
+) -> Indices:
+    """Numbers of bounds that do not rank after the distance of each of some k points.
+
+    Parameters
+    ----------
+    solid : Shape
+    bound : ndarray, shape (N,)
+        Lower bounds of distances of points or groups of them [m].
+    some : ndarray, shape (M, 3)
+        At least k of the points, in the solid's frame [m].
+    k : int
+    resolution : float
+        [m].
+    """
+    ranks = rounded_gaps(solid.signed_distance(some)[0], resolution)
+    return np.flatnonzero(rounded_gaps(bound, resolution) <= np.partition(ranks, k - 1)[k - 1])
+
+
 def near_points(
     solid: Shape, cloud: PointCloud, pose: Array, k: int, resolution: float
 ) -> tuple[Indices, Array]:
@@ -88,23 +108,19 @@ def near_points(
     if not isinstance(solid, ConvexMesh) or k >= len(points):
         return number, moved(pose, points)
 
-    def may_be_first(bound: Array, some: Array) -> Indices:
-        """Numbers of bounds that do not rank after the gap of each of some k points."""
-        ranks = rounded_gaps(solid.signed_distance(some)[0], resolution)
-        return np.flatnonzero(rounded_gaps(bound, resolution) <= np.partition(ranks, k - 1)[k - 1])
-
     facets = solid.facets
     if len(points) >= MANY:
         groups = cloud.groups
         bound = facets.above_planes(moved(pose, groups.middle)) - groups.reach
         likely = bound.argsort()[: 1 + 2 * k // GROUP]  # none has fewer than half of GROUP
         some = np.concatenate([groups.points[i] for i in likely])
-        kept = may_be_first(bound, moved(pose, points[some]))
+        kept = may_be_first(solid, bound, moved(pose, points[some]), k, resolution)
         number = np.sort(np.concatenate([groups.points[i] for i in kept]))
     x = moved(pose, points[number])
     for above in (facets.above_planes, facets.above_faces)[len(facets.normals) <= FEW :]:
         bound = above(x)
-        kept = may_be_first(bound, x[bound.argpartition(k - 1)[:k]])
+        nearest = x[bound.argpartition(k - 1)[:k]]
+        kept = may_be_first(solid, bound, nearest, k, resolution)
         number = number[kept]
         x = x[kept]
     return number, x

@@ -1,4 +1,4 @@
-r"""Which faces, edges and corners of two polytopes can be where they are nearest or cross.
+r"""Which faces and edges of two polytopes can be where they are nearest or cross.
 
 Let s(n) be the gap of the two along a unit vector n, and p any point of b. For a face of a with
 normal n in the plane n x = c,
@@ -123,27 +123,6 @@ def near_features(a: Polytope, b: Polytope, within: float) -> list[Indices]:
     least = largest - within - gives
     bounds = [side.bound for side in sides] + [side.edge_bound for side in sides]
     return [np.flatnonzero(bound >= least) for bound in bounds]
-
-
-def near_corners(shape: ConvexMesh, corners: Array, n: Array, gives: float) -> Indices:
-    """Numbers of corners among which is the nearest to a mesh, in whose frame all is.
-
-    One is no nearer than the plane across n that the mesh reaches.
-
-    Parameters
-    ----------
-    shape : ConvexMesh
-    corners : ndarray, shape (N, 3)
-        [m].
-    n : ndarray, shape (3,)
-        [-].
-    gives : float
-        How much bounds give way [m].
-    """
-    bound = corners @ n - (shape.vertices @ n).max()
-    first = corners[bound.argmin()][None]
-    nearest = float(shape.signed_distance(first)[0][0])
-    return np.flatnonzero(bound <= nearest + gives)
 
 
 def edges_within(a: Polytope, b: Polytope, ways: Array, bound: float) -> tuple[Indices, Indices]:

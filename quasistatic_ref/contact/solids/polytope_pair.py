@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.contact.ranks import may_be_first
 from quasistatic_ref.contact.shape_in_world import Pose, Witnesses
 from quasistatic_ref.contact.solids.near_features import (
     are_fine,
     edges_within,
     giving_way,
-    near_corners,
     near_features,
 )
 from quasistatic_ref.contact.solids.polytope import Polytope
@@ -271,7 +271,8 @@ def _nearest_corner(
     every = np.arange(len(corners))
     number = np.arange(corners.shape[1])
     if gives < np.inf and isinstance(body.shape, ConvexMesh):
-        number = near_corners(body.shape, corners[0], n[0], gives)
+        bound = corners[0] @ n[0] - (body.vertices[0] @ n[0]).max() - gives
+        number = may_be_first(body.shape, bound, corners[0, bound.argmin()][None], 1)
     phi, normal = body.core_distance(corners[:, number])
     first = phi.argmin(axis=1)
     return number[first], phi[every, first], normal[every, first]
