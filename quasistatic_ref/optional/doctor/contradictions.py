@@ -138,7 +138,8 @@ def centre(start: Start) -> Iterator[Finding]:
     """
     for link, name, shapes in start.free_links:
         at = start.system.centres[link]
-        if any(placed.shape.signed_distance(_seen(placed, at))[0][0] <= 0 for placed in shapes):
+        seen = ((x.shape, (at - x.t)[None] @ x.R) for x in shapes)  # in the frame of each shape
+        if any(shape.signed_distance(point)[0][0] <= 0 for shape, point in seen):
             continue
         hull = hull_of(shapes)
         if hull is None:
@@ -155,11 +156,6 @@ def centre(start: Start) -> Iterator[Finding]:
                 f"{length(extent)} long; both are in the frame of the link",
                 {"outside_mm": 1e3 * away},
             )
-
-
-def _seen(placed: PlacedShape, point: Array) -> Array:
-    """A point of a link, (3,), in the frame of a shape of it, shape (1, 3) [m]."""
-    return np.asarray((point - placed.t)[None] @ placed.R)
 
 
 def sizes_apart(start: Start) -> Iterator[Finding]:

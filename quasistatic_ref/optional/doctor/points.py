@@ -10,7 +10,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.start import (
     Start,
     least,
@@ -97,13 +97,17 @@ def _around(points: Array, start: Start) -> bool:
 
 def strays(start: Start) -> Iterator[Finding]:
     """Clouds with points that no gap of a few spacings joins to the others."""
+    if not is_there("scans"):
+        return
     clouds = {
         id(p.shape): (p.shape, start.body(p.link))
         for p in start.sides
         if isinstance(p.shape, PointCloud) and FEWEST <= len(p.shape.points) <= MANY
     }
+    if clouds:
+        from quasistatic_ref.optional.scans.cloud import stray  # it loads SciPy: a second
     for shape, name in clouds.values():
-        points = shape.points[_stray(shape.points)]
+        points = shape.points[stray(shape.points)]
         if len(points):
             places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * points[:SHOWN]]
             more = ["..."] if len(points) > SHOWN else []
@@ -117,12 +121,3 @@ def strays(start: Start) -> Iterator[Finding]:
                 {"strays": len(points)},
                 name,
             )
-
-
-def _stray(points: Array) -> Mask:
-    """Which points, shape (N, 3) [m], no gap of a few spacings joins to the others."""
-    if not is_there("scans"):
-        return np.zeros(len(points), dtype=bool)
-    from quasistatic_ref.optional.scans.cloud import stray  # it loads SciPy: a second
-
-    return stray(points)
