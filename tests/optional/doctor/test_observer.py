@@ -29,7 +29,6 @@ def test_findings_are_printed_and_strict_fails_on_grave_ones(tmp_path, cli):
     assert printed[: len(grave)] == grave
     assert grave[0].startswith("quasistatic-ref: grave: a friction coefficient is the ratio")
     assert grave[0].endswith("; check mu_v of contacts.rest [no-friction-coefficient]")
-    assert run.findings[0].name == "no-friction-coefficient"
     assert json.loads(cli(*arguments, "--strict", "--json", status=1).out)["findings"] == [
         finding_table(f) for f in run.findings
     ]
@@ -52,7 +51,6 @@ def test_findings_that_are_ignored_do_not_count_and_are_named(tmp_path, cli):
     scenes_written(tmp_path)
     arguments = ["run", tmp_path / "push.toml", "--strict", "--out", tmp_path]
     arguments += ["--set", "steps=5", "--set", "contacts.rest.mu_v=6"]
-    cli(*arguments, status=1)
     printed = cli(*arguments, "--ignore", "no-friction-coefficient,leap").err
     assert printed == "quasistatic-ref: ignored: no-friction-coefficient\n"
     run = load_trajectory(tmp_path / "push.npz")
@@ -190,12 +188,14 @@ def test_a_check_that_fails_costs_its_finding_and_not_the_run(monkeypatch):
 
 
 def test_a_linear_program_without_an_answer_is_said(monkeypatch):
-    """Of a peg in its hole, whose walls do not let it rise."""
+    """Of a peg in its hole, whose walls do not let it rise, and where no coordinate is free."""
+    scenario = load_scenario("peg_in_hole", {"solver.certify": "off"}, h=0.5, steps=6)
+    assert scenario.run(progress=False).header.not_looked_at == ""
     no_answer = OptimizeResult(x=None, status=4, message="numerical difficulties")
     monkeypatch.setattr(scipy.optimize, "linprog", lambda *_, **more: no_answer)
-    run = load_scenario("peg_in_hole", h=0.5, steps=6).run(progress=False)
+    run = scenario.run(progress=False)
     line = "locked guides: QuasistaticError linprog: numerical difficulties"
-    assert run.header.not_looked_at == line
+    assert (len(run), run.header.not_looked_at) == (6, line)
 
 
 @pytest.mark.parametrize("name", ["Run", "Start", "quasi_dynamic_number", "gives"])
@@ -204,12 +204,6 @@ def test_whatever_fails_around_the_checks_costs_the_findings_and_not_the_run(nam
     run = load_scenario("block_push", steps=2).run(progress=False)
     assert (len(run), run.findings) == (2, ())
     assert run.header.not_looked_at.startswith("findings: ")
-
-
-def test_what_is_all_actuated_and_rubs_has_nothing_that_lacks_anything():
-    """No un-actuated coordinate, and a contact that no joint can open."""
-    run = load_scenario("peg_in_hole", h=0.5, steps=6).run(progress=False)
-    assert (len(run), run.header.not_looked_at) == (6, "")
 
 
 @pytest.mark.parametrize("error", [MemoryError, KeyboardInterrupt])
