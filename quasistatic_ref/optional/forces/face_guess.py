@@ -16,7 +16,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.forces.faces import Rows, face, rows_of
 from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.data import StepData
@@ -70,7 +70,7 @@ def guessed_faces(step: StepData, compliance: float, wrench: Array) -> list[Rows
     """
     try:
         return list(_Energy(step, compliance).least(wrench).faces)
-    except (ValueError, ArithmeticError, RuntimeError):  # of NumPy, of fractions, of SciPy
+    except (ValueError, ArithmeticError):  # of NumPy, of exact fractions
         return [()] * step.contacts.n_c
 
 
@@ -192,7 +192,29 @@ def nearest_rows(name: str, count: int, z: Array) -> Rows:
     z : ndarray, shape (4,)
         Its lengths [m, or times any positive number].
     """
-    from scipy.optimize import nnls  # takes as long as a short run
+    C = rows_of(name, count)
+    least = ROUNDING * np.abs(z).max()
+    multipliers = np.zeros(count)
+    on = np.zeros(count, dtype=bool)
+    for _ in range(3 * count):
+        gain = np.where(on, -np.inf, C @ (-z - multipliers @ C))
+        if gain.max() <= least:
+            break
+        on[gain.argmax()] = True
+        ends = _combined(C, on, z)
+        while (ends[on] <= 0).any():  # go as far as no multiplier is negative
+            falls = on & (ends <= 0)
+            share = multipliers[falls] / np.maximum(multipliers - ends, least)[falls]
+            multipliers += share.min() * (ends - multipliers)
+            on &= multipliers > least
+            multipliers[~on] = 0.0
+            ends = _combined(C, on, z)
+        multipliers = ends
+    return tuple(np.flatnonzero(multipliers > least).tolist())
 
-    multipliers, _ = nnls(rows_of(name, count).T, -z / (np.abs(z).max() or 1.0))
-    return tuple(np.flatnonzero(multipliers > ROUNDING).tolist())
+
+def _combined(C: Array, on: Mask, z: Array) -> Array:
+    """Multipliers, (R,), of the rows C (R, 4) that are `on` whose sum is nearest to -z, (4,)."""
+    multipliers = np.zeros(len(C))
+    multipliers[on] = np.linalg.lstsq(C[on].T, -z)[0]
+    return multipliers
