@@ -164,10 +164,28 @@ def bearing(flat: Polytope, extent: float | Array, x: Array, way: Array) -> Mask
 
 def edge_crossings(on_a: Edges, on_b: Edges, n: Array) -> Crossings:
     """Crossings of straight curves, seen along the pair's normal n, shape (3,) [-]."""
-    i, j = every(len(on_a.ends), len(on_b.ends))
+    i, j = overlapping(on_a.ends, on_b.ends, n)
     crossing, alpha, beta = lines_crossed(on_a.ends[i], on_b.ends[j], n)
     number = crossing_number(on_a.number[i], on_b.number[j], on_b.total)
     return Crossings(alpha[crossing], beta[crossing], number[crossing])
+
+
+def overlapping(on_a: Array, on_b: Array, n: Array) -> tuple[Indices, ...]:
+    """Numbers of lines with ends (S, 2, 3) and (T, 2, 3) whose boxes meet, seen along n.
+
+    Parameters
+    ----------
+    on_a, on_b : ndarray, shapes (S, 2, 3) and (T, 2, 3)
+        [m].
+    n : ndarray, shape (3,)
+        [-].
+    """
+    axis = np.abs(n).argmax()
+    a, b = (ends - ends[..., axis, None] * (n / n[axis]) for ends in (on_a, on_b))
+    gives = SKEW * np.abs(np.concatenate([on_a, on_b])).max(initial=0.0)
+    low = a.min(axis=1)[:, None] - b.max(axis=1)
+    high = b.min(axis=1) - a.max(axis=1)[:, None]
+    return np.nonzero((np.maximum(low, high) <= gives).all(axis=2))
 
 
 def lines_crossed(on_a: Array, on_b: Array, n: Array) -> tuple[Mask, Array, Array]:
@@ -205,9 +223,3 @@ def crossing_number(first: Indices, second: Indices, count: int) -> Indices:
     count : int
     """
     return np.asarray(2 * (first * count + second))
-
-
-def every(first: int, second: int) -> tuple[Indices, Indices]:
-    """Indices of all pairs of `first` and `second` things, each of shape (first * second,)."""
-    i, j = np.indices((first, second)).reshape(2, -1)
-    return i, j

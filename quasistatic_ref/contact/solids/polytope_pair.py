@@ -22,7 +22,7 @@ from quasistatic_ref.contact.solids.near_features import (
 )
 from quasistatic_ref.contact.solids.polytope import Polytope
 from quasistatic_ref.numbers.arrays import Array, Indices
-from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
+from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated, total
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Capsule
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
@@ -285,8 +285,8 @@ def _edge_distances(a: Polytope, b: Polytope, bound: Array) -> tuple[Indices, Ar
     reach_a = norm(a.ways) / 2
     reach_b = norm(b.ways) / 2
     # Only edges whose surrounding balls come within the bound.
-    apart = middle_a[:, :, None] - middle_b[:, None]
-    apart2 = dot(apart, apart)
+    ways = zip(middle_a.transpose(2, 0, 1), middle_b.transpose(2, 0, 1), strict=True)
+    apart2 = total((x_a[:, :, None] - x_b[:, None]) ** 2 for x_a, x_b in ways)
     reach = reach_a[:, :, None] + reach_b[:, None] + bound[:, None, None]
     pair, i, j = np.nonzero(apart2 <= reach**2)
     tail_a = a.tails[pair, i]

@@ -15,7 +15,6 @@ from quasistatic_ref.contact.crossings import (
     crossing_number,
     edge_crossings,
     edges,
-    every,
     line,
 )
 from quasistatic_ref.contact.normals import TURNED
@@ -179,3 +178,9 @@ def _numbered(alpha: Array, beta: Array, number: Indices, good: Mask) -> Crossin
     """The good ones of crossings (2, N), two for each number."""
     numbers = np.stack([number, number + 1])
     return Crossings(alpha[good], beta[good], numbers[good])
+
+
+def every(first: int, second: int) -> tuple[Indices, Indices]:
+    """Indices of all pairs of `first` and `second` things, each of shape (first * second,)."""
+    i, j = np.indices((first, second)).reshape(2, -1)
+    return i, j
