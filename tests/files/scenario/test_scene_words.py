@@ -58,7 +58,8 @@ def in_tables():
 
 
 def test_objects_and_tables_say_the_same():
-    objects, tables = (qr.load_scenario(scene) for scene in (with_objects(), in_tables()))
+    scenes = with_objects(), in_tables()
+    objects, tables = (qr.load_scenario(scene, fast=True) for scene in scenes)
     assert objects.run() == tables.run()
     assert [pair.name for pair in objects.pairs] == [pair.name for pair in tables.pairs]
     assert objects.system.of(objects.system.q_start, "hand/slide") == -0.1
@@ -146,5 +147,5 @@ def test_fingers_that_mimic_share_the_force_of_one_spring(wrong):
         with pytest.raises(InputError, match=rf"bodies.gripper.{re.escape(wrong)}.*: {SHARED}"):
             qr.load_scenario(scene)
         return
-    forces = qr.load_scenario(scene).run().pair_forces().values()
+    forces = qr.load_scenario(scene, fast=True).run().pair_forces().values()
     assert [force[-1, 0] for force in forces] == pytest.approx([-5.0, 5.0])

@@ -36,7 +36,7 @@ that are up to a hundred times the slip."""
 @pytest.fixture(scope="module")
 def plain():
     """The first 40 steps of block_push."""
-    return load_scenario("block_push", steps=40, law="coulomb").run()
+    return load_scenario("block_push", steps=40, law="coulomb", fast=True).run()
 
 
 def test_a_run_under_coulombs_law_lifts_nothing_off(plain):

@@ -27,7 +27,7 @@ def drawer(lower=-0.001, upper=0.002, *more):
     )
 
 
-def scene(urdf, joint_limits="urdf", fast=False, **fields):
+def scene(urdf, joint_limits="urdf", fast=True, **fields):
     body = {"urdf": urdf, **fields}
     if joint_limits is not None:
         body["joint_limits"] = joint_limits

@@ -35,7 +35,7 @@ SERVOS = {
 def run(folder, actuator):
     model = model_of(SLIDER.format(actuator))
     (folder / "t.csv").write_text("t,a\n0,0\n0.1,0.2\n")
-    return qr.mujoco_scenario(model, targets=Place(folder / "t.csv"), steps=60).run()
+    return qr.mujoco_scenario(model, targets=Place(folder / "t.csv"), steps=60, fast=True).run()
 
 
 @pytest.mark.parametrize(("actuator", "end"), SERVOS.values(), ids=SERVOS)
@@ -45,7 +45,7 @@ def test_a_servo_with_an_activation_reaches_its_control(tmp_path, actuator, end)
 
 def test_an_integrator_starts_from_the_activation_of_a_state_and_runs_twice_alike():
     state = posed(SLIDER.format(INTEGRATED.format("-1 1", "")), act=0.5)
-    scene = qr.mujoco_scenario(*state, targets=lambda t: {"a": -0.1}, steps=20)
+    scene = qr.mujoco_scenario(*state, targets=lambda t: {"a": -0.1}, steps=20, fast=True)
     first, second = (scene.run()["q"] for _ in range(2))
     assert first[-1, 0] == pytest.approx(0.5 - 0.01 * 20 * 0.1, abs=1e-9)
     assert np.array_equal(first, second)

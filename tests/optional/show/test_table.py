@@ -86,7 +86,7 @@ def test_a_name_is_no_formula_in_a_table(tmp_path):
         floor = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}
         touch = {"alpha": "floor", "beta": name, "mu_v": 0.5, "rows": 4, "k": 1}
         scene = {"h": 0.01, "steps": 1, "bodies": {name: ball}, "shapes": {"floor": floor}}
-        run = load_scenario({**scene, "contacts": {name: touch}}).run()
+        run = load_scenario({**scene, "contacts": {name: touch}}, fast=True).run()
         for option in ("--table", "--contacts-table"):
             text = table_written(run, tmp_path / f"{k}.csv", option).read_text()
             cells = [cell for line in csv.reader(text.splitlines()) for cell in line]
@@ -120,7 +120,7 @@ def test_a_run_without_steps_is_an_empty_table():
 
 
 def test_a_run_without_contacts_has_a_table_with_a_header_alone(run):
-    run_of_arm = load_scenario("arm_push", {"contacts": {}}, steps=2).run(progress=False)
+    run_of_arm = load_scenario("arm_push", {"contacts": {}}, steps=2, fast=True).run()
     assert len(run_of_arm.to_pandas()) == 2
     table = run_of_arm.contacts_to_pandas()
     assert len(table) == 0
