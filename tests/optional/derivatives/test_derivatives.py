@@ -36,7 +36,7 @@ DIGITS = 5
 PARTS = 40
 IS_KINK = "/kink/"
 HARDEST = "derivative/random/96"
-"""Its derivatives by q are the least well known, and small."""
+"""Its derivatives by q are the least well known, and small; README's line takes it, too."""
 
 X, _, Z = np.eye(6)[:3]
 
@@ -64,7 +64,8 @@ def test_every_kink_of_the_vectors_is_seen(part):
 def test_vectors_have_their_derivatives_by_every_parameter_and_no_invented_kink(part):
     smooth = [case for case in cases("derivative") if IS_KINK not in case.id]
     assert len(smooth) == 280
-    for case in [*smooth[part::PARTS], *(case for case in smooth if case.id == HARDEST)]:
+    hardest = [case for case in smooth if case.id == HARDEST and not part]
+    for case in [*smooth[part::PARTS], *hardest]:
         record = loosened(expected_of("derivative")[case.id], DIGITS)
         answer = layer("derivative").own(case.input)
         verdict = case_verdict("derivative", case.input, record, answer)
