@@ -17,7 +17,7 @@ from hypothesis import settings
 from tests import missing_parts
 from tests.extras import is_in_test, is_missing, reason
 
-settings.register_profile("same", derandomize=True, deadline=None, max_examples=15, database=None)
+settings.register_profile("same", derandomize=True, deadline=None, max_examples=10, database=None)
 settings.register_profile("new", deadline=None, max_examples=15, print_blob=True)
 settings.register_profile("long", deadline=None, max_examples=10_000)
 settings.load_profile("same")  # pytest's --hypothesis-profile names another

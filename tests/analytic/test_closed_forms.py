@@ -11,8 +11,12 @@ from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.thresholds import exact
 from tests.analytic.instances import INSTANCES, instances, log, near
 
-LONG = ("lift", "patch_torsion", "planar_push", "pushed_block")
-"""Claims that take a second or two."""
+LONG = (
+    *("lift", "patch_torsion", "planar_push", "pushed_block"),  # a second or two
+    # Whole scenarios are compared with these: sphere_spin, two_finger_pinch and block_incline.
+    *("spinning_sphere_recurrence", "pinch", "incline_sliding"),
+)
+"""Claims that README's line leaves out."""
 EACH = [
     pytest.param(name, marks=pytest.mark.long if name in LONG else ())
     for name in CLAIMS["Closed forms"]

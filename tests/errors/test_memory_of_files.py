@@ -15,8 +15,10 @@ from tests.oracles.shape_files import COLLADA, plain_gltf
 
 TIMES = 40
 """Most bytes of memory for each byte of a file."""
-SIZE = 2**19
+SIZE = 2**18
 """Of each file, nearly [bytes]: far above what readers take of a file of any size."""
+MANY = 2**19
+"""Of one that holds more than is counted, and is refused for that [bytes]."""
 SHORT = 2**16
 """Of a file each of whose few bytes takes a line of a reader written in Python [bytes]."""
 
@@ -67,16 +69,16 @@ FILES = {
     "a step of lists": (
         "a.json", b'{"format": "quasistatic-ref/step", "x": [' + lines(b"[],") + b"0]}",
     ),
-    "a URDF of empty elements": ("a.urdf", URDF % lines(b"<b/>")),
+    "a URDF of empty elements": ("a.urdf", URDF % lines(b"<b/>", MANY)),
     "a URDF of attributes": (
         "a.urdf", URDF % b"".join(b'<b c="" d="" e="" f="%d"/>' % k for k in range(SIZE // 26)),
     ),
     "a COLLADA of empty elements": (
         "a.dae", COLLADA.encode().replace(b"</COLLADA>", lines(b"<b/>") + b"</COLLADA>"),
     ),
-    "a glTF of empty nodes": ("a.gltf", plain_gltf(nodes=[{}] * (SIZE // 4))),
+    "a glTF of empty nodes": ("a.gltf", plain_gltf(nodes=[{}] * (MANY // 4))),
     "a COLLADA of a part in many places": (
-        "a.dae", COLLADA.encode().replace(PLACED, PLACED * (SIZE // len(PLACED))),
+        "a.dae", COLLADA.encode().replace(PLACED, PLACED * (MANY // len(PLACED))),
     ),
     "a COLLADA of numbers": (
         "a.dae", COLLADA.encode().replace(b"0 0 0 1 0 0 0", lines(b"0 ") + b"0 0 0 1 0 0 0"),

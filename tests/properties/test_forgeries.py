@@ -19,8 +19,8 @@ from tests.oracles.solution_truth import truth_of, wrenches
 
 SCENES = scenes()
 PROVES_NOTHING = ("none", "residual", "residual in the ellipsoid")
-RANDOM = 40
-"""Random forgeries of each file: 2 s in all."""
+RANDOM = 20
+"""Random forgeries of each file: 1 s in all."""
 
 
 @pytest.fixture
