@@ -17,7 +17,7 @@ Two solids:
   left out. So is the closest pair where it is in the convex hull of others that are as near and
   have its normal: its rows follow from theirs.
 - The k candidates that rank first are the contacts. Candidates that repeat an earlier one rank
-  after all others.
+  after all others. Corners that cannot be among the k are left out: corners.py says which.
 - No candidate is nearer than the closest pair, so k = 1 keeps that one alone.
 - Where fewer than k candidates are left, the number is filled with copies of the closest pair at
   the distance ``FILLED``, or twice its own if that is more: their rows are its own, only farther,

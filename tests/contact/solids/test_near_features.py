@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Capsule, ContactError, convex_hull
-from quasistatic_ref.contact import corners, distance
+from quasistatic_ref.contact import corners, crossings, distance
 from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.contact.solids import near_features, polytope_pair
 from quasistatic_ref.contact.solids.polytope import polytope
@@ -75,9 +75,12 @@ def contacts(a, b, k):
 
 
 def look_at_all(patch):
-    """Leave out no faces, edges, triangles or corners."""
+    """Leave out no faces, edges, triangles, corners or crossings."""
     patch.setattr(polytope_pair, "are_fine", lambda *_: False)
     patch.setattr(facets, "FEW", np.inf)
+    patch.setattr(
+        crossings, "overlapping", lambda a, b, n: np.indices((len(a), len(b))).reshape(2, -1)
+    )
     patch.setattr(distance, "least_distances", lambda shape, x, *_: np.full(len(x), -np.inf))
 
 
