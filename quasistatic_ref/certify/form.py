@@ -407,8 +407,7 @@ def _cone_matrix(cone_name: str) -> arb_mat:
 @lru_cache(maxsize=1024)
 def _implied_kinds(cone_name: str, held: tuple[int, ...]) -> list[bool]:
     """Rows of any contact that follow from its independent rows `held`."""
-    rows = exact_matrix(cone(cone_name).matrix).tolist()
-    numbers = [whole_numbers(row) for row in rows]
+    numbers = [whole_numbers(row) for row in _cone_matrix(cone_name).tolist()]
     return implied([numbers[kind] for kind in held], numbers)
 
 

@@ -16,15 +16,11 @@ from functools import cached_property
 
 import numpy as np
 
-from quasistatic_ref.certify.active_set import (
-    Combination,
-    dual_active_set,
-)
+from quasistatic_ref.certify.active_set import Combination, dual_active_set
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import ExactForm, StepForm
 from quasistatic_ref.certify.groups import Group, group_steps
-from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.norm import Parts, check_length
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
@@ -79,12 +75,9 @@ def form_optimum(form: ExactForm, warm: Sequence[int] = ()) -> ExactOptimum | Co
     -------
     ExactOptimum or Combination
     """
-    end = dual_active_set(form, warm)
-    return end if isinstance(end, Combination) else rounded_optimum(form, end)
-
-
-def rounded_optimum(form: ExactForm, minimiser: Minimiser) -> ExactOptimum:
-    """The optimum at which the exact method ended, rounded correctly to float64."""
+    minimiser = dual_active_set(form, warm)
+    if isinstance(minimiser, Combination):
+        return minimiser
     working = minimiser.working
     lam = np.zeros(form.m)
     lam[list(working)] = minimiser.rounded(lambda m: m.y, form.h)
