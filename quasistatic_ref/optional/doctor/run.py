@@ -197,6 +197,26 @@ class Run(Start):
             of_bodies[body] = np.maximum(tau, pressed)
         return of_bodies
 
+    def loads_at(self, k: int, q: Array) -> Array:
+        """Gravity at q and the other loads of step k, shape (n_v,) [N, N m].
+
+        Forces and torques on free bodies keep their directions in the world.
+
+        Parameters
+        ----------
+        k : int
+        q : ndarray, shape (n_q,)
+        """
+        q_k = self["q"][k]
+        force = self.noted("tau")[k] - self.simulator.generalised_force(q_k, None)
+        at = np.array([base.v.start for base in self.free_bases.values()], dtype=np.int64)
+        if force.any() and at.size:
+            of_base = at[:, None, None] + np.arange(6).reshape(2, 3)
+            links = [self.system.link(name) for name in self.free_bases]
+            R_k, R = (self.system.kinematics(x).R[links] for x in (q_k, q))
+            force[of_base] = force[of_base] @ R_k.swapaxes(1, 2) @ R
+        return self.simulator.generalised_force(q, force)
+
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]
 

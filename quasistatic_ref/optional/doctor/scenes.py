@@ -58,7 +58,7 @@ class Scene:
     ) -> None:
         simulator = run.simulator
         points = points or simulator.closest_points(run.system.kinematics(q))
-        step = simulator.step_at(q, run["q_bar_a"][k], run.noted("tau")[k], points)
+        step = simulator.step_at(q, run["q_bar_a"][k], run.loads_at(k, q), points)
         if simulator.extension is not None:
             step = posed(step, simulator.extension(q))[0]
         self.every = step.contacts

@@ -43,7 +43,7 @@ LITTLE = 1e-3
 """Force that is none, over a body's own load [-]."""
 NOISE = 1e-6
 """Part of that which rounding leaves of a body that is held [-]."""
-WAY = 1000.0
+WAY = 300.0
 """Motion over what is straight [-] of which what is missing is read: that of 500 m has an s that is
 its own only to micrometres, and stiff springs mind."""
 GROUP = 50_000
@@ -178,7 +178,14 @@ class Slow:
         moves = self.moves(rung.delta_q, of)
         shorter = np.sqrt(np.minimum(1.0, quotient(WAY, moves, 1.0)))
         T = self.T * shorter
-        starts, first, known = self._between(T, rung.s * shorter[:, None] ** 2, of)
+        s = rung.s * shorter[:, None] ** 2
+        starts, first, known = self._between(T, s, of)
+        lost = np.flatnonzero(~known)
+        if lost.size:  # on a shorter way, inertia helps
+            T[lost] /= FACTOR**2
+            more = self._between(T[lost], s[lost] / FACTOR**4, of[lost])
+            starts[lost], known[lost] = more[0], more[2]
+            first.put(lost, more[1])
         before = self.amounts(self._starts(first.delta_q, T / FACTOR) * T[:, None] / FACTOR, of)
         end = np.full(len(of), self.T)
         after = self.amounts(self._starts(rung.delta_q, end) * self.T, of)

@@ -282,6 +282,16 @@ def steep(d):
     return d.scene(bodies, {"c": ("slope", "b", d.mu, 4)}, 3, hand, shapes=shapes)
 
 
+def rolls(d):
+    """A ball on a slope rolls: m g sin a = (1 + 2/5) m al r, while mu is over 2/7 tan a."""
+    a, bodies, shapes = slope(d, d.rng.uniform(0.1, 0.9) * d.mu)
+    r = d.edge / 2
+    bodies["b"] = free(solid(d.m, Sphere(r)), (-r * np.sin(a), 0, r * np.cos(a)))
+    force = 5 / 7 * d.m * G * np.sin(a)
+    hand = lacks(force, 0.4 * force * r)
+    return d.scene(bodies, {"c": ("slope", "b", d.mu, 1)}, 2, hand, shapes=shapes)
+
+
 def guided(d):
     """A plate on a hinge at its end lacks m g l / 2, on an upright rail m g, less what the joint's
     friction bears; the floor is far below."""
@@ -306,11 +316,13 @@ def guided(d):
 def overhang(d):
     """The upper of two cubes of edge 2 b turns about the lower one's edge, e beyond which its
     centre is: al = m g e / (I + m (b^2 + e^2)), I = 2/3 m b^2. The edge sticks: friction over
-    normal force is 3 e / (5 b) < 0.6."""
+    normal force is 3 e / (5 b) < 0.6. A step turns it by al h^2, and then e is larger."""
     m, b = d.m, d.edge / 2
     e = d.rng.uniform(0.1, 0.9) * b
     inertia = 2 / 3 * m * b**2
-    al = m * G * e / (inertia + m * (b**2 + e**2))
+    about = inertia + m * (b**2 + e**2)
+    turn = m * G * e / about * d.h**2
+    al = m * G * (e * np.cos(turn) + b * np.sin(turn)) / about
     return d.scene(*pile(d, 1 + e / b), 1, lacks(m * al * np.hypot(b, e), inertia * al))
 
 

@@ -16,6 +16,7 @@ from tests.optional.doctor.drawn_scenes import (
     gripped,
     pile,
     pressed_on_a_wall,
+    rolls,
     slope,
 )
 
@@ -29,7 +30,8 @@ def drawn(kinds):
 
 
 @pytest.mark.parametrize(
-    ("kind", "seed"), [*drawn(HEALTHY), *drawn(BROKEN), (pressed_on_a_wall, 64)]
+    ("kind", "seed"),
+    [*drawn(HEALTHY), *drawn(BROKEN), (pressed_on_a_wall, 64), (rolls, 100), (rolls, 101)],
 )
 def test_what_is_said_is_right_by_hand(kind, seed):
     """No finding is missing or undeserved, no look is open, and numbers are right to 1 %.
