@@ -1,13 +1,14 @@
 """What tests of sweeps and of studies share."""
 
-import dask
-import distributed
 import pytest
 
 
 @pytest.fixture
 def two_of_dask(tmp_path):
     """An executor of two workers of dask, which are processes."""
+    import dask
+    import distributed
+
     with (
         dask.config.set(temporary_directory=str(tmp_path)),
         distributed.LocalCluster(
