@@ -16,6 +16,8 @@ from quasistatic_ref.simulate.finding import Finding
 
 UNITS = ("N", "N", "N m", "m", "rad")
 """Of normal force, friction, torque, slip and spin."""
+TOLD = 0.01
+"""Part of what the model adds most [-] from which on another part is in a sentence."""
 
 
 def out_of_balance(run: Run) -> Iterator[Finding | Undecided]:
@@ -96,12 +98,12 @@ def artifact(run: Run) -> Iterator[Finding | Undecided]:
         cause = f"{pair.name} {how} in the run, because of {by}: slowly it sticks"
     else:
         noun = ("", " of friction", "")[change.what]
-        here, slowly, drag, layer = (
-            f"{x:.3g} {unit}" for x in (change.here, change.slowly, change.drag, change.layer)
-        )
+        parts = {"drag": change.drag, "the boundary layer": change.layer}
+        most = max(map(abs, parts.values()))
+        shares = [f"{x:.3g} {unit} by {what}" for what, x in parts.items() if abs(x) >= TOLD * most]
         bears = "bears a torque of" if change.what == TORQUE else "has"
-        cause = f"{pair.name} {bears} {here}{noun}, slowly {slowly}: {drag} by drag, {layer} by "
-        cause += "the boundary layer"
+        cause = f"{pair.name} {bears} {change.here:.3g} {unit}{noun}, slowly {change.slowly:.3g} "
+        cause += f"{unit}: {', '.join(shares)}"
     remedy = "move more slowly, or take a larger h"
     if not of_drag:
         remedy = 'move more slowly, take a smaller h, or set law = "coulomb"'
