@@ -10,7 +10,7 @@ import numpy as np
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.start import Start
-from quasistatic_ref.optional.doctor.telling import length
+from quasistatic_ref.optional.doctor.telling import distance
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
@@ -125,7 +125,7 @@ def inertia(start: Start) -> Iterator[Finding]:
                 f"check the inertia of {name}",
                 f"the largest moment of inertia of {name}, {largest:.3g} kg m^2, is {share:.2g} "
                 "times "
-                f"m r^2, with {mass:.3g} kg and at most r = {length(radius)} from the "
+                f"m r^2, with {mass:.3g} kg and at most r = {distance(radius)} from the "
                 "centre of mass; a ball has 0.4",
                 {"share": share},
             )
@@ -151,9 +151,9 @@ def centre(start: Start) -> Iterator[Finding]:
                 "centre-of-mass",
                 True,
                 f"check the centre of mass of {name}, or the origin of its shapes",
-                f"the centre of mass of {name} is {length(away)} outside of its shapes, "
+                f"the centre of mass of {name} is {distance(away)} outside of its shapes, "
                 "which are "
-                f"{length(extent)} long; both are in the frame of the link",
+                f"{distance(extent)} long; both are in the frame of the link",
                 {"outside_mm": 1e3 * away},
             )
 

@@ -18,7 +18,7 @@ from quasistatic_ref.optional.doctor.start import (
     slices,
     table,
 )
-from quasistatic_ref.optional.doctor.telling import length
+from quasistatic_ref.optional.doctor.telling import distance
 from quasistatic_ref.optional.doctor.tolerances import NEAR, SUNK
 from quasistatic_ref.optional.doctor.undecided import Undecided, failure
 from quasistatic_ref.optional.doctor.unsupported import fall, held, sinks
@@ -77,11 +77,12 @@ def in_the_air(start: Start) -> Iterator[Finding | Undecided]:
             continue
         pair, gap = min(falls, key=lambda x: x[1])
         if np.isfinite(gap):
+            height = distance(gap, 4)
             yield Finding(
                 "starts-in-the-air",
                 True,
-                f"lower {name} by {length(gap)}, or check its origin",
-                f"{name} starts in the air, {length(gap)} above what may bear it ({pair.name})",
+                f"lower {name} by {height}, or check its origin",
+                f"{name} starts in the air, {height} above what may bear it ({pair.name})",
                 {"gap_mm": 1e3 * gap},
             )
         else:
@@ -105,8 +106,9 @@ def penetration(start: Start) -> Iterator[Finding]:
         name = table(start, pair)
         deeper = name not in deepest or 1e3 * depth > deepest[name].numbers["depth_mm"]
         if depth > SUNK * least(pair) and deeper:
-            remedy = f"start {pair.alpha.name} and {pair.beta.name} {length(depth)} farther apart"
-            cause = f"{pair.name} is {length(depth)} deep at the start"
+            overlap = distance(depth, 4)
+            remedy = f"start {pair.alpha.name} and {pair.beta.name} {overlap} farther apart"
+            cause = f"{pair.name} is {overlap} deep at the start"
             if hollow := hull_alone(start, pair, SUNK * least(pair)):
                 remedy = f"split the mesh of {hollow.name} into convex parts, each a <collision>"
                 cause += f": the hull of {hollow.name} overlaps, and the mesh itself does not"
@@ -146,7 +148,7 @@ def inside(start: Start) -> Iterator[Finding]:
                     "starts-inside",
                     False,
                     f"start {side.name} outside of {name}",
-                    f"the middle of {side.name} is {length(depth)} inside of the hull of "
+                    f"the middle of {side.name} is {distance(depth)} inside of the hull of "
                     f"{name}, none of "
                     "which it touches: what is between the points or shapes of a body is empty",
                     {"depth_mm": 1e3 * depth},

@@ -8,7 +8,7 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
-from quasistatic_ref.optional.doctor.telling import amount, length
+from quasistatic_ref.optional.doctor.telling import amount, distance
 from quasistatic_ref.optional.doctor.tolerances import BEYOND, SUNK
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import FILLED
@@ -56,7 +56,7 @@ def leaps(run: Run) -> Iterator[Finding]:
         k = int(long.argmax())
         how = f"turns by {np.degrees(angle[k]):.3g} degrees"
         if way[k] / size > angle[k]:
-            how = f"moves by {length(way[k])}, {share[k]:.2g} of the size of what it moves"
+            how = f"moves by {distance(way[k])}, {share[k]:.2g} of the size of what it moves"
         remedy = "take a smaller h, move slower, or start nearer to the first target"
         why = "and a step is right to first order only"
         if jump > BEYOND:

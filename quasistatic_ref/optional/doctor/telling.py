@@ -139,8 +139,14 @@ def rounded(x: float, towards: Callable[[float], float]) -> float:
 
 
 def length(x: float) -> str:
-    """A length [m] to three digits, in millimetres up to 1 m; none below a hundredth of one."""
+    """A length [m] of a motion, to three digits: none below a hundredth of a millimetre."""
+    return "0 mm" if abs(x) < 5e-6 else distance(x)
+
+
+def distance(x: float, digits: int = 3) -> str:
+    """A length [m] to some digits, however short it is: in millimetres up to 1 m.
+
+    A remedy has four: what is moved so is less than 1 mm off, up to 10 m.
+    """
     mm = 1e3 * abs(x)
-    if mm >= LONG:
-        return f"{abs(x):.3g} m"
-    return "0 mm" if mm < 0.005 else f"{mm:.3g} mm"
+    return f"{abs(x):.{digits}g} m" if mm >= LONG else f"{mm:.{digits}g} mm"

@@ -13,7 +13,7 @@ from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import SHORT, Start, joining, least
 from quasistatic_ref.optional.doctor.stopped import missing
-from quasistatic_ref.optional.doctor.telling import length
+from quasistatic_ref.optional.doctor.telling import distance
 from quasistatic_ref.optional.doctor.tolerances import NEAR
 from quasistatic_ref.optional.doctor.undecided import optimum
 from quasistatic_ref.simulate.finding import Finding
@@ -85,7 +85,7 @@ def falling(run: Run) -> Iterator[Finding]:
             True,
             _remedy(fall.contacts, run, fall.first),
             f"nothing bears {name} from step {fall.first} to the end, and it falls by "
-            f"{length(fall.way)}, h^2 g = {1e3 * most:.3g} mm a step",
+            f"{distance(fall.way)}, h^2 g = {1e3 * most:.3g} mm a step",
             {"first_step": fall.first, "fallen_mm": 1e3 * fall.way},
         )
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.optional.doctor.telling import length, rounded
+from quasistatic_ref.optional.doctor.telling import distance, length, rounded
 
 
 @pytest.mark.parametrize("factor", [1.0, 1 + 1e-14, 1 - 1e-14])
@@ -22,3 +22,8 @@ def test_a_third_digit_is_rounded_to_the_safe_side():
 )
 def test_a_length_is_in_millimetres_until_it_is_long(x, words):
     assert length(x) == words
+
+
+@pytest.mark.parametrize(("x", "words"), [(4e-6, "0.004 mm"), (1.23456, "1.235 m")])
+def test_a_distance_is_said_however_short_and_as_a_remedy_needs_it(x, words):
+    assert distance(x, 4) == words
