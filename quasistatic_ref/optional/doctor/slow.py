@@ -46,6 +46,8 @@ NOISE = 1e-6
 WAY = 300.0
 """Motion over what is straight [-] of which what is missing is read: that of 500 m has an s that is
 its own only to micrometres, and stiff springs mind."""
+ALIKE = 0.02
+"""Difference of what a shorter and a longer way say is missing [-], up to which they agree."""
 GROUP = 50_000
 """Most entries of J, 4 n_c n_v, of a group that is asked."""
 
@@ -180,15 +182,18 @@ class Slow:
         T = self.T * shorter
         s = rung.s * shorter[:, None] ** 2
         starts, first, known = self._between(T, s, of)
-        lost = np.flatnonzero(~known)
-        if lost.size:  # on a shorter way, inertia helps
-            T[lost] /= FACTOR**2
-            more = self._between(T[lost], s[lost] / FACTOR**4, of[lost])
-            starts[lost], known[lost] = more[0], more[2]
-            first.put(lost, more[1])
-        before = self.amounts(self._starts(first.delta_q, T / FACTOR) * T[:, None] / FACTOR, of)
         end = np.full(len(of), self.T)
-        after = self.amounts(self._starts(rung.delta_q, end) * self.T, of)
+        long = self._starts(rung.delta_q, end)
+        lost = np.flatnonzero(~known)
+        if lost.size:  # on a shorter way, inertia helps; what a spring adds there is not in `long`
+            T[lost] /= FACTOR**2
+            more, shorter_ones, found = self._between(T[lost], s[lost] / FACTOR**4, of[lost])
+            first.put(lost, shorter_ones)
+            starts[lost] = more
+            off = self.amounts(more - long[lost], of[lost]) > ALIKE * self.amounts(more, of[lost])
+            known[lost] = found & ~np.isin(of[lost], self.group_of[off])
+        before = self.amounts(self._starts(first.delta_q, T / FACTOR) * T[:, None] / FACTOR, of)
+        after = self.amounts(long * self.T, of)
         falls = (after >= before) & (after > NOISE * self.least * self.T)
         known &= rung.found
         falls &= np.isin(self.group_of, of[known]) & (self._mass > 0)
@@ -203,9 +208,6 @@ class Slow:
         last = self.rung(T, start, of)
         T_1 = T / FACTOR
         first = self.rung(T_1, last.s / FACTOR**2, of)
-        lost = np.flatnonzero(~first.found)
-        if lost.size:
-            first.put(lost, self.rung(T_1[lost], last.s[lost], of[lost]))
         starts = self._starts(last.delta_q - first.delta_q, np.sqrt(T**2 - T_1**2))
         return starts, first, last.found & first.found
 
@@ -269,29 +271,19 @@ class Slow:
             rung.put(lost, self._climbed(of[lost]))
         return rung
 
-    def resting(self, of: Indices) -> Rung:
-        """The slow step of some groups from where a short one ends: of several, one at rest."""
-        soon = self.rung(self._soon(of), self.level(of), of)
-        return self.rung(np.full(len(of), self.T), soon.s, of)
-
     def _climbed(self, of: Indices) -> Rung:
         """The slow step of some groups, to which steps of smaller T lead.
 
-        What lands goes with T^0, and what slides freely with T^2: s is sought beyond its last two
-        values, and at most as far as what slides freely.
+        What slides freely goes with T^2, and there s is sought.
         """
         T = float(self._soon(of).min())
-        s = before = self.level(of)
-        square = square_before = np.zeros((len(of), 1))
+        s = self.level(of)
+        square = np.full((len(of), 1), T**2)
         while True:
-            share = quotient(T**2 - square, square - square_before)
-            ahead = np.minimum(s + (s - before) * share, s * quotient(T**2, square, 1.0))
-            rung = self.rung(np.full(len(of), T), ahead.clip(0.0), of)
+            rung = self.rung(np.full(len(of), T), s * (T**2 / square), of)
             if T >= self.T:
                 return rung
             on = rung.found[:, None]
-            before = np.where(on, s, before)
-            square_before = np.where(on, square, square_before)
             s = np.where(on, rung.s, s)
             square = np.where(on, T**2, square)
             T = min(FACTOR * T, self.T)

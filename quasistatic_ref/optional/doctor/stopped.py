@@ -74,7 +74,6 @@ def missing(
                 continue
             rung = slow.slowly(of)
             moves = ~slow.held(rung, of, straight)
-            moves[moves] = ~slow.held(slow.resting(of[moves]), of[moves], straight)
             of = of[moves]
             rung = rung.some(moves)
             falls, starts, known = slow.falling(rung, of)
