@@ -120,7 +120,8 @@ def verdict_to_digits(
 def omissions(expected: Json, answer: Json) -> tuple[str, ...]:
     """Fields that an answer leaves out, if it has any others."""
     given = field_names(answer)
-    of_contacts = bool(answer.get("contacts"))
+    contacts = answer.get("contacts")
+    of_contacts = isinstance(contacts, list) and any(isinstance(one, dict) for one in contacts)
     missing = [
         name
         for name in field_names(expected)

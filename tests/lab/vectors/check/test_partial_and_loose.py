@@ -47,6 +47,13 @@ def test_a_step_is_judged_for_what_it_contains(names, wrong):
     assert report_on("step", {one: output}).first.field == wrong
 
 
+@pytest.mark.parametrize("contacts", [5, "all of them", [5], {"phi": 0.0}], ids=str)
+def test_contacts_that_are_none_are_wrong_and_not_left_out(contacts):
+    output = right_answers("step")["step/stack/0"] | {"contacts": contacts}
+    report = report_on("step", {"step/stack/0": output})
+    assert (report.first.field, report.partial) == ("contacts", "")
+
+
 def test_what_follows_from_other_fields_may_be_left_out():
     for layer in ("qp", "step"):
         answers = {
