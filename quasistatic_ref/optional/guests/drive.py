@@ -214,12 +214,13 @@ def table_read(path: str | PathLike[str]) -> tuple[list[str], Array, Array]:
     """
     first, _, rest = text_read(path).partition("\n")
     names = [name.strip() for name in first.split(",")]
-    if names[0] != "t" or len(names) < 2 or not rest.strip():
+    if names[0] != "t" or len(names) < 2:
         problem = "must begin with a row of names, t and then actuators or joints"
         raise InputError(problem, field="targets")
     numbers = np.zeros((0, 0))
-    with suppress(ValueError):
-        numbers = np.loadtxt(StringIO(rest), delimiter=",", ndmin=2)
+    if any(line.partition("#")[0].strip() for line in rest.splitlines()):
+        with suppress(ValueError):
+            numbers = np.loadtxt(StringIO(rest), delimiter=",", ndmin=2)
     if numbers.shape[1] != len(names):
         problem = f"must be rows of {len(names)} numbers below the names"
         raise InputError(problem, field="targets", value=rest)

@@ -157,7 +157,7 @@ def test_what_no_run_has_is_refused_before_the_first_step(body, rest, field):
     ("table", "says"),
     [
         ("time,up\n0,1\n", "begin with a row"),
-        ("t,up\n0,1,2\n", "rows of 2 numbers"),
+        *((f"t,up\n{rows}\n", "rows of 2 numbers") for rows in ("", "# none", "0,1,2")),
         ("t,up\n0,1\n0,2\n", "increase"),
         ("t,lift\n0,1\n", "no actuator"),
     ],
