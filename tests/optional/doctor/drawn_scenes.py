@@ -113,8 +113,8 @@ def wiper(d, rises, *found):
 
 
 def on_a_spring(d):
-    """It sags by m g / K, less than a tenth of its size, and lies still."""
-    sag = d.between(1e-5, 2e-3)
+    """It sags by m g / K, less than a hundredth of its size, beside the floor, and lies still."""
+    sag = min(d.between(1e-5, 2e-3), 0.009 * d.edge)
     bodies = {"palm": plate(d.m * G / sag), "b": d.standing()}
     return d.scene(bodies, {"c": ("palm/tip", "b", d.mu, 4)}, 30)
 
