@@ -48,6 +48,8 @@ WAY = 300.0
 its own only to micrometres, and stiff springs mind."""
 ALIKE = 0.02
 """Difference of what a shorter and a longer way say is missing [-], up to which they agree."""
+LONGER = (3.0, 9.0, 27.0)
+"""Times T [-] that are asked as well where the way above says other than the long step."""
 GROUP = 50_000
 """Most entries of J, 4 n_c n_v, of a group that is asked."""
 
@@ -160,7 +162,8 @@ class Slow:
         """What members of some groups lack, by steps at three T.
 
         Their motion is not bounded if it grows faster than T. What goes with T^2 is the difference
-        of two T; of these the motion is WAY at most.
+        of two T; of these the motion is WAY at most, and more where the slow step says otherwise: a
+        soft spring still pushes there.
 
         Parameters
         ----------
@@ -184,6 +187,21 @@ class Slow:
         starts, first, known = self._between(T, s, of)
         end = np.full(len(of), self.T)
         long = self._starts(rung.delta_q, end)
+        short = T.copy()
+        for factor in LONGER:  # a soft spring pushes on for longer than that
+            off = self.amounts(starts - long, of) > SAME * self.amounts(starts, of)
+            doubtful = ~known | np.isin(of, self.group_of[off])
+            at = np.flatnonzero(rung.found & (T < self.T) & doubtful)
+            if not at.size:
+                break
+            more = np.minimum(factor * short[at], self.T)
+            s_more = rung.s[at] * (more / self.T)[:, None] ** 2
+            farther, shorter_ones, found = self._between(more, s_more, of[at])
+            at = at[found]
+            known[at] = True
+            T[at] = more[found]
+            starts[at] = farther[found]
+            first.put(at, shorter_ones.some(found))
         lost = np.flatnonzero(~known)
         if lost.size:  # on a shorter way, inertia helps; what a spring adds there is not in `long`
             T[lost] /= FACTOR**2
