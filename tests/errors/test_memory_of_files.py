@@ -74,7 +74,7 @@ FILES = {
         "a.urdf", URDF % b"".join(b'<b c="" d="" e="" f="%d"/>' % k for k in range(SIZE // 26)),
     ),
     "a COLLADA of empty elements": (
-        "a.dae", COLLADA.encode().replace(b"</COLLADA>", lines(b"<b/>") + b"</COLLADA>"),
+        "a.dae", COLLADA.encode().replace(b"</COLLADA>", lines(b"<b/>", MANY) + b"</COLLADA>"),
     ),
     "a glTF of empty nodes": ("a.gltf", plain_gltf(nodes=[{}] * (MANY // 4))),
     "a COLLADA of a part in many places": (
