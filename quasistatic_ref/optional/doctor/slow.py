@@ -46,6 +46,8 @@ NOISE = 1e-6
 WAY = 300.0
 """Motion over what is straight [-] of which what is missing is read: that of 500 m has an s that is
 its own only to micrometres, and stiff springs mind."""
+CLIMB = 4
+"""Short steps that are asked whether a group leaves, where the long one has no answer."""
 ALIKE = 0.02
 """Difference of what a shorter and a longer way say is missing [-], up to which they agree."""
 LONGER = (3.0, 9.0, 27.0)
@@ -220,6 +222,26 @@ class Slow:
     def first(self, of: Indices) -> Array:
         """How some groups start to move at first, turned round, (b, n_u) [m/s^2, rad/s^2]."""
         return self._between(self._soon(of), self.level(of), of)[0]
+
+    def leaving(self, of: Indices) -> tuple[Mask, Array]:
+        """Which groups a short step moves farther than straight, and how they start to.
+
+        Returns
+        -------
+        gone : ndarray of bool, shape (b,)
+        starts : ndarray, shape (b, n_u)
+            As of :meth:`falling` [m/s^2, rad/s^2].
+        """
+        T = self._soon(of)
+        starts, _, known = self._between(FACTOR * T, self.level(of), of)
+        s = self.level(of)
+        gone = np.zeros(len(of), dtype=bool)
+        for _ in range(CLIMB):
+            rung = self.rung(T, s, of)
+            gone |= rung.found & (self.moves(rung.delta_q, of) > 1)
+            s = rung.s * FACTOR**2
+            T = FACTOR * T
+        return gone & known, starts
 
     def _between(self, T: Array, start: Array, of: Indices) -> tuple[Array, Rung, Mask]:
         """What goes with T^2 between two steps, the shorter one, and whether both are found."""

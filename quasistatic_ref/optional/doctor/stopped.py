@@ -77,7 +77,11 @@ def missing(
             of = of[moves]
             rung = rung.some(moves)
             falls, starts, known = slow.falling(rung, of)
-            lacks |= dict.fromkeys((every[i] for i in slow.bodies_in(of[~known])), NO_ANSWER)
+            lost = np.flatnonzero(~known)
+            leaves, starts[lost] = slow.leaving(of[lost])
+            falls |= np.isin(slow.group_of, of[lost[leaves]]) & (slow.body_of < len(every))
+            open_ones = slow.bodies_in(of[lost[~leaves]])
+            lacks |= dict.fromkeys((every[i] for i in open_ones), NO_ANSWER)
             for m in np.flatnonzero(falls).tolist():
                 lack = slow.missing(m, of, starts, every)
                 if lack.amount > slow.least[m]:

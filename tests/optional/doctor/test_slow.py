@@ -96,20 +96,20 @@ def test_what_is_missing_depends_on_no_ladder_and_on_no_other_group(cone, seed, 
     """With other T in the place of those that are a third of each other; and alone.
 
     In the ellipsoid the first box turns against its finger on four corners, which share its weight
-    in many ways: no answer of it is found.
+    in many ways: no long step of it is found, and what it lacks at first is that of its T.
     """
     run = run_of(cone, seed)
     lacks = missing(run, 3, run.bodies_of)
-    known = {body: lack for body, lack in lacks.items() if not isinstance(lack, str)}
+    first = "b0" if cone == "ellipsoid" else ""
+    known = {body: lack for body, lack in lacks.items() if body.name != first}
     assert {body.name for body in known} >= {"b2", "b5"}
-    assert ("b0" in {body.name for body in known}) == (cone == "pyramid")
     for body, lack in known.items():
         alone = missing(run, 3, [body])[body]
         np.testing.assert_allclose(alone.r, lack.r, rtol=1e-12)
     for factor in (2.0, 4.0):
         monkeypatch.setattr(slow, "FACTOR", factor)
         others = missing(run, 3, run.bodies_of)
-        assert {body for body, lack in others.items() if not isinstance(lack, str)} == {*known}
+        assert {body for body in others if body.name != first} == {*known}
         for body, lack in known.items():
             np.testing.assert_allclose(lack.r, others[body].r, atol=2e-3 * np.abs(lack.r).max())
 
