@@ -327,6 +327,25 @@ class Mechanism(ABC):
         ModelError
             If there is no such body or link, or it cannot move, so that a load would move nothing.
         """
+        return self.load_at(self.kinematics(q), name, force, torque, at)
+
+    def load_at(
+        self,
+        kinematics: Kinematics,
+        name: str,
+        force: ArrayLike = (0.0, 0.0, 0.0),
+        torque: ArrayLike = (0.0, 0.0, 0.0),
+        at: ArrayLike | None = None,
+    ) -> Array:
+        """Generalised force of a load, shape (n_v,) [N, N m], where all links are placed already.
+
+        It has the arguments and errors of :meth:`load`, but for the poses at q.
+
+        Raises
+        ------
+        ModelError
+            As :meth:`load`.
+        """
         force = checked_array(force, "force", (3,), ModelError)
         torque = checked_array(torque, "torque", (3,), ModelError)
         link = self.link(name)
@@ -334,7 +353,6 @@ class Mechanism(ABC):
             problem = "has a fixed base, so a load has no effect on it"
             raise ModelError(problem, field="name", value=name)
         centre = self._centre(name, link)
-        kinematics = self.kinematics(q)
         if at is None:
             arm = product(kinematics.R[link], centre)
         else:

@@ -12,6 +12,7 @@ from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.numbers.ordered import total
@@ -159,10 +160,10 @@ class Wrenches(Plain):
     def __post_init__(self) -> None:
         freeze_copies(self, "times", "values")
 
-    def force(self, system: System, t: float, q: Array) -> Array:
-        """Generalised force at time t, shape (n_v,)."""
+    def force(self, system: System, t: float, kinematics: Kinematics) -> Array:
+        """Generalised force at time t [s], shape (n_v,) [N, N m]."""
         wrench = piecewise_linear(self.times, self.values, t)
-        return system.load(q, self.body, wrench[:3], wrench[3:])
+        return system.load_at(kinematics, self.body, wrench[:3], wrench[3:])
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,7 +181,8 @@ class Loads:
 
     def __call__(self, t: float, q: Array) -> Array:
         """The force of the step to time t [s] from q, shape (n_v,)."""
-        return total(wrench.force(self.system, t, q) for wrench in self.wrenches)
+        kinematics = self.system.kinematics(q)
+        return total(wrench.force(self.system, t, kinematics) for wrench in self.wrenches)
 
 
 def _interval(times: Array, t: float | Array) -> tuple[Indices, Array]:

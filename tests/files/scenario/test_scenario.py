@@ -11,6 +11,7 @@ from quasistatic_ref import (
     HalfSpace,
     PointCloud,
     ScenarioError,
+    System,
     load_scenario,
 )
 from tests.cases import cases
@@ -98,6 +99,21 @@ def test_wrenches_are_linear_in_time_and_act_at_the_centre_of_mass(load):
     expected = [0, 0, 0, 0.04, 0, 0, 0, 0.0004]
     assert_close(force, expected)
     assert force.shape == (system.n_v,)
+
+
+def test_wrenches_of_all_bodies_place_the_links_once(monkeypatch):
+    """A wrench a body: with placements for each of them, a run goes with the square of them."""
+    wrench = [{"t": 0, "force": [1, 2, 3], "torque": [0.4, 0.5, 0.6]}]
+    bodies = ("lower", "middle", "upper")
+    scenario = load_scenario("stack", {f"bodies.{body}.wrenches": wrench for body in bodies})
+    system = scenario.system
+    q = system.q_start
+    each = [system.load(q, name, (1, 2, 3), (0.4, 0.5, 0.6)) for name in bodies]
+    placements = []
+    place = System.kinematics
+    monkeypatch.setattr(System, "kinematics", lambda *a: placements.append(a) or place(*a))
+    assert_same(scenario.force(0.0, q), sum(each))
+    assert len(placements) == 1
 
 
 @pytest.mark.parametrize(("within", "reach"), [("5 mm", 0.005), ("0.5cm", 0.005), ("2e-2 m", 0.02)])
