@@ -149,7 +149,7 @@ class ContactError(InputError):
     ...     qr.ContactPair("twice", ball, ball, mu_v=0.3, mu_omega=0.0, rows=4, k=1)
     ... except qr.ContactError as error:
     ...     print(error)
-    twice: both shapes are fixed to the same link
+    twice: both shapes are fixed to the same link; leave the pair out
     """
 
 

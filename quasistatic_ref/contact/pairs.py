@@ -97,7 +97,9 @@ class ContactPair(Plain):
             )
             raise ContactError(problem, field=self.name)
         if self.alpha.link == self.beta.link:
-            raise ContactError("both shapes are fixed to the same link", field=self.name)
+            raise ContactError(
+                "both shapes are fixed to the same link; leave the pair out", field=self.name
+            )
         if all(isinstance(s.shape, HalfSpace) for s in (self.alpha, self.beta)):
             raise ContactError("two half-spaces always meet; bound one of them", field=self.name)
         for side in (self.alpha, self.beta):

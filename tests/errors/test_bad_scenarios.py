@@ -54,6 +54,11 @@ CAUSES = {
         "bodies", "no body can move",
     ),
     "a blank URDF": ((BALL + "urdf", " "), "bodies.ball.urdf", "must name a file (got ' ')"),
+    "a URDF that is not there": (
+        (BALL + "urdf", "boll.urdf"), "bodies.ball.urdf",
+        "names no file; a path begins at the scenario's folder (got 'boll.urdf')",
+    ),
+    "a cloud that is not there": ((BALL + "cloud", "c.npy"), "bodies.ball.cloud", "names no file"),
     "actuated a number": ((RAIL + "actuated", 1), "bodies.rail.actuated", "a list of joint names"),
     "a joint with no stiffness": ((RAIL + "K_q", ...), "bodies.rail.K_q", "is missing for slide"),
     "stiffness not definite": (

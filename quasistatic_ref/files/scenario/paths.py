@@ -38,13 +38,19 @@ def path_in(
     Raises
     ------
     ScenarioError
-        If it leads out of the folder, cannot be a path, or names a package or a file of one that
-        is not installed.
+        If there is no such file, it leads out of the folder, cannot be a path, or names a package
+        or a file of one that is not installed.
     """
     text = table.text(field, None)
     setting = f"--set {table.name(field)}=PATH"
     remedy = f"move the file there, or give the path on the command line, as {setting}"
-    return None if text is None else _path(folder, table, field, text, remedy, roots)
+    if text is None:
+        return None
+    path = _path(folder, table, field, text, remedy, roots)
+    if not path.exists():
+        problem = "names no file; a path begins at the scenario's folder"
+        raise table.error_about(field, problem, text)
+    return path
 
 
 def folders_in(folder: Path, table: TableReader, field: str, names: Sequence[str]) -> list[Path]:
