@@ -181,10 +181,10 @@ OPTIONS = {
     "fast": ("fast", ["--fast"]),
     'record = "forces"': ("forces", ["--set", "record=forces"]),
     "qpsolvers:clarabel": ("qpsolvers", ["--backend", "qpsolvers:clarabel"]),
-    "a .ply cloud": ("readers", ["--set", "bodies.bunny.cloud=bunny.ply"]),
+    "a .ply cloud": ("readers", ["--set", "bodies.bunny.cloud={folder}/bunny.ply"]),
     "view": ("show", ["--view"]),
 }
-"""Words of ``run``, and of each the part that it needs, and the options."""
+"""Words of ``run``, and of each the part that it needs, and the options, in some folder."""
 
 
 @pytest.mark.parametrize("word", OPTIONS)
@@ -193,7 +193,9 @@ def test_a_word_is_refused_in_a_sentence_that_names_its_part(without, word, ever
     part, options = OPTIONS[word]
     gone = "optional" if every else f"optional/{part}"
     without(gone)
-    command = ["run", GRASP, "--set", "steps=0", "--out", tmp_path, *options]
+    (tmp_path / "bunny.ply").touch()
+    in_folder = [option.format(folder=tmp_path) for option in options]
+    command = ["run", GRASP, "--set", "steps=0", "--out", tmp_path, *in_folder]
     assert f"{word} needs quasistatic_ref/{gone}\n" in cli(*command, status=2).err
 
 
