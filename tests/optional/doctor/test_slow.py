@@ -53,9 +53,14 @@ def rungs_of(run, T, k=2):
         yield part.groups, rung
 
 
-@pytest.mark.parametrize("cone", ["pyramid", "product", "facets-8"])
-def test_a_rung_of_all_groups_is_the_certified_step(cone):
-    """Two boxes alone, two balls, a pile, and a box with its finger: at h = T."""
+@pytest.mark.parametrize(
+    ("cone", "most"), [("pyramid", 1e-9), ("product", 1e-9), ("facets-8", 1e-6)]
+)
+def test_a_rung_of_all_groups_is_the_certified_step(cone, most):
+    """Two boxes alone, two balls, a pile, and a box with its finger: at h = T.
+
+    With eight facets the box at its finger differs by 3.3e-7 of the largest displacement.
+    """
     run = run_of(cone)
     for T in (0.01, 0.3):
         whole = coulomb_step(run.at(2).step.replace(h=T))
@@ -64,7 +69,7 @@ def test_a_rung_of_all_groups_is_the_certified_step(cone):
         assert sorted(len(rung.found) for _, rung in every) == [1, 1, 2, 2]
         for groups, rung in every:
             exact = whole.delta_q[groups.coordinates]
-            np.testing.assert_allclose(rung.delta_q, exact, atol=1e-6 * np.abs(exact).max())
+            np.testing.assert_allclose(rung.delta_q, exact, atol=most * np.abs(exact).max())
 
 
 def test_forces_of_the_ellipsoid_obey_coulombs_law():
