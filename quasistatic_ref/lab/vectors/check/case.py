@@ -119,13 +119,13 @@ def verdict_to_digits(
 
 def omissions(expected: Json, answer: Json) -> tuple[str, ...]:
     """Fields that an answer leaves out, if it has any others."""
-    given = field_names(answer)
+    present = field_names(answer)
     contacts = answer.get("contacts")
     of_contacts = isinstance(contacts, list) and any(isinstance(one, dict) for one in contacts)
     missing = [
         name
         for name in field_names(expected)
-        if name not in (*given, *OPTIONAL["step"]) and (of_contacts or "." not in name)
+        if name not in (*present, *OPTIONAL["step"]) and (of_contacts or "." not in name)
     ]
     return tuple(missing) if set(expected) & set(answer) else ()
 

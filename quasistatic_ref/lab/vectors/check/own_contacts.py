@@ -54,12 +54,15 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
     rounding = 2 * (allowed if "negligible" in record else min(allowed, ROUNDING))
     at = kinematics(case["mechanism"], np.array(case["q"]))
     for pair in case["pairs"]:
-        own = [c for c in contacts if c["pair"] == pair["name"]]
-        indices = [c["index"] for c in own]
-        if len({*indices}) < len(own):
+        of_pair = [c for c in contacts if c["pair"] == pair["name"]]
+        indices = [c["index"] for c in of_pair]
+        if len({*indices}) < len(of_pair):
             return f"{pair['name']} names a candidate twice"
         due = sorted(c["phi"] for c in wanted if c["pair"] == pair["name"])
-        if np.abs(np.subtract(sorted(c["phi"] for c in own), due)).max(initial=0.0) > 2 * allowed:
+        if (
+            np.abs(np.subtract(sorted(c["phi"] for c in of_pair), due)).max(initial=0.0)
+            > 2 * allowed
+        ):
             return f"the distances of {pair['name']} are others"
         sides: Sides = sides_of(case, pair, at)
         *columns, index, late = candidates(*sides["alpha"], *sides["beta"], pair["k"])
@@ -76,7 +79,7 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
             missing = [i for i in first if i not in indices]
             if missing:
                 return f"{pair['name']}: candidate {missing[0]} is as near, and of a lower index"
-        for contact in own:
+        for contact in of_pair:
             i = contact["index"]
             solids = _closest(sides, pair["k"], i, known[i])
             if problem := _contact_problem(known[i], solids, contact, allowed):
