@@ -1,4 +1,4 @@
-"""Compiles the C files of ``quasistatic_ref/optional/fast`` when the package is installed.
+"""Compiles the C files of ``quasistatic_ref/optional/compiled`` when the package is installed.
 
 A wheel with the library is for one platform and any Python 3. An editable installation finds the
 library where it is made, next to its sources. Without a C compiler the installation goes on, and a
@@ -12,7 +12,7 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-BUILD = "quasistatic_ref/optional/fast/build.py"
+BUILD = "quasistatic_ref/optional/compiled/build.py"
 
 
 class CompiledSteps(BuildHookInterface):

@@ -36,9 +36,9 @@ def is_missing(extra):
 
 def not_compiled():
     """Why steps are not compiled here, or None."""
-    if not is_there("fast"):
+    if not is_there("compiled"):
         return "the part is not there"
-    from quasistatic_ref.optional.fast.library import missing
+    from quasistatic_ref.optional.compiled.library import missing
 
     return missing()
 

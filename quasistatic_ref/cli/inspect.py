@@ -122,8 +122,8 @@ def steps_by(scenario: Scenario) -> str:
     if not scenario.fast:
         return "the plain path, which defines a step; --fast takes the same steps sooner"
     with needing("fast"):
+        from quasistatic_ref.optional.compiled.library import missing
         from quasistatic_ref.optional.fast.closest import solid_size
-        from quasistatic_ref.optional.fast.library import missing
 
     if (reason := missing()) is not None:
         return f"the plain path: {reason}"

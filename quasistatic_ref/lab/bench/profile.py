@@ -8,7 +8,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.optional.fast.library import missing
+from quasistatic_ref.optional.compiled.library import missing
 from quasistatic_ref.solve.backends import QPSOLVERS
 
 DAQP = "daqp"

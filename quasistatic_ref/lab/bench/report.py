@@ -13,7 +13,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab import machine as computer
 from quasistatic_ref.lab.bench.six import FIGURES, SCENES, figures
 from quasistatic_ref.lab.markdown import markdown_table
-from quasistatic_ref.optional.fast.library import missing
+from quasistatic_ref.optional.compiled.library import missing
 
 GROWTH = ("10 boxes", "40 boxes", "200 boxes")
 """Scenes each of which is compared with the one before."""

@@ -9,7 +9,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.normals import UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.numbers.arrays import Array, Indices
-from quasistatic_ref.optional.fast.library import Structure, library
+from quasistatic_ref.optional.compiled.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud
 from quasistatic_ref.shapes.rounded import Rounded

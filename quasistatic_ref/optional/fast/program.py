@@ -9,8 +9,8 @@ import numpy as np
 from quasistatic_ref.certify.groups import Group
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.numbers.arrays import Array, all_finite, read_only
+from quasistatic_ref.optional.compiled.library import Structure, library
 from quasistatic_ref.optional.fast.joined import Masses
-from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.steps import Steps
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.solver import Reply

@@ -21,9 +21,9 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.state import State
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.numbers.arrays import Array, without_warnings
+from quasistatic_ref.optional.compiled.library import ffi, library, missing
 from quasistatic_ref.optional.fast.guard import Plainly, program_is_plain
 from quasistatic_ref.optional.fast.joined import JoinedStep
-from quasistatic_ref.optional.fast.library import ffi, library, missing
 from quasistatic_ref.optional.fast.poses import Poses
 from quasistatic_ref.optional.fast.program import NaturalProgram
 from quasistatic_ref.optional.fast.solver import DAQP, FastSolver, FormedStep

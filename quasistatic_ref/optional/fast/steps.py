@@ -10,9 +10,9 @@ from quasistatic_ref.certify.groups import parted
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
 from quasistatic_ref.numbers.pivots import positive_definite
+from quasistatic_ref.optional.compiled.library import Structure, library
 from quasistatic_ref.optional.fast.closest import Closest
 from quasistatic_ref.optional.fast.joined import JoinedContacts, JoinedStep, Masses
-from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
 from quasistatic_ref.optional.friction import cone_matrix
 from quasistatic_ref.simulate.simulator import Simulator

@@ -10,7 +10,7 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array, with_shape
-from quasistatic_ref.optional.fast.library import Structure, library
+from quasistatic_ref.optional.compiled.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from cffi import FFI
 from numpy.typing import NDArray
 
-from quasistatic_ref.optional.fast.build import LIBRARY, PROBLEM, SOURCE, digest
+from quasistatic_ref.optional.compiled.build import LIBRARY, PROBLEM, SOURCE, digest
 
 ffi = FFI()
 ffi.cdef((SOURCE / "fast.h").read_text("utf-8"))

@@ -1,6 +1,6 @@
 """The library of the C files: made when the package is installed, by hatch_build.py.
 
-It needs nothing but Python and a C compiler. ``python quasistatic_ref/optional/fast/build.py``
+It needs nothing but Python and a C compiler. ``python quasistatic_ref/optional/compiled/build.py``
 makes the library of a checkout that is not installed.
 """
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from quasistatic_ref.optional.fast import build, library
+from quasistatic_ref.optional.compiled import build, library
 
 NO_COMPILERS = {
     "gcc '": "$CC cannot be read as a command: No closing quotation",

@@ -1,0 +1,1 @@
+"""C functions, and how they are compiled and loaded."""
