@@ -39,8 +39,7 @@ def thresholds() -> tuple[float, float, float]:
     """The mu_omega [mm] that the forces of one step of 10 ms need, (R9), as in exercise 6.
 
     For the weight alone in the ellipsoid and in the pyramid, and with drag in the pyramid. Both
-    fingers' normals are along one line, so only the sum of the torques counts in the pyramid; in
-    the ellipsoid it is the finger that needs more.
+    fingers' normals are along one line, so only the sum of the torques counts.
     """
     run = load_scenario("bunny_grasp", steps=HELD + 1, fast=True).run(
         progress=False, findings=False
@@ -50,7 +49,7 @@ def thresholds() -> tuple[float, float, float]:
     weight = GRAVITY / (GRAVITY + SPEED / run.step_data(HELD).h)
     f_1, f_2, _, tau_n = weight * loaded.T
     f_n = loaded[:, 2]
-    ellipsoid = np.max(tau_n / np.sqrt(f_n**2 - (f_1**2 + f_2**2) / MU_V**2))
+    ellipsoid = tau_n.sum() / np.sqrt(f_n**2 - (f_1**2 + f_2**2) / MU_V**2).sum()
 
     def pyramid(share: float) -> float:
         f_1, f_2, _, tau_n = share * loaded.sum(axis=0)

@@ -120,7 +120,7 @@ CLAIM = Claim(
     name="inertia_and_time_step",
     sentence="If targets, loads and contacts are the same, a step with the inertia sigma M_u at h "
     "and a step with M_u at h / sqrt(sigma) have the same displacement and forces: smaller "
-    "steps act like heavier bodies, so h to 0 approaches no limit.",
+    "steps act like heavier bodies, and as h goes to 0 every free body becomes a wall.",
     where="docs/artifacts.md (R45)",
     sweep=f"{RANDOM_STEPS} random steps with a solution, sigma from 1/64 to 64",
     reason="no tolerance: sqrt(sigma) is a power of two, so the bits are the same.",
