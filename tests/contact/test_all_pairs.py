@@ -116,7 +116,7 @@ def test_two_solids_far_away_are_searched_as_at_the_origin(kind, away, count):
     """
     there = away * np.array([1.0, -1.0, 0.5])
     other = 0
-    scenes = range(max(40, count // 10))
+    scenes = range(max(20, count // 10))
     for seed in scenes:
         rng = np.random.default_rng(seed)
         shapes = [placed_shape(SOLIDS[name](rng), i + 1) for i, name in enumerate(kind)]

@@ -205,7 +205,7 @@ def same_points(one, other):
 
 @pytest.mark.usefixtures("bounded")
 @pytest.mark.parametrize("name", READERS)
-@settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(places=st.lists(st.floats(0, 1), min_size=1, max_size=3), data=st.data())
 def test_a_spoilt_file_is_read_as_others_read_it_or_refused_in_a_sentence(good, name, places, data):
     read = READERS[name]

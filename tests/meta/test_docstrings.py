@@ -20,6 +20,7 @@ def symbols():
     return units_of_symbols("\n".join(path.read_text("utf-8") for path in NOTATION))
 
 
+@pytest.mark.long  # lint
 def test_every_public_name_states_shapes_units_and_errors(symbols):
     every = [said for path in FILES for said in complaints(path, path.read_text(), symbols)]
     assert every == []

@@ -93,6 +93,7 @@ def wrong_words(name, source):
             yield f"{name}:{node.lineno}: {wrong}"
 
 
+@pytest.mark.long  # lint
 def test_no_file_names_another_part_or_asks_for_a_kind():
     files = sorted(PACKAGE.rglob("*.py"))
     found = [

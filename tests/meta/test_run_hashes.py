@@ -35,11 +35,12 @@ def hashes():
 @pytest.mark.parametrize(
     "settings",
     [
-        pytest.param({"OPENBLAS_CORETYPE": "Haswell"}, marks=pytest.mark.long),
+        {"OPENBLAS_CORETYPE": "Haswell"},
         {"OPENBLAS_CORETYPE": "Nehalem", **WITHOUT},
     ],
     ids=["Haswell", "Nehalem, no vector code"],
 )
+@pytest.mark.long
 def test_other_kernels_and_no_vector_code_end_at_the_same_bits(settings):
     source = f"from {__name__} import hashes; print(*hashes())"
     assert python("-c", source, env={**os.environ, **settings}).stdout.split() == hashes()

@@ -18,6 +18,7 @@ from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.check.loosened import loosened
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.own.step import posed_case
+from tests.cases import parts
 from tests.closeness import assert_same, assert_within
 from tests.lab.vectors.committed_cases import cases, expected_of
 from tests.optional.derivatives.free_bodies import (
@@ -41,16 +42,11 @@ HARDEST = "derivative/random/96"
 X, _, Z = np.eye(6)[:3]
 
 
-def parts(count):
-    """The parts of a test, of which README's line takes the first."""
-    return [0, *(pytest.param(part, marks=pytest.mark.long) for part in range(1, count))]
-
-
-@pytest.mark.parametrize("part", parts(8))
+@pytest.mark.parametrize("part", parts(24))
 def test_every_kink_of_the_vectors_is_seen(part):
     kinks = [case for case in cases("derivative") if IS_KINK in case.id]
     assert len(kinks) == 57
-    for case in kinks[part::8]:
+    for case in kinks[part::24]:
         try:
             posed = posed_case(case.input)
             found = derivatives(posed.simulator, posed.q, posed.q_bar_a, posed.force, by="q")

@@ -8,6 +8,7 @@ import pytest
 from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
 from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
+from tests.cases import first
 from tests.lab.vectors.committed_cases import (
     cases,
     expected_of,
@@ -83,7 +84,7 @@ def test_fields_that_a_layer_does_not_ask_for_are_named_and_not_looked_at():
     assert report.unasked.endswith("that are not looked at: slack, contacts.depth")
 
 
-@pytest.mark.parametrize("every", [8, pytest.param(1, marks=pytest.mark.long)])
+@pytest.mark.parametrize("every", first(1, [16, 1]))
 @pytest.mark.parametrize("layer", LAYERS)
 def test_float32_is_right_to_six_digits_and_not_to_twelve(layer, every):
     # float32 rounds to 2^-24 = 6e-8 of a number: that is below 1e-6 and above 1e-12.

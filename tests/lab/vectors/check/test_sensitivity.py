@@ -5,6 +5,7 @@ import pytest
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import nodes
+from tests.cases import first
 from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
 from tests.oracles.records import with_value
 
@@ -29,7 +30,7 @@ def test_no_tolerance_passes_anything_or_nothing(layer):
             assert tolerance["absolute"] > 0 or copied or zeros, (name, field)
 
 
-@pytest.mark.parametrize("every", [4, pytest.param(1, marks=pytest.mark.long)])
+@pytest.mark.parametrize("every", first(1, [16, 1]))
 @pytest.mark.parametrize("layer", LAYERS)
 def test_any_one_number_changed_beyond_its_tolerance_fails(layer, every, rng):
     """Three numbers of every case, each by two tolerances.
