@@ -3,6 +3,7 @@
 import os
 import re
 import sys
+import warnings
 
 import numpy as np
 import pytest
@@ -385,3 +386,17 @@ def test_a_format_names_the_extra_that_it_needs(tmp_path, monkeypatch, name, pac
     monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(InputError, match=rf"needs {package}: pip install 'quasistatic-ref\["):
         loaded_mesh(tmp_path / name)
+
+
+@pytest.mark.parametrize("failure", [MemoryError, ImportError, KeyboardInterrupt, OSError])
+def test_what_says_nothing_of_the_file_is_not_called_malformed(tmp_path, monkeypatch, failure):
+    """Nor what a library warns of: that its own code is old."""
+    (tmp_path / "a.gltf").write_bytes(plain_gltf())
+    load = trimesh.load_scene
+    monkeypatch.setattr(
+        trimesh, "load_scene", lambda *a, **k: warnings.warn("old", stacklevel=1) or load(*a, **k)
+    )
+    assert len(loaded_mesh(tmp_path / "a.gltf").triangles) == 4
+    monkeypatch.setattr(trimesh, "load_scene", lambda *_, **__: (_ for _ in ()).throw(failure()))
+    with pytest.raises(failure):
+        loaded_mesh(tmp_path / "a.gltf")

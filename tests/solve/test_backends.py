@@ -219,7 +219,7 @@ assert "scs" not in installed("cvxpy")
 def test_a_solver_that_cannot_be_imported_is_left_out_in_our_words(tmp_path):
     (tmp_path / "scs.py").write_text("raise RuntimeError('no licence')")
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
-    done = python("-c", BROKEN_SCS, env=environment)
+    done = python("-W", "default", "-c", BROKEN_SCS, env=environment)
     assert done.stdout == ""
     assert "UserWarning: scs is installed, but cannot be imported, and is left out" in done.stderr
     assert "licence" not in done.stderr

@@ -6,7 +6,6 @@ places is counted; afterwards it must have read as many triangles.
 
 import base64
 import json
-import warnings
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from io import BytesIO
 from pathlib import Path
@@ -21,7 +20,7 @@ from quasistatic_ref.files.content import bytes_read, text_of
 from quasistatic_ref.files.mesh import Mesh
 from quasistatic_ref.files.text import check_equal, decimal
 from quasistatic_ref.files.xml_text import DEEPEST, MOST_ELEMENTS, xml_root
-from quasistatic_ref.optional.readers.files import LARGEST_UNPACKED, check_unpacked
+from quasistatic_ref.optional.readers.files import LARGEST_UNPACKED, check_unpacked, malformed
 from quasistatic_ref.optional.readers.mesh_texts import text_of_mesh
 from quasistatic_ref.parts import needed_package
 
@@ -255,7 +254,9 @@ def _collada(_: Path, content: bytes) -> _Stated:
         count = _placed_triangles(parts, shown)
     content = tostring(root)
     ignored = [pycollada.common.DaeUnsupportedError, pycollada.common.DaeBrokenRefError]
-    pycollada.Collada(BytesIO(content), ignore=ignored)  # what trimesh leaves out is an error here
+    with malformed("a mesh", pycollada.common.DaeError):
+        # What trimesh leaves out is an error here.
+        pycollada.Collada(BytesIO(content), ignore=ignored)
     up = root.findtext("asset/up_axis") == "Y_UP"
     return _Stated("dae", content, count, UP if up else "")
 
@@ -312,8 +313,7 @@ def placed_mesh(path: Path, content: bytes) -> Mesh:
     import trimesh  # takes as long as a short run
 
     stated = PLACED[path.suffix.lower()](path, content)
-    with warnings.catch_warnings(), np.errstate(all="ignore"):
-        warnings.simplefilter("ignore")  # what is not read is counted
+    with np.errstate(all="ignore"):  # what is not read is counted
         scene = trimesh.load_scene(
             BytesIO(stated.content),
             file_type=stated.kind,
