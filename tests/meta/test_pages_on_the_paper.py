@@ -11,6 +11,7 @@ THEORY = ROOT / "docs" / "theory"
 TESTS = ROOT / "tests"
 PAGE = re.sub(r"^```.*?^```$", "", (THEORY / "errata.md").read_text("utf-8"), flags=re.M | re.S)
 NAMED = re.compile(r"`([^`]+)`")
+LINKED = re.compile(r"\]\(\.\./\.\./tests/([\w/]+\.py)\)")
 LIST = r"((?:`\w+`(?:, | and )?)+)"
 
 
@@ -20,25 +21,16 @@ def listed_names(word, text):
     return [name for run in runs for name in NAMED.findall(run)]
 
 
-def functions_of(path):
-    """The names of the test functions of a file; none of a file that does not exist."""
-    if not path.is_file():
-        return set()
+def shown_errata(path):
+    """The test functions of a file that show an erratum."""
     functions = [n for n in ast.parse(path.read_text()).body if isinstance(n, ast.FunctionDef)]
-    return {f.name for f in functions if f.name.startswith("test_")}
+    return {f.name for f in functions if f.name.startswith("test_erratum_")}
 
 
 def evidence(text):
-    """Tests and claims that a text names and that exist; a test is of the file before it."""
+    """Files of tests that a text links and that exist, and claims that it names."""
     claims = [name for name in listed_names("claim", text) if name in BY_NAME]
-    tests = []
-    inside = set()
-    for name in NAMED.findall(text):
-        if name.endswith(".py"):
-            inside = functions_of(TESTS / name)
-        elif name in inside:
-            tests.append(name)
-    return claims + tests
+    return claims + [file for file in LINKED.findall(text) if (TESTS / file).is_file()]
 
 
 def rows(markdown):
@@ -53,17 +45,16 @@ def test_every_row_ends_with_a_test_or_a_claim():
     assert [row for row in found if not evidence(row.rstrip("| ").rpartition(" | ")[2])] == []
 
 
-def test_every_test_that_the_page_names_is_in_the_file_before_it():
-    named = [name for name in NAMED.findall(PAGE) if name.startswith("test_")]
-    words = "docs/theory/errata.md names {}, which is not in the file before it: name a test of it"
-    assert_among(named, evidence(PAGE), words)
+def test_every_file_that_the_page_links_is_there():
+    words = "docs/theory/errata.md links tests/{}, which is not there: link a file of tests"
+    assert_among(LINKED.findall(PAGE), evidence(PAGE), words)
 
 
-def test_every_erratum_that_a_test_shows_is_in_the_errata():
-    shown = {t for path in TESTS.rglob("test_eq*.py") for t in functions_of(path)}
-    errata = [name for name in shown if name.startswith("test_erratum_")]
-    words = "{} shows an erratum that is not told: add a row to docs/theory/errata.md"
-    assert_among(errata, NAMED.findall(PAGE), words)
+def test_every_file_that_shows_an_erratum_is_linked():
+    files = [path for path in TESTS.rglob("test_eq*.py") if shown_errata(path)]
+    assert files
+    words = "tests/{} shows an erratum that is not told: add a row to docs/theory/errata.md"
+    assert_among([f.relative_to(TESTS).as_posix() for f in files], LINKED.findall(PAGE), words)
 
 
 def test_every_claim_about_the_paper_is_on_its_page():

@@ -20,7 +20,7 @@ def function_named(name):
 def branches():
     """(file, name) of each function of the tree, with that of the one it is indented below."""
     above = {}
-    for indent, name, file in BRANCH.findall(SECTION.partition("```text")[2].partition("```")[0]):
+    for indent, name, file in BRANCH.findall(SECTION.partition("```none")[2].partition("```")[0]):
         function = f"{PACKAGE}/{file}", function_named(name)
         above[len(indent)] = function
         if indent:
