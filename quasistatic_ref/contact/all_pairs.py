@@ -9,6 +9,7 @@ import numpy as np
 from quasistatic_ref.contact.batches.balls import OnHalfSpaces, Spheres
 from quasistatic_ref.contact.batches.batch import Batch
 from quasistatic_ref.contact.batches.boxes import Boxes
+from quasistatic_ref.contact.batches.clouds import Clouds
 from quasistatic_ref.contact.distance import ClosestPoints, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
@@ -16,9 +17,16 @@ from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.numbers.arrays import all_finite
 from quasistatic_ref.numbers.ordered import norm
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
-from quasistatic_ref.shapes.placed_shape import Box, Capsule, HalfSpace, Shape, Sphere
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    HalfSpace,
+    PointCloud,
+    Shape,
+    Sphere,
+)
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.shapes.shape import DIRECTIONS
+from quasistatic_ref.shapes.shape import CHUNK, DIRECTIONS
 from quasistatic_ref.tolerances import REPEATED
 
 Kind = tuple[type[Batch], Hashable]
@@ -26,6 +34,9 @@ Kind = tuple[type[Batch], Hashable]
 
 MOST: Final = 512
 """Most corners of a solid of a batch: with more, numbers take the time and not calls."""
+
+FEW_POINTS: Final = 16_384
+"""Most points of a cloud that are all looked at: of more, most are left out by groups."""
 
 
 class AllPairs:
@@ -55,13 +66,19 @@ class AllPairs:
         for i, pair in enumerate(pairs):
             kind = kind_of(pair)
             (self._singly if kind is None else kinds[kind]).append(i)
+        blocks = [
+            (batch, some[first : first + most])
+            for (batch, _), some in kinds.items()
+            for most in [max(1, CHUNK // pairs[some[0]].candidates)]
+            for first in range(0, len(some), most)
+        ]
         self._batches = [
             (
                 batch([pairs[i] for i in some]),
                 np.array(some),
                 np.array([np.arange(starts[i], starts[i] + counts[i]) for i in some]),
             )
-            for (batch, _), some in kinds.items()
+            for batch, some in blocks
         ]
 
     def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
@@ -107,6 +124,11 @@ def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> Clos
 def kind_of(pair: ContactPair) -> Kind | None:
     """The kind of batch that a pair belongs to; None if the pair is searched by itself."""
     sides = (pair.alpha.shape, pair.beta.shape)
+    cloud_last = isinstance(sides[1], PointCloud)
+    cloud, solid = sides[::-1] if cloud_last else sides
+    if isinstance(cloud, PointCloud):
+        known = isinstance(solid, Rounded | HalfSpace) and len(cloud.points) <= FEW_POINTS
+        return (Clouds, (cloud_last, cloud, pair.n_c)) if known and pair.resolution else None
     ball_last = isinstance(sides[1], Sphere)
     ball, other = sides[::-1] if ball_last else sides
     if isinstance(ball, Sphere) and isinstance(other, Rounded) and pair.n_c == 1:

@@ -6,19 +6,25 @@ all is no more than r. A point whose gap is at least a bound that ranks after r 
 itself, and is none of the first k. The others stay in the cloud's order, which decides ties.
 """
 
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import moved
 from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.ordered import dot, product
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.facets import FEW
 from quasistatic_ref.shapes.placed_shape import PointCloud, Shape
-from quasistatic_ref.shapes.point_cloud import GROUP
+from quasistatic_ref.shapes.point_cloud import Groups
 
 MANY: Final = 4096
 """Points of a cloud from which groups of neighbours are dropped at once."""
+
+ROUNDED: Final = 1e-8
+"""How much bounds of groups give way, of sizes and places [-]: more than what rounding changes, and
+what a pose stretches whose rotation is one to 1e-9."""
 
 
 def rounded_gaps(phi: Array, resolution: float) -> Array:
@@ -84,7 +90,7 @@ def may_be_first(
 def near_points(
     solid: Shape, cloud: PointCloud, pose: Array, k: int, resolution: float
 ) -> tuple[Indices, Array]:
-    """The points of a cloud among which are the k that rank first: all, but of a convex mesh fewer.
+    """Points of a cloud among which are the k that rank first: of a large cloud few, or of a mesh.
 
     Parameters
     ----------
@@ -103,20 +109,14 @@ def near_points(
     x : ndarray, shape (M, 3)
         The points in the solid's frame [m].
     """
-    points = cloud.points
-    number = np.arange(len(points))
-    if not isinstance(solid, ConvexMesh) or k >= len(points):
-        return number, moved(pose, points)
+    number = np.arange(len(cloud.points))
+    if len(number) >= MANY and k < len(number):
+        number = points_of_groups(solid, cloud, pose, k, resolution)
+    x = moved(pose, cloud.points[number])
+    if not isinstance(solid, ConvexMesh) or k >= len(number):
+        return number, x
 
     facets = solid.facets
-    if len(points) >= MANY:
-        groups = cloud.groups
-        bound = facets.above_planes(moved(pose, groups.middle)) - groups.reach
-        likely = bound.argsort()[: 1 + 2 * k // GROUP]  # none has fewer than half of GROUP
-        some = np.concatenate([groups.points[i] for i in likely])
-        kept = may_be_first(solid, bound, moved(pose, points[some]), k, resolution)
-        number = np.sort(np.concatenate([groups.points[i] for i in kept]))
-    x = moved(pose, points[number])
     for above in (facets.above_planes, facets.above_faces)[len(facets.normals) <= FEW :]:
         bound = above(x)
         nearest = x[bound.argpartition(k - 1)[:k]]
@@ -124,3 +124,40 @@ def near_points(
         number = number[kept]
         x = x[kept]
     return number, x
+
+
+def points_of_groups(
+    solid: Shape, cloud: PointCloud, pose: Array, k: int, resolution: float
+) -> Indices:
+    """Numbers, in ascending order, of the points of all groups that may hold one of the first k.
+
+    The signed distance from a convex solid is convex, with the normal as its slope: at p it is at
+    least phi + n . (p - c) of the middle c of a cuboid. Down the nearest cuboids are k points, and
+    none counts that is farther than the last of these. The arguments are those of
+    :func:`near_points`.
+    """
+
+    def least(level: Groups, some: Indices) -> Array:
+        """Lower bounds of distances of some groups [m]."""
+        x = moved(pose, level.middle[some])
+        phi, n = solid.signed_distance(x)
+        half = level.half[some]
+        rounded = ROUNDED * (np.abs(x).max() + np.abs(phi).max() + half.max())
+        return np.asarray(phi - dot(np.abs(product(n, pose[:, :3])), half) - rounded)
+
+    def members(level: Groups, some: Indices) -> Indices:
+        return np.concatenate([level.members[i] for i in some.tolist()])
+
+    def kth(levels: Sequence[Groups], number: Indices) -> float:
+        """The distance of the farthest of k points, which are of near groups of some [m]."""
+        for level in levels:
+            count = min(len(number), -(-k // level.fewest))  # so many groups have k points
+            number = members(level, number[least(level, number).argpartition(count - 1)[:count]])
+        phi, _ = solid.signed_distance(moved(pose, cloud.points[number]))
+        return float(np.partition(phi, k - 1)[k - 1])
+
+    number = np.arange(len(cloud.levels[0].members))
+    for i, level in enumerate(cloud.levels):
+        after = kth(cloud.levels[i:], number) + 2 * resolution
+        number = members(level, number[~(least(level, number) > after)])
+    return np.sort(number)

@@ -11,30 +11,30 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
-from quasistatic_ref.numbers.ordered import norm
 from quasistatic_ref.shapes.frozen import freeze_array
 from quasistatic_ref.shapes.shape import Shape, dimensions
 
 GROUP: Final = 64
-"""Most points of a group of neighbours."""
+"""Most points of a group of neighbours, and most groups of a group of these."""
 
 
 class Groups(NamedTuple):
-    """Groups of neighbours of a cloud, and a ball about each.
+    """Groups of neighbours, and a cuboid about each that holds all of its points.
 
     Parameters
     ----------
-    points : list of ndarray of int
-        Numbers of the points of each group.
-    middle : ndarray, shape (G, 3)
-        [m].
-    reach : ndarray, shape (G,)
-        Radius of the ball [m].
+    members : list of ndarray of int
+        Numbers of the points of each group, or of its groups one level down.
+    middle, half : ndarray, shape (G, 3)
+        Of the cuboids: their middles and half extents [m].
+    fewest : int
+        Points of the smallest group.
     """
 
-    points: list[Indices]
+    members: list[Indices]
     middle: Array
-    reach: Array
+    half: Array
+    fewest: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,23 +72,34 @@ class PointCloud(Shape):
         return float(np.ptp(self.points, axis=0).max())
 
     @cached_property
-    def groups(self) -> Groups:
-        """The cloud's points in small groups, each half of a group cut across its longest side."""
-        groups = [np.arange(len(self.points))]
-        while len(groups[0]) > GROUP:
-            longest = [np.ptp(self.points[some], axis=0).argmax() for some in groups]
-            groups = [
-                half
-                for some, axis in zip(groups, longest, strict=True)
-                for half in np.array_split(some[self.points[some, axis].argsort(kind="stable")], 2)
-            ]
-        middle = np.array([self.points[some].mean(axis=0) for some in groups])
-        reach = [
-            norm(self.points[some] - at).max() for some, at in zip(groups, middle, strict=True)
-        ]
-        return Groups(groups, middle, np.array(reach))
+    def levels(self) -> tuple[Groups, Groups]:
+        """Large groups of small groups of the points, and the small groups."""
+        small = halved(self.points)
+        middle = np.array([self.points[some].mean(axis=0) for some in small])
+        large = halved(middle)
+        points = [np.concatenate([small[i] for i in some]) for some in large]
+        return self._groups(large, points), self._groups(small, small)
+
+    def _groups(self, members: list[Indices], points: list[Indices]) -> Groups:
+        """Groups of some members, which have these points."""
+        low = np.array([self.points[some].min(axis=0) for some in points])
+        high = np.array([self.points[some].max(axis=0) for some in points])
+        return Groups(members, (low + high) / 2, (high - low) / 2, min(map(len, points)))
 
     def words(self) -> str:
         """Number of points, and the edges of the cloud's bounding box [m]."""
         extent = dimensions(np.ptp(self.points, axis=0))
         return f"cloud of {len(self.points)} points within {extent}"
+
+
+def halved(points: Array) -> list[Indices]:
+    """Numbers of points (N, 3) [m] in groups, each half of one that its longest side was cut in."""
+    groups = [np.arange(len(points))]
+    while len(groups[0]) > GROUP:
+        longest = [np.ptp(points[some], axis=0).argmax() for some in groups]
+        groups = [
+            half
+            for some, axis in zip(groups, longest, strict=True)
+            for half in np.array_split(some[points[some, axis].argpartition(len(some) // 2)], 2)
+        ]
+    return groups

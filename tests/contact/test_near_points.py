@@ -6,7 +6,17 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, PointCloud, convex_hull
+from quasistatic_ref import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    PointCloud,
+    Sphere,
+    convex_hull,
+)
 from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.distance import in_world, relative_pose
 from quasistatic_ref.contact.ranks import MANY, closest, near_points, rounded_gaps
@@ -66,6 +76,39 @@ def test_contacts_of_a_cloud_are_those_of_all_points_over_all_triangles(name, on
             expected = closest(rounded_gaps(rank, one.resolution), k)
             assert found.point.tolist() == expected.tolist()
             assert found.phi.tobytes() == (rank[expected] + 0.0).tobytes()
+
+
+SOLIDS = [
+    HalfSpace((0.3, 0.2, 1.0), -0.02),
+    Box((0.01, 0.02, 0.03)),
+    Sphere(0.02),
+    Capsule(0.01, 0.02),
+    Cylinder(0.02, 0.01),
+    Cone(0.02, 0.02),
+    Ellipsoid((0.01, 0.02, 0.03)),
+    MESHES["box"],
+]
+PLANE = np.random.default_rng(0).uniform(-0.04, 0.04, size=(3 * MANY, 3)) * [1.0, 1.0, 0.0]
+
+
+@pytest.mark.parametrize("solid", SOLIDS, ids=lambda solid: type(solid).__name__)
+def test_groups_of_a_large_cloud_leave_out_no_point_of_the_first(solid):
+    """Of a grid, where many rank alike, and of a plane, at any pose and far away."""
+    for cloud in (CLOUDS["large"], PointCloud(PLANE)):
+        left = []
+        for R, t in itertools.product(
+            (np.eye(3), TURNED),
+            ((0.0, 0.0, 0.0), (0.04, 0.001, 0.0), (-0.03, -0.06, 0.09), (1e3, 0.0, 0.1)),
+        ):
+            pose = np.column_stack([R, t])
+            phi, _ = solid.signed_distance(moved(pose, cloud.points))
+            for k, resolution in itertools.product((1, 5, 70), (0.0, 1e-11, 1e-3)):
+                number, x = near_points(solid, cloud, pose, k, resolution)
+                near = closest(rounded_gaps(solid.signed_distance(x)[0], resolution), k)
+                every = closest(rounded_gaps(phi, resolution), k)
+                assert number[near].tolist() == every.tolist()
+            left.append(len(number) / len(cloud.points))
+        assert np.median(left) < 0.5
 
 
 def test_most_points_and_triangles_are_left_out():
