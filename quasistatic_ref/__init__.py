@@ -44,14 +44,16 @@ _HOMES = {
     "solve.step_problem": "StepProblem",
     "step.standard_form": "standard_form",
     "optional.extensions.extension": "Extension Symbols",
-    "certify.optimum": "Certificate ContactForces SolverStatistics StepSolution",
+    "step.solution": "Certificate ContactForces SolverStatistics StepSolution",
     "files.solution": "SolutionFile load_solution save_solution",
     "solve.solve": "solve_step",
     "optional.guests.mujoco": "mujoco_step",
     "optional.guests.mujoco_opinion": "mujoco_opinion",
     "optional.guests.scene": "mujoco_scenario",
     "optional.coulomb.fixed_point": "coulomb_step CoulombSolution NoFixedPoint",
-    "certify.verification": "verify verify_answer Verdict Residuals optimality_residuals",
+    "certify.verification": "verify verify_answer",
+    "certify.verdict": "Verdict",
+    "certify.residuals": "Residuals optimality_residuals",
     "optional.forces.forces": "contact_forces",
     # Any quadratic program.
     "optional.qp.exact": "exact_qp",
@@ -80,16 +82,18 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         StepInfeasible as StepInfeasible,
         StepNotSolved as StepNotSolved,
     )
-    from quasistatic_ref.certify.optimum import (
+    from quasistatic_ref.step.solution import (
         Certificate as Certificate,
         ContactForces as ContactForces,
         SolverStatistics as SolverStatistics,
         StepSolution as StepSolution,
     )
-    from quasistatic_ref.certify.verification import (
+    from quasistatic_ref.certify.residuals import (
         Residuals as Residuals,
-        Verdict as Verdict,
         optimality_residuals as optimality_residuals,
+    )
+    from quasistatic_ref.certify.verdict import Verdict as Verdict
+    from quasistatic_ref.certify.verification import (
         verify as verify,
         verify_answer as verify_answer,
     )

@@ -11,7 +11,7 @@ from importlib.metadata import PackageNotFoundError, distribution, requires
 import pytest
 
 from quasistatic_ref.files.resources import scenario_names
-from quasistatic_ref.parts import is_there
+from tests.pages import PACKAGE
 
 OF_EXTRA = re.compile(r"""([\w.-]+).*\bextra *== *['"]([\w-]+)['"]""")
 """A requirement of the package's metadata: the name of what is required, and the extra."""
@@ -36,7 +36,7 @@ def is_missing(extra):
 
 def not_compiled():
     """Why steps are not compiled here, or None."""
-    if not is_there("compiled"):
+    if not (PACKAGE / "optional" / "compiled").is_dir():
         return "the part is not there"
     from quasistatic_ref.optional.compiled.library import missing
 

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from quasistatic_ref import InputError, load_step, standard_form
-from quasistatic_ref.certify.verification import optimality_residuals, verify
+from quasistatic_ref.certify.residuals import optimality_residuals
+from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.files.solution import load_solution
 from quasistatic_ref.lab.scenes import at_random
 from quasistatic_ref.lab.scenes.at_random import random_contacts

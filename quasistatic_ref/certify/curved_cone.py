@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
+from quasistatic_ref.certify.verdict import Verdict
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import FrictionCone, cone
 from quasistatic_ref.step.data import StepData
-
-if TYPE_CHECKING:
-    from quasistatic_ref.certify.optimum import Certificate
-    from quasistatic_ref.certify.verification import Verdict
+from quasistatic_ref.step.solution import Certificate
 
 
 class Enclosed(Protocol):

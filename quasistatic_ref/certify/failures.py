@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from quasistatic_ref.certify.farkas import FarkasVector
+from quasistatic_ref.certify.residuals import Residuals
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.data import StepData
-
-if TYPE_CHECKING:
-    from quasistatic_ref.certify.verification import Residuals
 
 
 class StepNotSolved(QuasistaticError):

@@ -1,4 +1,4 @@
-"""The verification of a certificate without any solver, and the residuals of any answer.
+"""The verification of a certificate without any solver.
 
 No step calls :func:`verify` or :func:`verify_answer`, which are for whoever wants to check an
 answer afterwards.
@@ -8,16 +8,11 @@ gives the minimiser on it; if its multipliers are > 0 and its slacks >= 0, it is
 is unique. Verification solves that system in rational numbers. It shares with the method that found
 the answer the formation of H, g, A and b, the rational solution of that system, the test that H is
 positive definite, and the decisions on degeneracy; it does not search for a working set.
-
-Residuals of the optimality conditions (9)-(12) are float64's, whoever gave the answer. They prove
-nothing: a certified step reports them, and only ``certify="residual"`` refuses answers by them.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol, runtime_checkable
 
@@ -30,172 +25,16 @@ from quasistatic_ref.certify.degeneracy import Degeneracy, degeneracy, joined_de
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
 from quasistatic_ref.certify.groups import flat_rows, group_steps, row_owners
 from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
-from quasistatic_ref.certify.optimum import Certificate, StepSolution
+from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.certify.working_set import Point, fraction_point
 from quasistatic_ref.errors import InputError, check_kind
-from quasistatic_ref.formats.quoting import clipped
-from quasistatic_ref.numbers.arrays import Array, checked_numbers, with_shape
+from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.numbers.precision import nearest, working_precision
-from quasistatic_ref.step.cones import PYRAMID, Judge, cone, row_violations
+from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.friction import impulses, wrenches
-from quasistatic_ref.step.standard_form import StandardForm
-
-
-@dataclass(frozen=True)
-class Residuals:
-    """Largest violation of each optimality condition, in the units of the step judged.
-
-    Parameters
-    ----------
-    stationarity : float
-        Eq. :eq:`eq-9`, as mended: H delta_q - g - sum_j A_j' lam_j = 0 [N s, N m s].
-    primal : float
-        Eq. :eq:`eq-10`: A delta_q >= b [m].
-    dual : float
-        Eq. :eq:`eq-11`: lam >= 0 [N s].
-    complementarity : float
-        Eq. :eq:`eq-12`: (A delta_q - b) o lam = 0 [N m s].
-
-    Examples
-    --------
-    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> qr.optimality_residuals(qr.standard_form(step), np.zeros(6), np.zeros(step.m)).primal
-    0.0
-    """
-
-    stationarity: float
-    primal: float
-    dual: float
-    complementarity: float
-
-    @property
-    def worst(self) -> float:
-        """The largest of the four, NaN if any of them is: for a step in natural units [-]."""
-        return largest(np.array([*vars(self).values()]))
-
-    def in_size(self, size: float) -> Residuals:
-        """The residuals if delta_q, b, g and lam are measured in another `size` [of theirs]."""
-        return Residuals(
-            stationarity=self.stationarity / size,
-            primal=self.primal / size,
-            dual=self.dual / size,
-            complementarity=self.complementarity / size / size,
-        )
-
-
-def largest(x: Array) -> float:
-    """The largest of the numbers of a vector and 0, in the vector's unit [-]; NaN if one is NaN."""
-    return float(x.max(initial=0.0)) + 0.0
-
-
-def optimality_residuals(
-    form: StandardForm, delta_q: ArrayLike, lam: ArrayLike, judge: Judge = row_violations
-) -> Residuals:
-    """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at an answer.
-
-    Parameters
-    ----------
-    form : StandardForm
-        The step's H, g, A and b, in SI or in natural units.
-    delta_q : array_like, shape (n_v,)
-    lam : array_like, shape (m,)
-        Multipliers, contact-major, the user's own rows last.
-    judge : callable
-        (slack, lam) -> how far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding: of rows, or of
-        another cone, whose :meth:`~quasistatic_ref.step.cones.FrictionCone.judge` it is.
-
-    Returns
-    -------
-    Residuals
-
-    Raises
-    ------
-    InputError
-        If an argument is of another kind.
-    StepDataError
-        If one has another shape.
-
-    Examples
-    --------
-    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> solution = qr.solve_step(step)
-    >>> form = qr.standard_form(step)
-    >>> qr.optimality_residuals(form, solution.delta_q, solution.lam).worst < 1e-15
-    True
-    """
-    check_kind(form, StandardForm, "form", "a StandardForm, as standard_form(step) returns")
-    H, g, A, b = form
-    x = with_shape(delta_q, "delta_q", g.shape)
-    y = with_shape(lam, "lam", b.shape)
-    balance = H @ x - g - A.T @ y  # Eq. (9), as (13) has it
-    slack = A @ x - b
-    short, pull, work = judge(slack, y)  # Eqs. (10)-(12)
-    return Residuals(
-        stationarity=largest(np.abs(balance)),
-        primal=largest(short),
-        dual=largest(pull),
-        complementarity=largest(np.abs(work)),
-    )
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """Whether a certificate holds.
-
-    Parameters
-    ----------
-    ok : bool
-    reason : str
-        Why not, in plain words; empty if it holds.
-
-    Examples
-    --------
-    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> qr.verify_answer(step, np.zeros(6), []).reason
-    'row +d1 of floor(floor, sphere/sphere#0)/0 is violated by the minimiser on the working set'
-    """
-
-    ok: bool
-    reason: str = ""
-
-    def __bool__(self) -> bool:
-        return self.ok
-
-
-def wrong_bits(name: str, numbers: Array, right: Array) -> str:
-    """What is wrong with numbers that must be right to the last bit; empty if nothing.
-
-    Parameters
-    ----------
-    name : str
-    numbers, right : ndarray, of the same shape (k,)
-        What is judged, and what it must be [of one unit].
-    """
-    numbers = np.array(numbers, dtype=np.float64)
-    if numbers.shape != right.shape:
-        return f"{name} has shape {numbers.shape}; the step wants {right.shape}"
-    wrong = np.flatnonzero(numbers.view(np.int64) != right.view(np.int64))
-    if not wrong.size:
-        return ""
-    at = int(wrong[0])
-    return f"{name}[{at}] is {float(numbers[at])!r}; the exact one rounds to {float(right[at])!r}"
-
-
-def wrong_claim(name: str, claimed: object, right: object) -> str:
-    """What is wrong with a claim that must be right to the last bit; empty if nothing.
-
-    Parameters
-    ----------
-    name : str
-    claimed, right : object
-        What is said, and what is true; -0.0 is not 0.0.
-    """
-    signs = {math.copysign(1.0, v) for v in (claimed, right) if isinstance(v, float)}
-    if claimed == right and len(signs) < 2:
-        return ""
-    return f"{name} is claimed to be {clipped(repr(claimed))}; it is {right!r}"
+from quasistatic_ref.step.solution import Certificate, StepSolution
 
 
 @runtime_checkable

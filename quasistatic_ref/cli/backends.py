@@ -40,7 +40,7 @@ def run(options: argparse.Namespace) -> int:
 
 def fast_default() -> str | None:
     """The backend of `fast` where none is named; None if its folder or its packages are missing."""
-    if not is_there("fast") or not all(map(find_spec, ("daqp", "cffi"))):
+    if not is_there("fast_solver") or not all(map(find_spec, ("daqp", "cffi"))):
         return None
     from quasistatic_ref.optional.fast.solver import DAQP
 

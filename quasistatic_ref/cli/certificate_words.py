@@ -1,8 +1,8 @@
 """What a certificate claims, in words."""
 
 from quasistatic_ref.certify.curved_cone import curved_cone
-from quasistatic_ref.certify.optimum import Certificate
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.solution import Certificate
 
 
 def in_words(certificate: Certificate) -> str:

@@ -18,7 +18,7 @@ from quasistatic_ref.files.npz import header_of, npz_arrays
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.files.trajectory import FORMAT, VERSION, WHAT, save_trajectory
-from quasistatic_ref.parts import check_there, is_there, needing
+from quasistatic_ref.parts import is_there, needing, part
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.law import COULOMB
@@ -144,7 +144,7 @@ def _check_parts(options: argparse.Namespace, tables: Mapping[str, Path]) -> Non
             from quasistatic_ref.optional.show.table import check_table_path
         check_table_path(file, option)
     if options.strict:
-        check_there("doctor", "--strict")
+        part("doctor", "--strict")
 
 
 def summary_record(scenario: Scenario, trajectory: Trajectory, path: Path) -> dict[str, Any]:

@@ -8,7 +8,6 @@ from pathlib import Path
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.groups import flat_rows
-from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.certify.working_set import fraction_point
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words
@@ -21,6 +20,7 @@ from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.solution import StepSolution
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

@@ -6,6 +6,7 @@ angle has a sine of at most SKEW have no crossing. docs/conventions.md states th
 rims are in ``optional/curved``.
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +17,7 @@ from quasistatic_ref.contact.solids.polytope import Polytope, polytope
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.placed_shape import Capsule, Cone, Cylinder
 from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.tolerances import FACING, OVER_FACE, SKEW
@@ -62,6 +63,10 @@ class Crossings(NamedTuple):
     number: Indices
 
 
+CurveCrossings = Callable[[ShapeInWorld, ShapeInWorld, Array, Array, Array], Crossings]
+"""As :func:`crossings`, of solids with rims."""
+
+
 def crossings(a: ShapeInWorld, b: ShapeInWorld, alpha: Array, beta: Array, n: Array) -> Crossings:
     """All crossings of two solids, in the world frame.
 
@@ -78,8 +83,7 @@ def crossings(a: ShapeInWorld, b: ShapeInWorld, alpha: Array, beta: Array, n: Ar
         return edge_crossings(edges(a, alpha, n), edges(b, beta, -n), n)
     rimmed = [isinstance(solid.shape, Cylinder | Cone) for solid in (a, b)]
     if all(np.logical_or(flat, rimmed)):
-        with needing("a rim"):
-            from quasistatic_ref.optional.curved.rims import curve_crossings
+        curve_crossings: CurveCrossings = part("curve_crossings")
         return curve_crossings(a, b, alpha, beta, n)
     return Crossings(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0, dtype=np.int64))
 

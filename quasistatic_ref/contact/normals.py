@@ -8,6 +8,7 @@ whole cloud is farthest out. docs/conventions.md states the rule, (R37) says why
 bear along no other normal.
 """
 
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
@@ -18,7 +19,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import dot, norm, product, total
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.placed_shape import Capsule, HalfSpace, PointCloud, Shape, Sphere
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import CHUNK
@@ -56,6 +57,9 @@ TURNED = cos_sin(FACING)[0]
 Surface = tuple[Array, Array, Indices]
 """What N points have on a solid, in its frame: phi, (N,) [m]; the normal, (N, 3) [-]; and how that
 was chosen, (N,)."""
+
+KnownGaps = Callable[[ShapeInWorld, ShapeInWorld, Witness], tuple[Array, Array]]
+"""Two solids and their closest points -> gaps, (N,) [m], along normals, (N, 3) [-]."""
 
 
 def rounding(solid: ShapeInWorld, other: ShapeInWorld) -> float:
@@ -124,8 +128,7 @@ def tied_normals(
     else:
         if every is None:
             # Gaps along what may be normals, and these.
-            with needing("a curved solid"):
-                from quasistatic_ref.optional.curved.ways_out import known_gaps
+            known_gaps: KnownGaps = part("known_gaps")
             every = known_gaps(a, b, nearest)
         gaps_along, normals = every
     tied = distinct([*normals[gaps_along >= nearest.phi - within]])

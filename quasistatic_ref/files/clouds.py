@@ -7,6 +7,7 @@ that a camera did not see are, is left out.
 
 import re
 from array import array
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -17,10 +18,12 @@ from quasistatic_ref.files.mesh_files import loaded_mesh
 from quasistatic_ref.files.text import check_equal, check_points, number_or_nan, point_lines
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.parts.files import file_points
+from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.tolerances import LARGE
 
+FilePoints = Callable[[Path], Array]
+"""A file -> its points, shape (N, 3) [m]."""
 SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 
 
@@ -165,4 +168,5 @@ def _points(path: Path, kind: str) -> Array:
         return _of_text(path)
     if kind in VERTICES:
         return _of_mesh(path)
-    return file_points(path, kind)
+    file_points: FilePoints = part("file_points", f"a {kind} cloud")
+    return file_points(path)

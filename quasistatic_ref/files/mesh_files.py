@@ -1,6 +1,6 @@
 """Mesh files: which file a URI means, what it holds, and the convex hull of that."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -9,9 +9,11 @@ from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.files.mesh import Mesh
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.parts.files import file_mesh
+from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull, hull_of_mesh
 
+FileMesh = Callable[[Path, str], Mesh]
+"""A file and its extension, as ``.stl`` -> what it holds."""
 MESHES = (".stl", ".obj", ".off", ".ply", ".gltf", ".glb", ".dae")
 """Extensions of files that ``optional/readers`` reads."""
 PACKAGE = "package://"
@@ -124,7 +126,9 @@ def loaded_mesh(path: Path, *, finite: bool = True) -> Mesh:
         not finite.
     """
     with about_file(path):
-        mesh = file_mesh(path, path.suffix.lower())
+        kind = path.suffix.lower()
+        file_mesh: FileMesh = part("file_mesh", f"a {kind} mesh")
+        mesh = file_mesh(path, kind)
         if finite and not np.isfinite(mesh.vertices).all():
             raise ModelError("must be finite numbers", field="vertices")
         return mesh

@@ -13,8 +13,8 @@ from typing import Any, get_type_hints
 import numpy as np
 
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.certify.optimum import Certificate, StepSolution
-from quasistatic_ref.certify.verification import Verdict, rounded_wrenches, verify_answer
+from quasistatic_ref.certify.verdict import Verdict
+from quasistatic_ref.certify.verification import rounded_wrenches, verify_answer
 from quasistatic_ref.errors import StepDataError, about_file, check_kind
 from quasistatic_ref.files.content import json_read, text_written
 from quasistatic_ref.files.table_reader import TableReader
@@ -22,6 +22,7 @@ from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, check_step
+from quasistatic_ref.step.solution import Certificate, StepSolution
 from quasistatic_ref.step.text import step_sha256
 
 UNPROVED = ("residual", "none")

@@ -1,12 +1,16 @@
 """Objects that show themselves: in words where they are printed, as HTML in a notebook."""
 
+from collections.abc import Callable
 from dataclasses import fields
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.formats.quoting import shown_value
-from quasistatic_ref.parts.shown import page_html, page_text
+from quasistatic_ref.parts import is_there, part
+
+Page = Callable[[object], str | None]
+"""An object -> its page, in words or as an HTML element; None if it has none."""
 
 
 class Shown:
@@ -24,10 +28,16 @@ class HasPage(Shown):
     """What ``optional/show`` has a page for; where that part is missing, its fields are shown."""
 
     def __repr__(self) -> str:
+        if not is_there("page_text"):
+            return super().__repr__()
+        page_text: Page = part("page_text")
         page = page_text(self)
         return super().__repr__() if page is None else page
 
     def _repr_html_(self) -> str | None:
+        if not is_there("page_html"):
+            return None
+        page_html: Page = part("page_html")
         return page_html(self)
 
 

@@ -9,11 +9,11 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.solution import StepSolution
 
 PRECISION = 1e-13
 """Where the bisection of a threshold ends, relative; below CLOSED_FORM."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -17,7 +17,7 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.solid import Homogeneous, solid_tree
 from quasistatic_ref.model.tree import Tree
-from quasistatic_ref.parts.model import described_model
+from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.frozen import finite_number, freeze_array
 
 if TYPE_CHECKING:
@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 FIXED = "fixed"
 BASE_WORDS = (FIXED, *BASES)
+
+Described = Callable[["pin.Model", "pin.GeometryModel | None"], tuple[Tree, str]]
+"""pinocchio's model of a body and of its shapes -> its tree, and the kind of its base."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,6 +185,7 @@ class Body(Plain):
         >>> qr.System([arm]).n_a
         6
         """
+        described_model: Described = part("described_model")
         tree, base = described_model(model, geometry)
         if base not in (FIXED, more.setdefault("base", base)):
             problem = f"must be {base!r}, as the root joint of the Model; leave it out"

@@ -4,9 +4,11 @@ Bodies move on their own (all of them hang from the world), so what pinocchio sa
 of them at once is what it says about each: a model holds some of them.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from os import PathLike
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -25,9 +27,12 @@ from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.tree import BASE, Tree
 from quasistatic_ref.model.tree_model import TreeModel, body_frame, tree_model
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.parts.model import urdf_tree
+from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
+ReadUrdf = Callable[[str | PathLike[str], Sequence[str | Path]], Tree]
+"""A URDF's file, or its text that begins with ``<``, and where ``package://`` URIs are looked for
+-> its tree."""
 PART = 24
 """Most coordinates of a part, unless one body alone has more: of 48, a workspace takes several
 times as long to make."""
@@ -113,10 +118,14 @@ def trees_of(bodies: Iterable[Body]) -> tuple[Tree, ...]:
     ModelError
         If a URDF is not usable.
     """
-    return tuple(
-        body.urdf if isinstance(body.urdf, Tree) else urdf_tree(body.urdf, body.package_dirs)
-        for body in bodies
-    )
+    return tuple(map(_tree, bodies))
+
+
+def _tree(body: Body) -> Tree:
+    if isinstance(body.urdf, Tree):
+        return body.urdf
+    urdf_tree: ReadUrdf = part("urdf_tree")
+    return urdf_tree(body.urdf, body.package_dirs)
 
 
 def world_of(bodies: Sequence[Body], trees: Sequence[Tree]) -> World:

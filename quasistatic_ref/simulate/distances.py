@@ -1,15 +1,17 @@
 """Where distances come from: the closed forms, or for points of clouds coal."""
 
+from collections.abc import Callable
 from typing import Final, Literal, get_args
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts.simulate import pairs_by_coal
+from quasistatic_ref.parts import part
 
 CLOSED: Final = "closed"
 COAL: Final = "coal"
 Distances = Literal["closed", "coal"]
+ChangedPairs = Callable[[tuple[ContactPair, ...]], tuple[ContactPair, ...]]
 DISTANCES: tuple[Distances, ...] = get_args(Distances)
 
 
@@ -27,7 +29,10 @@ def measured_pairs(pairs: tuple[ContactPair, ...], distances: str) -> tuple[Cont
     if distances not in DISTANCES:
         problem = f"is not a choice{suggestion(str(distances), DISTANCES)}"
         raise InputError(problem, field="distances", value=distances)
-    return pairs_by_coal(pairs) if distances == COAL else pairs
+    if distances == CLOSED:
+        return pairs
+    pairs_by_coal: ChangedPairs = part("pairs_by_coal")
+    return pairs_by_coal(pairs)
 
 
 def check_closed(distances: str) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts.names import finding_names
+from quasistatic_ref.parts import is_there, part
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,8 +64,10 @@ class Finding(Plain):
 def check_finding_name(name: str) -> None:
     """Refuse a name that no finding has: InputError. Without ``optional/doctor`` any will do."""
     check_kind(name, str, "ignore", "a list of names")
-    known = finding_names()
-    if known and name not in known:
+    if not is_there("finding_names"):
+        return
+    known: frozenset[str] = part("finding_names")
+    if name not in known:
         raise InputError(
             f"is no finding{suggestion(name, sorted(known))}", field="ignore", value=name
         )

@@ -48,7 +48,7 @@ class Header(Plain):
         As of a scenario.
     alone : bool
         False where the steps are not all that was solved, see
-        :class:`~quasistatic_ref.certify.optimum.StepSolution`.
+        :class:`~quasistatic_ref.step.solution.StepSolution`.
     unanswered : tuple of int
         The steps in which the backend gave no answer.
     not_looked_at : str

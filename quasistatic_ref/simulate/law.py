@@ -4,7 +4,7 @@ from typing import Final, Literal, get_args
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import check_there
+from quasistatic_ref.parts import part
 
 CONVEX: Final = "convex"
 COULOMB: Final = "coulomb"
@@ -23,7 +23,7 @@ def check_law(law: str, certify: str) -> None:
     if law not in LAWS:
         raise InputError(f"is not a choice{suggestion(str(law), LAWS)}", field="law", value=law)
     if law == COULOMB:
-        check_there(COULOMB, f'law = "{COULOMB}"')
+        part(COULOMB)  # or its sentence
         if certify != "full":
             problem = (
                 f'needs certify = "full", not "{certify}": the iteration ends where exact steps '

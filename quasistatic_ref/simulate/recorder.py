@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from array import array
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from itertools import takewhile, zip_longest
 from typing import TYPE_CHECKING, Any
@@ -12,11 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from quasistatic_ref.certify.optimum import UNKNOWN
 from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.numbers.arrays import Array, read_only
-from quasistatic_ref.parts import check_there
-from quasistatic_ref.parts.simulate import doctors
+from quasistatic_ref.parts import is_there, part
 from quasistatic_ref.simulate.header import RECORDS, Header, Record
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import ARRAYS, FULL, Reading, arrays_of, names_of, no_steps
@@ -24,6 +22,7 @@ from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Drives, JointTrack, Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.step.solution import UNKNOWN
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.user_functions import Target
@@ -34,8 +33,29 @@ POINTS = ("phi", "alpha", "beta", "n", "point")
 LARGEST = 1_000_000
 """Most entries of J in a step of a full record; and most, beyond those of one step, that are kept
 before they become arrays."""
+WatchingDoctor = Callable[[bool, bool, Sequence[str]], Observer]
+"""Whether to print findings, whether to print notes whole, names that are not printed -> the
+observer that notes a run's scene, and finds at its end."""
 SECONDS = "seconds."
 """What the names of wall times begin with."""
+
+
+def doctors(
+    printed: bool = False, notes: bool = False, ignore: Sequence[str] = ()
+) -> list[Observer]:
+    """The observer of ``optional/doctor``, if that is there.
+
+    Parameters
+    ----------
+    printed, notes : bool
+        Whether to print what is found, and whether to print what is not grave whole.
+    ignore : sequence of str
+        Names of findings that are not printed.
+    """
+    if not is_there("doctor"):
+        return []
+    doctor: WatchingDoctor = part("doctor")
+    return [doctor(printed, notes, ignore)]
 
 
 class Recorder:
@@ -94,7 +114,7 @@ class Recorder:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         if record == "forces":
-            check_there("forces", 'record = "forces"')
+            part("contact_forces", 'record = "forces"')
         entries = 4 * len(simulator.layout.names) * simulator.system.n_v
         if record == FULL and entries > LARGEST:
             problem = (
@@ -217,8 +237,8 @@ class Recorder:
             "tau": np.array([reading.tau for reading in readings]),
             **arrays_of(readings, names_of(self.record, law, rows, cost)),
         }
-        for part in results[0].seconds:
-            arrays[SECONDS + part] = np.array([result.seconds[part] for result in results])
+        for name in results[0].seconds:
+            arrays[SECONDS + name] = np.array([result.seconds[name] for result in results])
         asked = [] if "motion" in arrays or not self.observers else ["motion"]
         return arrays, arrays_of(readings, asked)
 

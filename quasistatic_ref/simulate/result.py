@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.normals import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import contact_layout
@@ -22,6 +21,7 @@ from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.wrenches import ContactsOverSteps
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.solution import StepSolution
 
 StepArrays = dict[str, NDArray[Any]]
 """Arrays over some steps that follow one another."""
@@ -95,7 +95,7 @@ class StepResult(Plain, Shown):
         ------
         InputError
             If the result is from a pickle, which has no scene; or as of
-            :attr:`~quasistatic_ref.certify.optimum.StepSolution.forces`.
+            :attr:`~quasistatic_ref.step.solution.StepSolution.forces`.
         """
         contacts, scene = self._contacts()
         forces = wrenches.pair_forces(contacts, contact_layout(scene.pairs).names)

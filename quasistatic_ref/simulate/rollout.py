@@ -11,14 +11,13 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError, QuasistaticError, check_kind
-from quasistatic_ref.parts.simulate import doctors
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.finding import check_finding_name
 from quasistatic_ref.simulate.header import Record
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.progress import progress_bar
-from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.recorder import Recorder, doctors
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import (

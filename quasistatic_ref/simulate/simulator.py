@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.groups import flat_rows
-from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.contact.all_pairs import AllPairs
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
@@ -35,7 +34,7 @@ from quasistatic_ref.numbers.arrays import (
     read_only,
     without_warnings,
 )
-from quasistatic_ref.parts.simulate import coulomb_solution, extended_solution, findings_of_scene
+from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.distances import Distances, measured_pairs
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB, Law
@@ -50,11 +49,18 @@ from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, hessian, seconds
-from quasistatic_ref.step.extension import ExtensionOfQ
+from quasistatic_ref.step.extension import ExtensionOfQ, StepExtension
+from quasistatic_ref.step.solution import StepSolution
 
 GRAVITY = (0.0, 0.0, -9.81)
 FROM_LOADS = 'system.load(q, "BODY", force=(1, 0, 0)) makes it from a force in world axes'
 NO_FORCE = read_only(np.zeros(()))
+CoulombSolution = Callable[[StepData, Solver, float], StepSolution]
+"""A step, its solver and the accuracy [-] -> its solution under Coulomb's law."""
+ExtendedSolution = Callable[["Simulator", StepData, StepExtension], StepSolution]
+"""A simulator, its step and what a user adds -> its solution."""
+SceneFindings = Callable[["Simulator", Array, Array], list[Finding]]
+"""A simulator, q (n_q,) and a force (n_v,) [N, N m] -> what is wrong with the scene."""
 
 
 @contextmanager
@@ -398,12 +404,14 @@ class Simulator(Settings, Shown):
             If there is no ``optional/doctor``.
         """
         q = self.system.q_start if q is None else self.system.checked(q)
-        return tuple(findings_of_scene(self, q, checked_force(self.system, force)))
+        scene_findings: SceneFindings = part("scene_findings")
+        return tuple(scene_findings(self, q, checked_force(self.system, force)))
 
     def extended(self, step: StepData, q: Array) -> StepSolution:
         """Solve a step, with the user's own constraints and costs at q (n_q,), if there are any."""
         if self.extension is None:
             return self.solution(step)
+        extended_solution: ExtendedSolution = part("extended_solution")
         return extended_solution(self, step, self.extension(q))
 
     def fitting_solver(self, step: StepData) -> Solver:
@@ -416,6 +424,7 @@ class Simulator(Settings, Shown):
         """Solve a step under the simulator's law of friction, by the solver that is kept."""
         solver = self.fitting_solver(step)
         if self.law == COULOMB:
+            coulomb_solution: CoulombSolution = part("coulomb")
             return coulomb_solution(step, solver, self.accuracy)
         try:
             return self.solved(ScaledStep(step), solver)

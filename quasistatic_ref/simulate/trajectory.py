@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, KeysView, Mapping
+from collections.abc import Callable, Iterator, KeysView, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -10,23 +10,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.optimum import UNKNOWN, ContactForces
 from quasistatic_ref.errors import InputError, MissingKey, check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.parts.certify import contact_forces
-from quasistatic_ref.parts.simulate import contact_table, findings_of_time, step_table
+from quasistatic_ref.parts import is_there, part
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.step.data import Contacts, Extra, StepData, no_rows
+from quasistatic_ref.step.solution import UNKNOWN, ContactForces, ForcesOfStep
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
     from quasistatic_ref.simulate.scene import Scene
+
+TimeFindings = Callable[["Trajectory"], list[Finding]]
+"""A run -> what is found of the seconds that it took."""
+Table = Callable[["Trajectory"], "DataFrame"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -141,8 +144,10 @@ class Trajectory(Plain, HasPage):
 
     @property
     def _findings(self) -> tuple[Finding, ...]:
-        of_time = findings_of_time(self) if self.seconds else ()
-        return (*self.header.findings, *of_time)
+        if not (self.seconds and is_there("time_findings")):
+            return self.header.findings
+        time_findings: TimeFindings = part("time_findings")
+        return (*self.header.findings, *time_findings(self))
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k (from 0), bit for bit as it was solved.
@@ -185,7 +190,7 @@ class Trajectory(Plain, HasPage):
     def forces(self) -> Array:
         """Forces of single contacts in each step, shape (steps, n_c, 4) [N, N m].
 
-        They are those of :attr:`~quasistatic_ref.certify.optimum.StepSolution.forces`. A record of
+        They are those of :attr:`~quasistatic_ref.step.solution.StepSolution.forces`. A record of
         forces holds them. Of a full record they are formed when they are first read, in some
         milliseconds a step.
 
@@ -204,7 +209,7 @@ class Trajectory(Plain, HasPage):
     def imbalance(self) -> Array:
         """The share of the load that the forces of each step do not balance, (steps,) [-].
 
-        That of :class:`~quasistatic_ref.certify.optimum.ContactForces`.
+        That of :class:`~quasistatic_ref.step.solution.ContactForces`.
 
         Raises
         ------
@@ -240,7 +245,8 @@ class Trajectory(Plain, HasPage):
         step = self.step_data(k)
         delta_q = self["delta_q"][k]
         near = (delta_q, self["wrench"][k]) if step.n_v == len(delta_q) else None
-        return contact_forces(step, near)
+        contact_forces: ForcesOfStep = part("contact_forces")
+        return contact_forces(step, None, near)
 
     def wrench_on(self, name: str, scene: Scene | None = None) -> Array:
         """Sum of the contact wrenches by lam on a body or a link, for each step.
@@ -327,6 +333,7 @@ class Trajectory(Plain, HasPage):
         InputError
             If pandas is not installed, or that part is missing.
         """
+        step_table: Table = part("step_table")
         return step_table(self)
 
     def contacts_to_pandas(self) -> DataFrame:
@@ -337,6 +344,7 @@ class Trajectory(Plain, HasPage):
         InputError
             As for :meth:`to_pandas`.
         """
+        contact_table: Table = part("contact_table")
         return contact_table(self)
 
 

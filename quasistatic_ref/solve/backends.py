@@ -21,13 +21,13 @@ from typing import Any, Literal, get_args
 
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import check_there
-from quasistatic_ref.parts.names import qpsolvers_names
+from quasistatic_ref.parts import is_there, part
 from quasistatic_ref.step.cones import checked_cone
 
 Options = dict[str, Any]
 OptionSets = tuple[Options, ...]
 QPSOLVERS = "qpsolvers:"
+SolverNames = Callable[[], list[str]]
 
 RELAXED = (1.0, 1e2, 1e4)
 """Accuracies tried where a backend is given second-order cones, relative to the one of the call.
@@ -255,6 +255,9 @@ def reached(interface: str) -> tuple[str, ...]:
             words = f"{broken} is installed, but cannot be imported, and is left out"
             warnings.warn(words, stacklevel=2)
         return names
+    if not is_there("qpsolvers_names"):
+        return ()
+    qpsolvers_names: SolverNames = part("qpsolvers_names")
     return tuple(qpsolvers_names())
 
 
@@ -311,7 +314,7 @@ def backend(name: str) -> Backend:
         If the name is unknown, or its solver is not installed.
     """
     if name.startswith(QPSOLVERS):
-        check_there("qpsolvers", name)
+        part("qpsolvers_solver", name)  # or its sentence
     elif is_function(name):
         return Backend(name, "a function", lambda _: ({},), cvxpy=False)
     elif name in REQUIRED and find_spec(name):

@@ -4,10 +4,14 @@ from collections.abc import Callable
 from typing import Any
 
 from quasistatic_ref.errors import check_kind
-from quasistatic_ref.parts.solve import fast_solver, function_solver, qpsolvers_solver
+from quasistatic_ref.parts import part
 from quasistatic_ref.solve.backends import DEFAULT, NONE, QPSOLVERS, check_backend, is_function
 from quasistatic_ref.solve.solver import NoSolver, Solver
 from quasistatic_ref.step.data import StepData
+
+FunctionSolver = Callable[[StepData, str | Callable[..., Any]], Solver]
+NamedSolver = Callable[[StepData, str], Solver]
+FastSolver = Callable[[StepData, str | None], Solver]
 
 
 def solver_for(
@@ -34,8 +38,10 @@ def solver_for(
         If `fast` is wanted, and its folder is not there.
     """
     if callable(name) or (isinstance(name, str) and is_function(name)):
+        function_solver: FunctionSolver = part("function_solver")
         return function_solver(step, name)
     if fast:
+        fast_solver: FastSolver = part("fast_solver")
         return fast_solver(step, name)
     name = DEFAULT if name is None else name
     check_kind(name, str, "solver", "the name of a backend, a function or a Solver")
@@ -43,6 +49,7 @@ def solver_for(
     if name == NONE:
         return NoSolver(step, name)
     if name.startswith(QPSOLVERS):
+        qpsolvers_solver: NamedSolver = part("qpsolvers_solver", name)
         return qpsolvers_solver(step, name)
     # CVXPY takes longer to import than a short run.
     from quasistatic_ref.solve.step_problem import CvxpySolver

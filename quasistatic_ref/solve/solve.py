@@ -21,18 +21,12 @@ from quasistatic_ref.certify.degeneracy import Degeneracy, step_degeneracy
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.norm import check_length, correct_digits
-from quasistatic_ref.certify.optimum import (
-    Certificate,
-    ExactOptimum,
-    SolverStatistics,
-    StepSolution,
-    optimum_by_groups,
-)
+from quasistatic_ref.certify.optimum import ExactOptimum, optimum_by_groups
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Late
 from quasistatic_ref.numbers.arrays import Array, all_finite, positive_number, without_warnings
 from quasistatic_ref.numbers.precision import check_arithmetic
-from quasistatic_ref.parts.solve import extended_step
+from quasistatic_ref.parts import part
 from quasistatic_ref.solve.backends import NONE, Certify, check_certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solver import FREE, Reply, Solver
@@ -40,9 +34,15 @@ from quasistatic_ref.solve.units import ScaledStep, in_natural, in_si, natural_f
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.extension import StepExtension
+from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
 from quasistatic_ref.step.standard_form import StandardForm, Units, standard_form
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
 
+ExtendedStep = Callable[
+    [StepData, StepExtension, str | Callable[..., Any] | Solver | None, bool, float, Certify],
+    StepSolution,
+]
+"""The arguments of :func:`solve_step` -> the solution of a step with what a user adds."""
 FEW = 100
 """Most rows of which a start is chosen from all groups at once, and not from each. Where lam is not
 unique, the start decides on it; that of small scenes is in committed runs."""
@@ -127,6 +127,7 @@ def solve_step(
     name = solver.name if isinstance(solver, Solver) else solver
     check_certify(name if isinstance(name, str) else None, certify)
     if extension is not None:
+        extended_step: ExtendedStep = part("extended_step")
         return extended_step(step, extension, solver, fast, accuracy, certify)
     if isinstance(solver, Solver):
         solver.check(step)

@@ -19,7 +19,7 @@ import numpy as np
 
 from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.norm import energy_norm, joined, single_lengths
-from quasistatic_ref.certify.verification import Residuals, optimality_residuals
+from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array, Mask, all_finite
 from quasistatic_ref.step.cones import cone

@@ -32,7 +32,7 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.numbers.angles import cos_sin_of_turn
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
-from quasistatic_ref.parts.step import ellipsoid_cone
+from quasistatic_ref.parts import part
 
 if TYPE_CHECKING:
     import cvxpy as cp
@@ -284,7 +284,8 @@ def cone(name: str) -> FrictionCone:
     if name == "frictionless":
         return PolyhedralCone(name, ("n",), 1, frictionless)
     if name == ELLIPSOID:
-        return ellipsoid_cone()
+        ellipsoid: FrictionCone = part("ellipsoid")
+        return ellipsoid
     prefix, _, sides = str(name).partition("-")
     if prefix == "facets" and sides.isascii() and sides.isdecimal() and str(int(sides)) == sides:
         K = int(sides)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from quasistatic_ref.numbers.arrays import Array, Indices
-from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.data import Extra, StepData
 
 
 class StepRises(Protocol):
@@ -33,3 +33,5 @@ class StepExtension(Protocol):
 
 ExtensionOfQ = Callable[[Array], StepExtension]
 """An extension at each q, shape (n_q,)."""
+Posed = Callable[[StepData, StepExtension], tuple[StepData, bool]]
+"""A step and what a user adds -> the step with what of it is data, and whether that is all."""

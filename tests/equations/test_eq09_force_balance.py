@@ -1,4 +1,4 @@
-"""Eq. (9), stationarity, as mended. Under test: certify.verification.optimality_residuals.
+"""Eq. (9), stationarity, as mended. Under test: certify.residuals.optimality_residuals.
 
 The paper prints [h K_q dq_a - h K_q dq_bar_a + tau_a; M_u / h - h tau_u] + sum_n A_j' lam_j = 0.
 (13) implies [h K_q dq_a - h K_q dq_bar_a - h tau_a; M_u dq_u / h - h tau_u] - sum_j A_j' lam_j = 0.

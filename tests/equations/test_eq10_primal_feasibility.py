@@ -1,4 +1,4 @@
-"""Eq. (10), A_j delta_q >= b_j. Under test: certify.verification.optimality_residuals."""
+"""Eq. (10), A_j delta_q >= b_j. Under test: certify.residuals.optimality_residuals."""
 
 import numpy as np
 

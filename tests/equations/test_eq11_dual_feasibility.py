@@ -1,4 +1,4 @@
-"""Eq. (11), lam_j >= 0. Under test: certify.verification.optimality_residuals."""
+"""Eq. (11), lam_j >= 0. Under test: certify.residuals.optimality_residuals."""
 
 import numpy as np
 

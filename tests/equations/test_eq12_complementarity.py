@@ -1,4 +1,4 @@
-"""Eq. (12), slack o lam_j = 0. Under test: certify.verification.optimality_residuals."""
+"""Eq. (12), slack o lam_j = 0. Under test: certify.residuals.optimality_residuals."""
 
 import numpy as np
 

@@ -1,18 +1,16 @@
 """The core imports no optional part and no lab; third-party packages keep to their folders."""
 
 import ast
-import tomllib
 
-import grimp
 import pytest
 
 from quasistatic_ref.model.body import FIXED
 from quasistatic_ref.model.joints import BASES, JOINTS
-from tests.pages import PACKAGE, ROOT
+from tests.pages import PACKAGE
 from tests.processes import printed_text, python
 
 # What import-linter cannot see: the core's files that may name a folder of modules as a string.
-DOORS = {"lab": "cli/main.py", "optional": "parts/"}
+DOORS = {"lab": "cli/main.py", "optional": "parts.py"}
 
 # Kinds answer for themselves: who may ask for the class of a cone, and name a kind of joint.
 CONES = {"FrictionCone", "PolyhedralCone", "CurvedCone", "EllipsoidCone"}
@@ -29,38 +27,6 @@ def test_the_contracts_of_imports_in_pyproject_are_kept():
         "from importlinter.cli import lint_imports; raise SystemExit(lint_imports(no_cache=True))"
     )
     python("-c", call)
-
-
-TOOLS = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]
-FOLDERS, PARTS = TOOLS["importlinter"]["contracts"][:2]
-DEPTHS = {
-    name: depth for depth, layer in enumerate(FOLDERS["layers"]) for name in layer.split(" : ")
-}
-
-
-def depth_of(module):
-    """How deep a module's folder stands; ``parts.solve`` stands where ``solve`` does."""
-    _, folder, *inner = module.split(".")
-    return DEPTHS[inner[0] if folder == "parts" and inner and inner[0] in DEPTHS else folder]
-
-
-def arrows_up(graph):
-    """Imports from a folder of one that stands above it, but those of parts/, which lead out."""
-    allowed = {tuple(line.split(" -> ")) for line in PARTS["ignore_imports"]}
-    for importer in graph.modules - {"quasistatic_ref", "quasistatic_ref.figures"}:
-        for imported in graph.find_modules_directly_imported_by(importer) - {"quasistatic_ref"}:
-            goes_out = imported.split(".")[1] in ("optional", "files")
-            at_door = importer.startswith("quasistatic_ref.parts.") and goes_out
-            is_up = depth_of(imported) < depth_of(importer)
-            if is_up and not at_door and (importer, imported) not in allowed:
-                yield importer, imported
-
-
-def test_no_import_for_types_goes_up():
-    """The contracts leave out imports for types, and those of parts/; here they count."""
-    graph = grimp.build_graph("quasistatic_ref", exclude_type_checking_imports=False)
-    assert len(graph.modules) > 400
-    assert [*arrows_up(graph)] == []
 
 
 def named_folders(node, name):
@@ -142,7 +108,7 @@ def test_the_judge_runs_without_cvxpy():
         "sys.modules['cvxpy'] = sys.modules['qpsolvers'] = None",
         "import numpy as np",
         "from tests.helpers import planted_step",
-        "from quasistatic_ref.certify.verification import optimality_residuals",
+        "from quasistatic_ref.certify.residuals import optimality_residuals",
         "from quasistatic_ref.step.standard_form import standard_form",
         "step, delta_q, lam = planted_step(1)",
         "print(optimality_residuals(standard_form(step), delta_q, lam).worst < 1e-9)",

@@ -21,10 +21,10 @@ from quasistatic_ref import (
     save_trajectory,
     standard_form,
 )
-from quasistatic_ref.certify import optimum
 from quasistatic_ref.cli.run import worst_residual
 from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.files.trajectory import header_table
+from quasistatic_ref.parts import part
 from quasistatic_ref.simulate import recorder
 from tests.closeness import assert_same
 from tests.scenes import written_scenario
@@ -227,15 +227,15 @@ def test_spoilt_names_are_refused_and_every_array_of_another_shape(tmp_path):
 
 def test_a_record_of_forces_is_kept_where_those_of_one_step_are_not_found(tmp_path, monkeypatch):
     """And read back; its torque grows by 7e-4 N m a step."""
-    found = optimum.contact_forces
+    found = part("contact_forces")
 
-    def fails(step, near):
+    def fails(step, *others):
         if step.tau_u[5] == torque:
             raise ZeroDivisionError
-        return found(step, near)
+        return found(step, *others)
 
     torque = load_scenario("sphere_spin", steps=4).run()["tau_u"][2, 5]
-    monkeypatch.setattr(optimum, "contact_forces", fails)
+    monkeypatch.setattr("quasistatic_ref.optional.forces.forces.contact_forces", fails)
     scene = load_scenario("sphere_spin", {"record": "forces"}, steps=4)
     run = load_trajectory(save_trajectory(tmp_path / "run.npz", scene.run()))
     assert np.isnan(run.forces).any(axis=(1, 2)).tolist() == [False, False, True, False]

@@ -6,13 +6,18 @@ all others, a cylinder, cone or ellipsoid and any of these or of those, ``option
 and checks coal's answer.
 """
 
+from collections.abc import Callable
+
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import polytope_pairs
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import dot, product
-from quasistatic_ref.parts import needing
+from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
+
+WitnessOfPair = Callable[[str, ShapeInWorld, ShapeInWorld], Witness]
+"""As :func:`solid_pair`."""
 
 
 def solid_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
@@ -64,8 +69,7 @@ def _curved_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     if isinstance(b.shape, HalfSpace):
         return _solid_on_plane(b, b.shape, a).swapped()
     kinds = " and ".join(type(solid.shape).__name__.lower() for solid in (a, b))
-    with needing(f"{name}: contact of {kinds}"):
-        from quasistatic_ref.optional.curved.by_coal import coal_witness
+    coal_witness: WitnessOfPair = part("coal_witness", f"{name}: contact of {kinds}")
     return coal_witness(name, a, b)
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import (
     BackendError,
     InputError,
@@ -19,7 +20,13 @@ from quasistatic_ref.errors import (
 )
 from quasistatic_ref.files.content import toml_read
 from quasistatic_ref.files.resources import scenario_path
-from quasistatic_ref.files.scenario.bodies import OfBodies, body_entry, joint_tracks, stiffnesses
+from quasistatic_ref.files.scenario.bodies import (
+    BodyEntry,
+    OfBodies,
+    body_entry,
+    joint_tracks,
+    stiffnesses,
+)
 from quasistatic_ref.files.scenario.checks import (
     check_made,
     check_motion,
@@ -38,7 +45,7 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.parts.files import default_backend, extended_bodies, fast_simulator
+from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.distances import check_closed
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import Record
@@ -50,11 +57,20 @@ from quasistatic_ref.simulate.stiffness import stiffness_of_parts
 from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import Target
-from quasistatic_ref.solve.backends import is_function
+from quasistatic_ref.solve.backends import DEFAULT, is_function
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ
 
 MOST_BODIES = 1000
+ExtendedBodies = Callable[
+    [System, tuple[ContactPair, ...], Mapping[str, BodyEntry], float, Array, Array],
+    tuple[tuple[ContactPair, ...], OfBodies],
+]
+"""A system, its pairs, its bodies' entries, h [s], K_q (n_a, n_a) and gravity (3,) [m/s^2] -> the
+pairs with those of supports, and what else is added to each step."""
+FastSimulator = Callable[[Simulator], Simulator]
+FastBackend = Callable[[System, Sequence[ContactPair], str, str], str]
+"""A system, its pairs, cone and law -> the backend of ``fast`` where none is named."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -104,7 +120,10 @@ class Scenario(Settings, Plain, Shown):
         if self.of_bodies is not None:
             extension = self.of_bodies.beside(extension)
         simulator = Simulator(**self.settings(), extension=extension)
-        return fast_simulator(simulator) if self.fast else simulator
+        if not self.fast:
+            return simulator
+        fast_simulator: FastSimulator = part("fast_simulator")
+        return fast_simulator(simulator)
 
     @property
     def target(self) -> Target:
@@ -266,13 +285,17 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     K_q = stiffness_of_parts(parts, system.n_a)
     of_bodies = None
     if any(entry.extends for entry in entries.values()):
+        extended_bodies: ExtendedBodies = part("extended_bodies")
         pairs, of_bodies = extended_bodies(system, pairs, entries, run["h"], K_q, gravity)
     backend = run["backend"]
     if backend is not None and is_function(backend) and not of_users:
         problem = "would run code, which no file may; give it as --backend FILE.py:NAME"
         raise solver.error_about("backend", problem, backend)
-    if backend is None:
-        run["backend"] = default_backend(run["fast"], system, pairs, named, law)
+    if backend is None and run["fast"]:
+        fast_backend: FastBackend = part("fast_backend")
+        run["backend"] = fast_backend(system, pairs, named, law)
+    elif backend is None:
+        run["backend"] = DEFAULT
     check_motion(system, pairs)
     if far := run["limits"].out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")

@@ -7,7 +7,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.lab.reality.outline import rotation
 from quasistatic_ref.lab.reality.push import FINGER, Pushed
 from quasistatic_ref.numbers.arrays import Array
@@ -18,6 +17,7 @@ from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
 
 

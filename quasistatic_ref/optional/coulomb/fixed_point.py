@@ -35,8 +35,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.optimum import StepSolution
-from quasistatic_ref.certify.verification import largest
+from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, all_finite, read_only
@@ -47,6 +46,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, check_step
+from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import frame_jacobian
 from quasistatic_ref.tolerances import ACCURACY
 

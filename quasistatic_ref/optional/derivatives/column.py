@@ -11,10 +11,10 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify.groups import row_owners
-from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.nearby import Changes, End, Nearby
+from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import standard_form
 
 SHARES: Final = (1e-3, 1e-4, 1e-5, 1e-6)

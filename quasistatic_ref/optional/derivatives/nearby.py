@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.groups import flat_rows
-from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.model.state import State
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.numbers.ordered import crossed
@@ -19,6 +18,7 @@ from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step, solved
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.solution import StepSolution
 
 Changes = Mapping[str, Array]
 """What some parameters change by, by their names."""

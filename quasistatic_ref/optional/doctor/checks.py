@@ -148,3 +148,8 @@ def looked(checks: Iterable[Check], of: Start | Trajectory) -> tuple[list[Findin
 def scene_findings(simulator: Simulator, q: Array, force: Array | None = None) -> list[Finding]:
     """The findings on a scene that is to start at q, (n_q,), under a force, (n_v,) [N, N m]."""
     return looked(OF_SCENE, Start(simulator, q, force))[0]
+
+
+def time_findings(trajectory: Trajectory) -> list[Finding]:
+    """What is found of the seconds that a run took."""
+    return looked(OF_TIME, trajectory)[0]

@@ -1,6 +1,6 @@
 """Faces that rest on fewer points than hold them, and points of a cloud that are no part of it."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +10,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.start import (
     Start,
     least,
@@ -18,7 +18,7 @@ from quasistatic_ref.optional.doctor.start import (
 )
 from quasistatic_ref.optional.doctor.tolerances import SUNK
 from quasistatic_ref.optional.doctor.undecided import Undecided, failure
-from quasistatic_ref.parts import is_there
+from quasistatic_ref.parts import is_there, part
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import REPEATED
@@ -97,7 +97,7 @@ def _around(points: Array, start: Start) -> bool:
 
 def strays(start: Start) -> Iterator[Finding]:
     """Clouds with points that no gap of a few spacings joins to the others."""
-    if not is_there("scans"):
+    if not is_there("stray_points"):
         return
     clouds = {
         id(p.shape): (p.shape, start.body(p.link))
@@ -105,7 +105,7 @@ def strays(start: Start) -> Iterator[Finding]:
         if isinstance(p.shape, PointCloud) and FEWEST <= len(p.shape.points) <= MANY
     }
     if clouds:
-        from quasistatic_ref.optional.scans.cloud import stray  # it loads SciPy: a second
+        stray: Callable[[Array], Mask] = part("stray_points")  # it loads SciPy: a second
     for shape, name in clouds.values():
         points = shape.points[stray(shape.points)]
         if len(points):

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.optional.doctor.artifacts import gap_after, quotient, ways_of
@@ -23,9 +22,7 @@ from quasistatic_ref.optional.doctor.measures import (
     touching,
 )
 from quasistatic_ref.optional.doctor.start import Start
-from quasistatic_ref.parts import is_there
-from quasistatic_ref.parts.certify import contact_forces
-from quasistatic_ref.parts.solve import posed
+from quasistatic_ref.parts import is_there, part
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.recorder import POINTS
@@ -35,8 +32,9 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
-    from quasistatic_ref.certify.optimum import ContactForces
     from quasistatic_ref.step.contacts import Contacts
+    from quasistatic_ref.step.extension import Posed
+    from quasistatic_ref.step.solution import ContactForces, ForcesOfStep, StepSolution
 
 NOTED = ("tau", "moved", "momentum", "gives")
 """What of a recorder, which may go, is kept: loads of each step, and what the observer notes."""
@@ -248,7 +246,10 @@ class Run(Start):
     @property
     def own_terms(self) -> bool:
         """Whether a user's own costs or constraints are more than rows and rises."""
-        return self.extension is not None and not posed(self.at(0).step, self.extension)[1]
+        if self.extension is None:
+            return False
+        posed: Posed = part("posed")
+        return not posed(self.at(0).step, self.extension)[1]
 
     def at(self, k: int) -> RunStep:
         """Step k, which is kept until another is asked for."""
@@ -299,9 +300,10 @@ class RunStep:
         None if the run is not `searched`, or there is no optional/forces.
         """
         polyhedral = cone(self.run.simulator.cone).polyhedral
-        if not (self.run.searched and polyhedral and is_there("forces")):
+        if not (self.run.searched and polyhedral and is_there("contact_forces")):
             return None
-        return contact_forces(self.step, self.near)
+        contact_forces: ForcesOfStep = part("contact_forces")
+        return contact_forces(self.step, None, self.near)
 
     @property
     def near(self) -> tuple[Array, Array]:

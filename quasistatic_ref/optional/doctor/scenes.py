@@ -10,12 +10,13 @@ import numpy as np
 from quasistatic_ref.certify.groups import Group, parted
 from quasistatic_ref.optional.doctor.programs import Alike
 from quasistatic_ref.optional.doctor.slow import SLOWLY, STRAIGHT, Slow
-from quasistatic_ref.parts.solve import posed
+from quasistatic_ref.parts import part
 
 if TYPE_CHECKING:
     from quasistatic_ref.contact.distance import ClosestPoints
     from quasistatic_ref.numbers.arrays import Array, Indices, Mask
     from quasistatic_ref.optional.doctor.run import Run
+    from quasistatic_ref.step.extension import Posed
 
 
 class Scene:
@@ -60,6 +61,7 @@ class Scene:
         points = points or simulator.closest_points(run.system.kinematics(q))
         step = simulator.step_at(q, run["q_bar_a"][k], run.loads_at(k, q), points)
         if simulator.extension is not None:
+            posed: Posed = part("posed")
             step = posed(step, simulator.extension(q))[0]
         self.every = step.contacts
         highest = np.zeros(len(run.pairs))

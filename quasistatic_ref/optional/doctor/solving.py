@@ -13,7 +13,7 @@ from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.run import Run, RunStep
-from quasistatic_ref.parts.certify import contact_forces
+from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -22,7 +22,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 
 if TYPE_CHECKING:
-    from quasistatic_ref.certify.optimum import ContactForces
+    from quasistatic_ref.step.solution import ContactForces, ForcesOfStep
 
 BORNE: Final = 1e-4
 """Share of the load [-] that forces of single contacts may leave without a finding."""
@@ -150,7 +150,8 @@ def _noise(at: RunStep, compliant: ContactForces, bits: Array) -> float:
     step = at.step
     off = bits * np.random.default_rng(0).uniform(-1.0, 1.0, len(bits))
     raised = step.replace(contacts=step.contacts.raised(off))
-    changed = contact_forces(raised, at.near).wrench
+    contact_forces: ForcesOfStep = part("contact_forces")
+    changed = contact_forces(raised, None, at.near).wrench
     change = np.abs(changed - compliant.wrench)
     groups = [group.contacts for group, _ in group_steps(step)]
     shares = [

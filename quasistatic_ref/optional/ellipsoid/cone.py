@@ -15,8 +15,8 @@ from quasistatic_ref.certify.curved_cone import CurvedCone
 from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
 from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.minimiser import rounded_quotients
-from quasistatic_ref.certify.optimum import Certificate
-from quasistatic_ref.certify.verification import Verdict, largest, wrong_bits, wrong_claim
+from quasistatic_ref.certify.residuals import largest
+from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.apex import apex
@@ -35,6 +35,7 @@ from quasistatic_ref.optional.ellipsoid.tolerances import ENCLOSED, IMPULSES
 from quasistatic_ref.optional.gap import duality_gap, fractions
 from quasistatic_ref.step.cones import ELLIPSOID, Claims, Judge, Rows, Violations
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.solution import Certificate
 
 if TYPE_CHECKING:
     import cvxpy as cp

@@ -19,7 +19,6 @@ from flint import arb, arb_mat, fmpq
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm, exact_matrix, fraction
 from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.minimiser import rounded_quotients
-from quasistatic_ref.certify.optimum import Certificate
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.apex import apex
@@ -38,6 +37,7 @@ from quasistatic_ref.optional.gap import (
     square_root,
 )
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.solution import Certificate
 
 BITS: Final = 640
 """Precision of the interior point: where contacts are at the limit of friction, its linear systems

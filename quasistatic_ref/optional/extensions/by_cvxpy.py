@@ -9,7 +9,6 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.optimum import Certificate, SolverStatistics, StepSolution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import check_arithmetic
@@ -24,6 +23,7 @@ from quasistatic_ref.solve.units import ScaledStep, in_si
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.problem import set_values
+from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
 from quasistatic_ref.step.standard_form import Units, si_units
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.verification import Residuals, optimality_residuals
+from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import Violations
 from quasistatic_ref.step.standard_form import StandardForm

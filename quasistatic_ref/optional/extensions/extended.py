@@ -10,7 +10,6 @@ the step, too. CVXPY is imported for terms alone: rows and rises are numbers alr
 from collections.abc import Callable
 from typing import Any
 
-from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.errors import BackendError, InputError, StepDataError
 from quasistatic_ref.optional.extensions.extension import checked_extension, none
 from quasistatic_ref.optional.extensions.own_rows import joined, with_numbers
@@ -21,6 +20,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import StepExtension
+from quasistatic_ref.step.solution import StepSolution
 
 
 def posed(step: StepData, extension: StepExtension) -> tuple[StepData, bool]:

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.groups import group_step, linked
-from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, StepDataError
@@ -38,6 +37,7 @@ from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.solution import StepSolution
 
 if TYPE_CHECKING:
     from quasistatic_ref.step.extension import ExtensionOfQ

@@ -43,7 +43,7 @@ from quasistatic_ref.certify.form import EXACT, MatrixForm, StepForm, columns, e
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.certify.optimum import ContactForces, ExactOptimum, step_optimum
+from quasistatic_ref.certify.optimum import ExactOptimum, step_optimum
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.numbers.precision import working_precision
@@ -55,6 +55,7 @@ from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.friction import contact_wrenches
+from quasistatic_ref.step.solution import ContactForces
 from quasistatic_ref.step.standard_form import frame_jacobian
 
 WRENCH: Final = [1, 2, 0, 3]

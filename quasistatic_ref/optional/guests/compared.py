@@ -9,12 +9,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.guests.tolerances import FORCES_AGREE, STEADY
 from quasistatic_ref.optional.guests.touches import StateContact
 from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import CREEP
 
 WINDOW = 0.1

@@ -20,7 +20,8 @@ from quasistatic_ref.optional.guests.mujoco_state import MujocoState, awake, muj
 from quasistatic_ref.optional.guests.opinion import MOVES, Opinion
 from quasistatic_ref.optional.guests.overlaps import misplaced, unlisted
 from quasistatic_ref.optional.guests.settled import run, velocities, window
-from quasistatic_ref.parts.simulate import coulomb_solution
+from quasistatic_ref.parts import part
+from quasistatic_ref.simulate.simulator import CoulombSolution
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.tolerances import ACCURACY, CREEP
@@ -28,8 +29,8 @@ from quasistatic_ref.tolerances import ACCURACY, CREEP
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
 
-    from quasistatic_ref.certify.optimum import StepSolution
     from quasistatic_ref.step.data import StepData
+    from quasistatic_ref.step.solution import StepSolution
 
 SHORT = 0.01
 """Time step for forces of what slides, over MuJoCo's [-]: springs give way by 1e-4 as much."""
@@ -131,6 +132,7 @@ def _sliding(step: StepData) -> StepSolution:
     Where that has no answer, the convex step, from which things lift off by a part of their way.
     """
     with suppress(QuasistaticError):
+        coulomb_solution: CoulombSolution = part("coulomb")
         return coulomb_solution(step, solver_for(step), ACCURACY)
     return solve_step(step)
 

@@ -14,7 +14,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import InputError, ModelError, ScenarioError, check_kind
 from quasistatic_ref.files.scenario.checks import run_fields
 from quasistatic_ref.files.scenario.overrides import Changes, about_changes, apply_settings
-from quasistatic_ref.files.scenario.scenario import Scenario
+from quasistatic_ref.files.scenario.scenario import FastBackend, FastSimulator, Scenario
 from quasistatic_ref.files.scenario.scenario_table import TOP, fields_of
 from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.formats.quoting import suggestion
@@ -25,13 +25,14 @@ from quasistatic_ref.optional.guests.mujoco import default_cone, first_equality
 from quasistatic_ref.optional.guests.places import overlapped_children
 from quasistatic_ref.optional.guests.settled import settled
 from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
-from quasistatic_ref.parts.files import default_backend, fast_simulator
+from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.extension import ExtensionOfQ
 
@@ -75,7 +76,10 @@ class MujocoScenario(Scenario):
         system = self.drive.system
         rows = system.extension if system.rows.names or len(system.rises) else None
         simulator = MujocoSimulator(**self.settings(), extension=rows)
-        return fast_simulator(simulator) if self.fast else simulator
+        if not self.fast:
+            return simulator
+        fast_simulator: FastSimulator = part("fast_simulator")
+        return fast_simulator(simulator)
 
     @property
     def target(self) -> Drive:
@@ -210,8 +214,10 @@ def _scenario_of(
     system.notes = (*system.notes, *overlaps)
     pairs = system.places.pairs
     if run["backend"] is None:
-        as_system = cast("System", system)
-        run["backend"] = default_backend(run["fast"], as_system, pairs, cone, CONVEX)
+        run["backend"] = DEFAULT
+        if run["fast"]:
+            fast_backend: FastBackend = part("fast_backend")
+            run["backend"] = fast_backend(cast("System", system), pairs, cone, CONVEX)
     floats = system.state(system.q_start).disables("GRAVITY")
     return MujocoScenario(
         path=path,

@@ -16,13 +16,8 @@ from quasistatic_ref.certify.farkas import fractions_read
 from quasistatic_ref.certify.form import EXACT, PRECISION, ExactForm, exact_matrix, fraction
 from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
 from quasistatic_ref.certify.norm import digits_of_error
-from quasistatic_ref.certify.verification import (
-    Verdict,
-    unique_and_smooth,
-    wrong_bits,
-    wrong_claim,
-    wrong_sign,
-)
+from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.certify.verification import unique_and_smooth, wrong_sign
 from quasistatic_ref.certify.working_set import Point, fraction_point
 from quasistatic_ref.errors import InputError, QuasistaticError
 from quasistatic_ref.files.content import text_written

@@ -8,8 +8,8 @@ from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.optional.show.show import Page, direction, number
 
 if TYPE_CHECKING:
-    from quasistatic_ref.certify.optimum import Certificate
     from quasistatic_ref.step.data import StepData
+    from quasistatic_ref.step.solution import Certificate
 
 CONTACT = ("contact", "gap [m]", "normal", "mu_v", "mu_omega [m]", "rows")
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.groups import group_steps
-from quasistatic_ref.certify.optimum import StepSolution
 from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
@@ -25,6 +24,7 @@ from quasistatic_ref.optional.forces.of_group import group_compliance
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Contacts, StepData
+from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import standard_form
 
 COARSER = 2.0**18

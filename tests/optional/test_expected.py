@@ -1,0 +1,85 @@
+"""Each part is what the core expects of it: mypy reads this file, and each row is loaded."""
+
+from collections.abc import Callable
+
+import pytest
+
+from quasistatic_ref.contact.crossings import CurveCrossings
+from quasistatic_ref.contact.normals import KnownGaps
+from quasistatic_ref.contact.solids.solid_pair import WitnessOfPair
+from quasistatic_ref.files.clouds import FilePoints
+from quasistatic_ref.files.mesh_files import FileMesh
+from quasistatic_ref.files.scenario import scenario
+from quasistatic_ref.files.urdf import file
+from quasistatic_ref.formats.shown import Page
+from quasistatic_ref.model.body import Described
+from quasistatic_ref.model.world import ReadUrdf
+from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.optional.coulomb import fixed_point
+from quasistatic_ref.optional.curved import by_coal, clouds_by_coal, rims, ways_out
+from quasistatic_ref.optional.doctor import checks, names, observer
+from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
+from quasistatic_ref.optional.extensions import by_function, extended, of_scenario
+from quasistatic_ref.optional.fast import simulator, solver
+from quasistatic_ref.optional.forces import forces
+from quasistatic_ref.optional.models import described
+from quasistatic_ref.optional.qpsolvers import through_qpsolvers
+from quasistatic_ref.optional.readers import meshes, points
+from quasistatic_ref.optional.scans import cloud
+from quasistatic_ref.optional.show import pages, table
+from quasistatic_ref.parts import PARTS, is_there, part
+from quasistatic_ref.simulate.distances import ChangedPairs
+from quasistatic_ref.simulate.recorder import WatchingDoctor
+from quasistatic_ref.simulate.simulator import CoulombSolution, ExtendedSolution, SceneFindings
+from quasistatic_ref.simulate.trajectory import Table, TimeFindings
+from quasistatic_ref.solve.backends import SolverNames
+from quasistatic_ref.solve.choice import FastSolver, FunctionSolver, NamedSolver
+from quasistatic_ref.solve.solve import ExtendedStep
+from quasistatic_ref.step.cones import FrictionCone
+from quasistatic_ref.step.extension import Posed
+from quasistatic_ref.step.solution import ForcesOfStep
+
+
+class Expected:
+    """By each word what it names, as the core may use it."""
+
+    urdf_tree: ReadUrdf = file.urdf_tree
+    described_model: Described = described.described_model
+    file_mesh: FileMesh = meshes.file_mesh
+    file_points: FilePoints = points.file_points
+    extended_bodies: scenario.ExtendedBodies = of_scenario.of_scenario
+    coal_witness: WitnessOfPair = by_coal.coal_witness
+    curve_crossings: CurveCrossings = rims.curve_crossings
+    known_gaps: KnownGaps = ways_out.known_gaps
+    pairs_by_coal: ChangedPairs = clouds_by_coal.pairs_by_coal
+    ellipsoid: FrictionCone = ELLIPSOID_CONE
+    coulomb: CoulombSolution = fixed_point.simulated_solution
+    posed: Posed = extended.posed
+    extended_step: ExtendedStep = extended.extended_step
+    extended_solution: ExtendedSolution = extended.simulated_solution
+    contact_forces: ForcesOfStep = forces.contact_forces
+    function_solver: FunctionSolver = by_function.FunctionSolver
+    qpsolvers_solver: NamedSolver = through_qpsolvers.QpsolversSolver
+    qpsolvers_names: SolverNames = through_qpsolvers.available_solvers
+    fast_solver: FastSolver = solver.fast_solver
+    fast_simulator: scenario.FastSimulator = simulator.FastSimulator
+    fast_backend: scenario.FastBackend = simulator.default_backend
+    doctor: WatchingDoctor = observer.Doctor
+    scene_findings: SceneFindings = checks.scene_findings
+    time_findings: TimeFindings = checks.time_findings
+    finding_names: frozenset[str] = names.NAMES
+    stray_points: Callable[[Array], Mask] = cloud.stray
+    page_text: Page = pages.text
+    page_html: Page = pages.html
+    step_table: Table = table.data_frame
+    contact_table: Table = table.contact_frame
+
+
+@pytest.mark.parametrize("word", PARTS)
+def test_a_word_names_what_the_core_expects(word: str) -> None:
+    assert part(word) is vars(Expected)[word]
+
+
+def test_the_core_states_what_it_expects_of_each_word() -> None:
+    assert Expected.__annotations__.keys() == PARTS.keys()
+    assert all(map(is_there, PARTS))
