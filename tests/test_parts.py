@@ -62,13 +62,13 @@ def whole(tmp_path_factory):
 
 
 def in_turn(names):
-    """Six selections, each of half of the names: of any two, each is once there without the other.
+    """Seven selections of names: of any two names, each is once there without the other.
 
-    That is so as none of the twenty ways to take part in three of six is within another.
+    That is so as none of the 35 ways to take part in three of seven is within another.
     """
-    ways = [*combinations(range(6), 3)]
+    ways = [*combinations(range(7), 3)]
     assert len(names) <= len(ways)
-    return [[name for name, way in zip(names, ways, strict=False) if k in way] for k in range(6)]
+    return [[name for name, way in zip(names, ways, strict=False) if k in way] for k in range(7)]
 
 
 GONE = [[""], *(pytest.param(names, marks=pytest.mark.long) for names in in_turn(PARTS))]
