@@ -96,7 +96,7 @@ def _field_verdict(layer: str, case: Json, record: Json, expected: Json, answer:
         return plain_failure(failing)
     digits = min((d.digits for d in compared.values() if d.holds), default=None)
     if failing:
-        verdict = FREEDOMS[layer](case, record, answer, failing)
+        verdict = FREEDOMS[layer](case, record, signed, failing)
         return verdict if verdict.field else acceptance(verdict.reason, digits)
     if signed != answer:
         return acceptance("-q in the place of a quaternion q", digits)

@@ -1,10 +1,14 @@
 """Answers that differ and are right, and their neighbours that are not."""
 
+import numpy as np
 import pytest
 
+from quasistatic_ref.lab.program.layers import LAYERS as PROGRAM
+from quasistatic_ref.lab.program.layers import plain
 from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
+from quasistatic_ref.lab.vectors.converters import quaternion_places
 from quasistatic_ref.lab.vectors.tables import ORIGIN, at
-from tests.lab.vectors.committed_cases import cases, expected_of
+from tests.lab.vectors.committed_cases import cases, expected_of, report_on
 
 # Min x^2/2 with the row x >= 1 given twice: lam_1 + lam_2 = 1, in any shares.
 TWICE = {"H": [[1.0]], "g": [0.0], "A": [[1.0], [1.0]], "b": [1.0, 1.0]}
@@ -147,3 +151,28 @@ def test_minus_q_is_q_but_minus_cos_sin_is_not(layer, field, kind, turn, verdict
     q[turn] = [-x for x in q[turn]]
     answer = wanted["output"] | {field: q}
     assert verdict_to_digits(layer, case.input, wanted, answer).verdict == verdict
+
+
+SIGNS = {
+    "all turned": lambda q, rng: -q,
+    "w not below 0": lambda q, rng: q if q[3] >= 0 else -q,
+    "by chance": lambda q, rng: q * rng.choice([-1.0, 1.0]),
+}
+
+
+@pytest.mark.parametrize("layer", ["integrate", "step"])
+@pytest.mark.parametrize("sign", SIGNS)
+def test_the_plain_program_is_right_with_any_sign_of_its_quaternions(layer, sign, rng):
+    """Also where another freedom is used: other contacts, another lam."""
+    field = {"integrate": "q", "step": "q_next"}[layer]
+    outputs = {}
+    for case in cases(layer):
+        output = plain(PROGRAM[layer](case.input))
+        if field in output:
+            q = np.array(output[field])
+            for place in quaternion_places(case.input["mechanism"]):
+                q[place] = SIGNS[sign](q[place], rng)
+            output[field] = q.tolist()
+        outputs[case.id] = output
+    report = report_on(layer, outputs)
+    assert report.ok, report.trouble
