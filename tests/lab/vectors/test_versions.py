@@ -9,14 +9,14 @@ from quasistatic_ref.lab.vectors.versions import RELEASE
 from tests.lab.vectors.committed_cases import ROOT, VECTORS
 
 HASHES = {
-    "distance": "f910224f6c9d770c74ac2bf4b73ca631f61dec870d31f790e9e6b53686f7abc8",
+    "distance": "80735c595d255903889e3acb308a8f0744724b69840dd7c390ad9b22e3f102c4",
     "selection": "f354fd7e406274e7e237eb66c62be386ba2d65539d3d86f018ae2648983e5d44",
-    "jacobian": "b0f840ffada6cc054c2281021a76220cda8817465caffe32cd83c9f28471194b",
+    "jacobian": "ac05dd92b4428eb9389e9b4b0d175bd171f5c1bc81cf0db40b74ce324e781e71",
     "rows": "486e16dbf3ddf106a85a4ef9f34e33fed779377b4d9a40ca4320cc74990253db",
     "qp": "b26d8e669f412c35cf57e1a9d2b26da48f0a5aa13efc60bd43595fc61d9b004d",
     "wrench": "ba3e8365d03d022a6bd87683268ad7a4d90f69faf87193505904abb2286f3ebc",
     "integrate": "4b0ca0c4fc608a6b66575636ac8ab2b346f8d53d03317481b3290bb7d3c4e6c1",
-    "step": "86a855b372655b588a2fe96878a8fa6826e41ac0b2703352371240626af5b78d",
+    "step": "9239603a5100b62a66a5bb2b7d10b8e8a0eaf3ce9e41749f9be9be75e42d3a9b",
     "derivative": "b0be941667c69fab3714389a71ce5089dc8e3e201a3268b6bd89eb03945c13a2",
 }
 """SHA-256 of inputs/LAYER.json followed by expected/LAYER.json. A changed case is another version:
@@ -24,7 +24,7 @@ count RELEASE up, write these anew."""
 
 
 def test_the_version_is_the_same_wherever_it_is_said():
-    assert RELEASE == 12
+    assert RELEASE == 13
     citation = (VECTORS / "CITATION.cff").read_text()
     assert f'\nversion: "{RELEASE}"\n' in citation
     assert f"quasi-dynamic vectors {RELEASE}**" in (VECTORS / "README.md").read_text()

@@ -67,7 +67,7 @@ def random_scene(rng: Rng, level: int) -> Json:
     """The input of a case."""
     kind = int(rng.integers(4))
     if level != EASY and kind == 0:
-        return (_cloud_in_plate if rng.integers(5) < 2 else _bricks)(rng)
+        return (_cloud if rng.integers(5) < 2 else _bricks)(rng)
     tree = _bodies(rng, level, kind)
     bodies = {"bodies": tree}
     q = random_q(rng, bodies)
@@ -242,14 +242,41 @@ def _bricks(rng: Rng) -> Json:
     return case
 
 
-def _cloud_in_plate(rng: Rng) -> Json:
-    """A cloud with a point on the middle plane of a plate, and all others on one side of it."""
+def _cloud(rng: Rng) -> Json:
+    """A free cloud in a plate, flush with an edge of it, or on the axis of a capsule."""
+    points, under = (_cloud_in_plate, _stl_on_plate, _points_on_axis)[int(rng.integers(3))](rng)
+    cloud = {"kind": "cloud", "points": points.tolist()}
+    case = _free(rng, cloud, [0.0, 0.0, 0.0, *UPRIGHT])
+    case["shapes"]["under"] = on(None, under)
+    _add_pair(rng, case, "under", "body", int(rng.integers(1, 5)))
+    return case
+
+
+def _cloud_in_plate(rng: Rng) -> tuple[Array, Json]:
+    """A point on the middle plane of a plate; the others on one side, or most of them."""
     thin = int(rng.integers(3))
     size = rng.choice([0.5, 1.0], 3)
     size[thin] = 0.125
-    points = rng.integers(-2, 3, (4, 3)) / 16
-    points[:, thin] = rng.choice([-1, -1, 1]) * np.array([0, 1, 2, 4]) / 16
-    case = _free(rng, {"kind": "cloud", "points": points.tolist()}, [0.0, 0.0, 0.0, *UPRIGHT])
-    case["shapes"]["under"] = on(None, {"kind": "box", "size": size.tolist()})
-    _add_pair(rng, case, "under", "body", int(rng.integers(1, 5)))
-    return case
+    points = rng.integers(-2, 3, (6, 3)) / 16
+    one_side = np.array([0, 1, 2, 4, 4, 4]) / 16
+    most = np.array([0, 3, -1, -1, -1, -1]) / 64  # the mean height says another side
+    points[:, thin] = rng.choice([-1, 1]) * (one_side if rng.integers(2) else most)
+    return points, {"kind": "box", "size": size.tolist()}
+
+
+def _stl_on_plate(rng: Rng) -> tuple[Array, Json]:
+    """A brick as an STL has it, each corner several times, on a plate and flush with its edge."""
+    size = rng.choice([0.125, 0.25], 3)
+    plate = np.array([1.0, 1.0, 0.125])
+    corners = size * (np.indices((2, 2, 2)).reshape(3, -1).T - 0.5)
+    middle = np.append(rng.choice([-1, 1], 2) * (plate - size)[:2] / 2 * rng.integers(0, 2, 2), 0.0)
+    middle[2] = (plate + size)[2] / 2
+    of_triangles = rng.permutation(np.repeat(corners, rng.integers(1, 7, len(corners)), axis=0))
+    return middle + of_triangles, {"kind": "box", "size": plate.tolist()}
+
+
+def _points_on_axis(rng: Rng) -> tuple[Array, Json]:
+    """Points of which the first is on the axis of a capsule, and the others are around it."""
+    points = rng.integers(-4, 5, (4, 3)) / 16
+    points[0, :2] = 0.0
+    return points, {"kind": "capsule", "radius": 0.0625, "length": 0.5}

@@ -10,7 +10,14 @@ from itertools import pairwise
 
 import numpy as np
 
-from quasistatic_ref.lab.program.candidates import RANKED, candidates, gaps, k_first, smaller
+from quasistatic_ref.lab.program.candidates import (
+    RANKED,
+    candidates,
+    gaps,
+    k_first,
+    smaller,
+    without_repeats,
+)
 from quasistatic_ref.lab.program.candidates import TIED as FACES
 from quasistatic_ref.lab.program.distance import closest_points, corners
 from quasistatic_ref.lab.program.layers import plain
@@ -64,7 +71,10 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
             > 2 * allowed
         ):
             return f"the distances of {pair['name']} are others"
-        sides: Sides = sides_of(case, pair, at)
+        sides: Sides = {
+            side: (without_repeats(shape), pose)
+            for side, (shape, pose) in sides_of(case, pair, at).items()
+        }
         *columns, index, late = candidates(*sides["alpha"], *sides["beta"], pair["k"])
         every = [dict(zip(FIELDS, values, strict=True)) for values in zip(*columns, strict=True)]
         known = dict(zip(index.tolist(), every, strict=True))

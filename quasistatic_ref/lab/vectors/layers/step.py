@@ -1,6 +1,6 @@
 """Layer `step`: everything at once, composed layer by layer.
 
-Its 173 cases are files. They were made once: each layer's correctly rounded answer was the next
+Its cases are files. Most were made once: each layer's correctly rounded answer was the next
 one's input, and tolerances and ties came from distances in exact numbers.
 """
 

@@ -29,8 +29,15 @@ FOLLOWER = (
     "J[:, columns] + joint_columns,",
     '(0 if "mimic" in body else J[:, columns]) + joint_columns,',
 )
+SLIDER = (
+    "mechanism.py",
+    "J[:, columns] + joint_columns,",
+    '(0 if body["joint"] == "prismatic" else J[:, columns]) + joint_columns,',
+)
 FREE_JOINT = "joint_columns[:3, :3] = {0}\n            joint_columns[3:, 3:] = {0}\n"
 LONG_WAY = "np.arctan2(s1, c1) - np.arctan2(s, c)"
+KEPT = 'return shape | {"points": list(dict.fromkeys(map(tuple, shape["points"])))}'
+AXIS = "np.where(d > 0, d, 1)[:, None]"
 ROUNDED = "np.rint(phi / (RANKED * smaller_size))"
 
 MISTAKES = {
@@ -50,6 +57,8 @@ MISTAKES = {
     "a follower without its leader's motion": [
         ("jacobian", "J", *FOLLOWER),
         ("step", "contacts.J", *FOLLOWER),
+        ("jacobian", "J", *SLIDER),
+        ("step", "contacts.J", *SLIDER),
     ],
     "sign of the contact term": [
         ("rows", "A", "rows.py", "return np.column_stack(", "return -np.column_stack("),
@@ -117,6 +126,15 @@ MISTAKES = {
     ],
     "a point between two faces": [
         ("step", "contacts.n", "candidates.py", "np.abs(way - n[i]).max() > SAME_NORMAL", "False"),
+        ("step", "contacts.n", "candidates.py", "heights.min(axis=0)", "heights.mean(axis=0)"),
+        ("step", "contacts.n", "candidates.py", "(phi <= TIED)", "(phi <= -TIED)"),
+    ],
+    "points of a cloud that are equal": [
+        ("step", "contacts.alpha", "candidates.py", KEPT, "return shape"),
+    ],
+    "no way out of an axis": [
+        (layer, field, "distance.py", f"{AXIS}, AXES[0])", f"{AXIS}, AXES[2])")
+        for layer, field in (("distance", "n"), ("step", "contacts.n"))
     ],
     "other tolerances of ties": [
         ("step", "contacts.index", "candidates.py", f"\n{right}", f"\n{wrong}")
@@ -154,7 +172,11 @@ IN_FILES_ALONE = {
 }
 """Six digits do not tell them apart, and no challenge asks them."""
 TO_ALL_DIGITS = {*IN_FILES_ALONE, "normals of single corners"}
-EARLIER = {"no centre of mass": "H", "normals of single corners": "contacts.index"}
+EARLIER = {
+    "no centre of mass": "H",
+    "normals of single corners": "contacts.index",
+    "points of a cloud that are equal": "contacts.index",
+}
 """The field that stands before its own: a challenge names that one where a case has both wrong."""
 
 
