@@ -18,7 +18,6 @@ from quasistatic_ref.errors import ModelError, check_kind
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.column_map import JointColumns
 from quasistatic_ref.model.coordinates import paper_order
-from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mass import (
     MassMatrix,
@@ -30,6 +29,7 @@ from quasistatic_ref.model.mass import (
 )
 from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.state import State
+from quasistatic_ref.model.sums import Sums
 from quasistatic_ref.model.tree import Tree
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import trees_of, world_of
@@ -76,6 +76,8 @@ class System(Mechanism):
         Each link's centre of mass, in its frame [m].
     inertias : ndarray, shape (L, 3, 3)
         About each link's centre of mass, along the axes of its frame [kg m^2].
+    sums, actuated_sums : Sums
+        (+) and (-) of all joints, and of the actuated ones.
     column_map : JointColumns
         How links move with the coordinates.
     constant_mass_matrix : bool
@@ -151,6 +153,8 @@ class System(Mechanism):
             ignored=world.ignored,
             notes=world.notes,
         )
+        self.sums = Sums(self.joints)
+        self.actuated_sums = Sums(self.actuated)
         self.column_map: JointColumns = JointColumns(world.parts, self._order)
         unactuated = [joint for joint in self.joints if not joint.actuated]
         places = world.places
@@ -201,7 +205,7 @@ class System(Mechanism):
 
     def difference(self, q: ArrayLike, q_next: ArrayLike) -> Array:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
-        return _change(self.joints, self.at(q).entries, self.at(q_next).entries)
+        return self.sums.change(self.at(q).q, self.at(q_next).q)
 
     def _centre(self, name: str, link: int) -> Array:
         """Where a load acts by default, (3,) [m], in the frame of a link that moves."""
@@ -225,11 +229,6 @@ class SystemState(State):
     def __init__(self, system: System, q: Array) -> None:
         self.system = system
         self.q = read_only(q.copy())
-
-    @cached_property
-    def entries(self) -> list[float]:
-        """The entries of q [m, rad, -]."""
-        return list(self.q.tolist())
 
     @cached_property
     def _q_parts(self) -> list[Array]:
@@ -261,20 +260,9 @@ class SystemState(State):
         system = self.system
         q_a = with_shape(q_a, "q_a", (system.n_q_a,), ModelError)
         system.actuated_units.check(q_a)
-        return _change(system.actuated, self.entries, q_a.tolist())
+        return system.actuated_sums.change(self.q, q_a)
 
     def plus(self, delta_q: ArrayLike) -> SystemState:
         """The state at q (+) delta_q, of a change of shape (n_v,) [m, rad]. In C: screws.c."""
-        change = with_shape(delta_q, "delta_q", (self.system.n_v,), ModelError).tolist()
-        there: list[float] = []
-        for joint in self.system.joints:  # in the order of q
-            there += joint.moved(self.entries[joint.q], change[joint.v])
-        return SystemState(self.system, np.array(there))
-
-
-def _change(joints: Sequence[Joint], here: list[float], there: list[float]) -> Array:
-    """Entries of delta_q of joints, the first ones in q, from one configuration to another."""
-    change: list[float] = []
-    for joint in joints:
-        change += joint.change(here[joint.q], there[joint.q])
-    return np.array(change)
+        change = with_shape(delta_q, "delta_q", (self.system.n_v,), ModelError)
+        return SystemState(self.system, self.system.sums.plus(self.q, change))

@@ -44,6 +44,7 @@ def test_cosine_and_sine_are_the_nearest_float64():
         with mpmath.workdps(digits):
             expected = [(nearest(mpmath.cos(a)), nearest(mpmath.sin(a))) for a in some]
         assert [cos_sin(a) for a in some] == expected
+        assert [*zip(*cos_sin(np.array(some)), strict=True)] == expected
 
 
 def test_the_angle_of_a_vector_is_the_nearest_float64():
@@ -60,11 +61,14 @@ def test_the_angle_of_a_vector_is_the_nearest_float64():
     with mpmath.workdps(60):
         expected = [nearest(mpmath.atan2(*v)) for v in every]
     assert [angle_of(*v) for v in every] == expected
+    assert angle_of(*np.array(every).T).tolist() == expected
 
 
 def test_what_is_no_number_has_no_sine_and_no_angle():
     answers = [*cos_sin(math.inf), *cos_sin(math.nan), angle_of(math.nan, 1.0)]
     assert all(map(math.isnan, answers))
+    several = np.array([math.inf, math.nan])
+    assert np.isnan([*cos_sin(several), angle_of(several, np.array([math.inf, 1.0]))]).all()
 
 
 def test_zero_has_the_positive_sign():

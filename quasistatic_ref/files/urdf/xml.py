@@ -191,7 +191,7 @@ class Tag:
         if origin is None:
             return np.eye(3), np.zeros(3)
         turn = origin.turn()
-        R = np.array(rows((turn / length(turn)).tolist()))
+        R: Array = np.array(rows((turn / length(turn)).tolist()))
         return R, origin.numbers("xyz", 3, default=0.0)
 
     def turn(self) -> Array:

@@ -7,6 +7,8 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.model.joints.joint import Coordinate, Joint, Position
+from quasistatic_ref.model.screw import Vector
+from quasistatic_ref.numbers.angles import Number
 from quasistatic_ref.numbers.arrays import Array
 
 
@@ -58,19 +60,17 @@ class AxisJoint(Joint):
         """The joint's entries of q at position zero."""
         return cls.at(0.0)
 
-    def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
+    def moved(self, q: Vector, delta_q: Vector) -> list[Number]:
         """The joint's entries of q (+) delta_q."""
         return [q[0] + delta_q[0]]
 
-    def change(self, q: list[float], q_next: list[float]) -> list[float]:
+    def change(self, q: Vector, q_next: Vector) -> list[Number]:
         """The joint's entry of q_next (-) q."""
         return [q_next[0] - q[0]]
 
 
 class Revolute(AxisJoint):
     """A joint that turns about its axis, between limits."""
-
-    in_c = 3
 
 
 class Prismatic(AxisJoint):
@@ -84,4 +84,3 @@ class Prismatic(AxisJoint):
     )
     measure = "m"
     lengths = 1
-    in_c = 3

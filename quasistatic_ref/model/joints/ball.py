@@ -6,6 +6,8 @@ from quasistatic_ref.model import screw
 from quasistatic_ref.model.joints.joint import QUATERNION
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.rotation import quaternion
+from quasistatic_ref.model.screw import Vector
+from quasistatic_ref.numbers.angles import Number
 from quasistatic_ref.numbers.arrays import Array
 
 
@@ -23,10 +25,10 @@ class Ball(TwistJoint):
         """The joint's entries of q at a pose."""
         return [*quaternion(rpy).tolist()]
 
-    def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
+    def moved(self, q: Vector, delta_q: Vector) -> list[Number]:
         """The joint's entries of q (+) delta_q."""
         return screw.turned(q, delta_q, screw.half_turn(delta_q))
 
-    def change(self, q: list[float], q_next: list[float]) -> list[float]:
+    def change(self, q: Vector, q_next: Vector) -> list[Number]:
         """The joint's entries of q_next (-) q."""
         return screw.rotation_between(q, q_next)[0]

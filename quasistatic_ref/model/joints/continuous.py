@@ -7,7 +7,8 @@ import pinocchio as pin
 from quasistatic_ref.model import screw
 from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import COSINE_SINE, Position
-from quasistatic_ref.numbers.angles import cos_sin
+from quasistatic_ref.model.screw import Vector
+from quasistatic_ref.numbers.angles import Number, cos_sin
 from quasistatic_ref.numbers.arrays import Array
 
 
@@ -26,7 +27,6 @@ class Continuous(AxisJoint):
 
     pinocchio = (pin.JointModelRUBX, pin.JointModelRUBY, pin.JointModelRUBZ, _wheel)
     unit_vector = COSINE_SINE
-    in_c = 2
 
     @property
     def positions(self) -> tuple[Position, ...]:
@@ -38,10 +38,10 @@ class Continuous(AxisJoint):
         """The joint's entries of q at a position, which is an angle [rad]."""
         return [*cos_sin(position)]
 
-    def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
+    def moved(self, q: Vector, delta_q: Vector) -> list[Number]:
         """The joint's entries of q (+) delta_q."""
         return screw.heading(q, delta_q[0])
 
-    def change(self, q: list[float], q_next: list[float]) -> list[float]:
+    def change(self, q: Vector, q_next: Vector) -> list[Number]:
         """The joint's entry of q_next (-) q."""
         return [screw.turn_between(q, q_next)]

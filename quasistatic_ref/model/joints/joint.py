@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.model.screw import Vector
+from quasistatic_ref.numbers.angles import Number
 
 QUATERNION = "quaternion"
 COSINE_SINE = "(cos, sin)"
@@ -78,10 +80,6 @@ class Joint(Plain, ABC):
         What its other entries of q are called if they are a vector of length one.
     free : bool
         Whether nothing guides the link that it moves.
-    in_c : int or None
-        Its number in ``screws.c``; None where compiled code does not know it. It is not inherited,
-        since a class may change the sum of the one from which it inherits. A class with a number
-        takes arrays as lengths in :meth:`moved` where all angles are 0.
     """
 
     name: str
@@ -94,10 +92,6 @@ class Joint(Plain, ABC):
     lengths: ClassVar[int]
     unit_vector: ClassVar[str | None] = None
     free: ClassVar[bool] = False
-    in_c: ClassVar[int | None] = None
-
-    def __init_subclass__(cls) -> None:
-        cls.in_c = cls.__dict__.get("in_c")
 
     @property
     @abstractmethod
@@ -120,9 +114,9 @@ class Joint(Plain, ABC):
         """The joint's entries of q at position zero [m, rad, -]."""
 
     @abstractmethod
-    def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
+    def moved(self, q: Vector, delta_q: Vector) -> list[Number]:
         """The joint's entries of q (+) delta_q, from its entries of both [m, rad, -]."""
 
     @abstractmethod
-    def change(self, q: list[float], q_next: list[float]) -> list[float]:
+    def change(self, q: Vector, q_next: Vector) -> list[Number]:
         """The joint's entries of q_next (-) q, from its entries of both [m, rad]."""

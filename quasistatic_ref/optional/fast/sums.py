@@ -7,11 +7,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.joints.axis_joint import Prismatic, Revolute
+from quasistatic_ref.model.joints.continuous import Continuous
+from quasistatic_ref.model.joints.floating import Floating
+from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array, with_shape
 from quasistatic_ref.optional.compiled.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
+
+KINDS: dict[type, int] = {Floating: 0, Planar: 1, Continuous: 2, Revolute: 3, Prismatic: 3}
+"""Numbers of joints in screws.c."""
 
 
 class Sums:
@@ -28,8 +35,8 @@ class Sums:
         joints = system.joints
         self._system = system
         self._q = poses.q
-        self._known = all(joint.in_c is not None for joint in joints)
-        kinds = [-1 if joint.in_c is None else joint.in_c for joint in joints]
+        self._known = all(type(joint) in KINDS for joint in joints)
+        kinds = [KINDS.get(type(joint), -1) for joint in joints]
         self.structure = Structure(
             "Sums",
             {

@@ -24,8 +24,9 @@ from quasistatic_ref import (
 from quasistatic_ref.certify.groups import group_step, groups
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.joints.axis_joint import Revolute
-from quasistatic_ref.optional.fast import library
+from quasistatic_ref.optional.compiled import library
 from quasistatic_ref.optional.fast import simulator as of_fast
+from quasistatic_ref.optional.fast import sums
 from quasistatic_ref.optional.fast.joined import JoinedStep, spread
 from quasistatic_ref.optional.fast.solver import FormedStep
 from quasistatic_ref.step.standard_form import StandardForm
@@ -248,7 +249,7 @@ def test_steps_that_compiled_code_forms_wrong_are_left_to_the_plain_path(name, c
     scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
     one = scenario.simulator()
     if name == "kind":
-        one._sums.structure["kind"][:] = Revolute.in_c  # as if a base were a joint of another kind
+        one._sums.structure["kind"][:] = sums.KINDS[Revolute]  # as if a base were another joint
     else:
         one._steps.rows[name][:] *= 2  # as if the compiled code were wrong
     expected = first_step(replace(scenario, fast=False))

@@ -1,0 +1,66 @@
+"""q (+) delta_q and q_next (-) q of all joints, those of one kind at once where there are many."""
+
+from collections import defaultdict
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from quasistatic_ref.model.joints import BY_ENTRIES
+from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.numbers.arrays import Array, Indices
+
+MANY: Final = 12
+"""Joints of one kind from which arrays are quicker than numbers."""
+
+
+class Sums:
+    """Sums and differences of the entries of some joints, which have the first ones of q.
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+        In the order of q.
+    """
+
+    def __init__(self, joints: Sequence[Joint]) -> None:
+        kinds: dict[type[Joint], list[Joint]] = defaultdict(list)
+        for joint in joints:
+            kinds[type(joint)].append(joint)
+        self._many = [
+            (some[0], _entries([one.q for one in some]), _entries([one.v for one in some]))
+            for kind, some in kinds.items()
+            if kind in BY_ENTRIES and len(some) >= MANY
+        ]
+        at_once = {type(joint) for joint, _, _ in self._many}
+        self._few = [joint for joint in joints if type(joint) not in at_once]
+        self._n_v = joints[-1].v.stop if joints else 0
+
+    def plus(self, q: Array, delta_q: Array) -> Array:
+        """Entries of q (+) delta_q, from those of both; shapes (n_q,) and (n_v,) [m, rad, -]."""
+        there = np.empty(len(q))
+        with np.errstate(all="ignore"):  # as plain arithmetic
+            for joint, at, v in self._many:
+                there[at] = joint.moved([*q[at]], [*delta_q[v]])
+        here = q.tolist()
+        change = delta_q.tolist()
+        for joint in self._few:
+            there[joint.q] = joint.moved(here[joint.q], change[joint.v])
+        return there
+
+    def change(self, q: Array, q_next: Array) -> Array:
+        """Entries of q_next (-) q, shape (n,) [m, rad], from those of both [m, rad, -]."""
+        change = np.empty(self._n_v)
+        with np.errstate(all="ignore"):
+            for joint, at, v in self._many:
+                change[v] = joint.change([*q[at]], [*q_next[at]])
+        here = q.tolist()
+        there = q_next.tolist()
+        for joint in self._few:
+            change[joint.v] = joint.change(here[joint.q], there[joint.q])
+        return change
+
+
+def _entries(slices: Sequence[slice]) -> Indices:
+    """Numbers of the entries of alike slices, shape (entries, joints)."""
+    return np.array([range(one.start, one.stop) for one in slices]).T

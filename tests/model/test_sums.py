@@ -1,0 +1,60 @@
+"""Sums and differences of many joints at once against those of each: the same bits."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.model.joints import BY_ENTRIES
+from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.model.sums import MANY, Sums
+
+KINDS = sorted(BY_ENTRIES, key=lambda kind: kind.__name__)
+
+
+class Odd(KINDS[0]):
+    """A kind of a user's own, whose sum is another."""
+
+    def moved(self, q, delta_q):
+        """Half of its last entry."""
+        return [*q[:-1], float(q[-1]) / 2]
+
+
+def joints_of(*kinds):
+    """Joints of these kinds, one after another."""
+    made: list[Joint] = []
+    q = v = 0
+    for kind in kinds:
+        width = len(kind("j", False, slice(0), slice(0)).coordinates)
+        entries = len(kind.neutral())
+        made.append(kind("j", False, slice(q, q + entries), slice(v, v + width)))
+        q += entries
+        v += width
+    return made
+
+
+def turned(joints, rng):
+    """A configuration with unit vectors, some of them special."""
+    q = np.concatenate([rng.normal(size=joint.q.stop - joint.q.start) for joint in joints])
+    for joint in joints:
+        if joint.unit_vector:
+            unit = q[joint.unit_part]
+            unit[:] = np.eye(len(unit))[rng.integers(len(unit))] if rng.random() < 0.2 else unit
+            unit /= np.sqrt(unit @ unit)
+    return q
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
+def test_many_joints_at_once_are_each_by_itself(kind, rng):
+    joints = joints_of(*[kind, KINDS[0], Odd] * (2 * MANY))
+    sums = Sums(joints)
+    for size in (0.0, 1e-300, 1e-9, 1e-3, 1.0, 1e3, 1e8, 1e200):
+        q, other = turned(joints, rng), turned(joints, rng)
+        delta_q = size * rng.normal(size=joints[-1].v.stop) * (rng.random(joints[-1].v.stop) < 0.8)
+        pairs = [(q, other), (q, q), (q, sums.plus(q, delta_q))]
+        each = [joint.moved(q[joint.q].tolist(), delta_q[joint.v].tolist()) for joint in joints]
+        assert bits(sums.plus(q, delta_q)) == bits(np.concatenate(each))
+        for here, there in pairs:
+            one = [
+                joint.change(here[joint.q].tolist(), there[joint.q].tolist()) for joint in joints
+            ]
+            assert bits(sums.change(here, there)) == bits(np.concatenate(one))
