@@ -45,7 +45,7 @@ def test_inertia_turns_the_twist_of_a_slider_unless_rho_is_chi(over, degrees):
     assert np.degrees(np.arctan2(once[1], once[0])) == pytest.approx(40, abs=1e-6)
 
 
-def test_an_optimal_answer_of_clarabel_in_metres_is_half_a_per_cent_off():
+def test_an_optimal_answer_of_clarabel_in_displacements_is_half_a_per_cent_off():
     worst = max(metres.errors(scene, "clarabel")[0] for scene in metres.SCENES)
     assert f"{100 * worst:.1g}" == "0.5"
     assert "has 0.5 % in the figure" in page("exactness.md")

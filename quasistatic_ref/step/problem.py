@@ -1,5 +1,9 @@
 """The paper's program in CVXPY: Eqs. :eq:`eq-1`, :eq:`eq-3`-:eq:`eq-7`, :eq:`eq-10`, :eq:`eq-13`.
 
+The unknowns are accelerations, a = delta_q / h^2. With the energy (13) divided by h^3 and its rows
+by h^2, which changes no solution, this is Gauss's principle: numbers are those of accelerations and
+forces, to which a solver's tolerances fit, and the multipliers are forces [N].
+
 Symbols are CVXPY objects here, except the numbers h, mu_v and mu_omega. Units are those of the
 step, SI as a rule.
 """
@@ -13,33 +17,38 @@ import scipy.sparse as sp
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.standard_form import FAR, Units, ends_within, si_units
+from quasistatic_ref.step.standard_form import FAR, Units, ends_within, page_units, si_units
 
 
 @dataclass(eq=False)
 class Page:
-    """The paper's program (13) in CVXPY: its variable, parameters, constraints and problem.
+    """The paper's program (13) in CVXPY: its unknowns, parameters, constraints and problem.
 
     Parameters
     ----------
     problem : cvxpy.Problem
+        (13) over h^3 [N m/s^2].
     parameters : dict of str to cvxpy.Parameter
         What changes from step to step, by name.
-    delta_q_a, delta_q_u : cvxpy.Variable
-        What is sought, shapes (n_a,) and (n_u,) [m, rad].
+    a_a, a_u : cvxpy.Variable
+        What is sought, shapes (n_a,) and (n_u,) [m/s^2, rad/s^2].
+    delta_q_a, delta_q_u : cvxpy.Expression
+        The displacement h^2 a, shapes (n_a,) and (n_u,) [m, rad].
     delta_q : cvxpy.Expression
         The one, then the other, shape (n_v,).
     contact_motion : tuple of cvxpy.Expression
         gap, slip_1, slip_2 and spin [m], shapes (n_c,), mu included in the last three.
     contact_rows : list of cvxpy.Constraint
-        Eq. :eq:`eq-4` in the paper's order, one constraint for that row of the contacts that have
-        it; none where no contact has.
+        Eq. :eq:`eq-4` over h^2 [m/s^2] in the paper's order, one constraint for that row of the
+        contacts that have it; none where no contact has. A ``dual_value`` is a force [N], lam / h.
     """
 
     problem: cp.Problem
     parameters: dict[str, cp.Parameter]
-    delta_q_a: cp.Variable
-    delta_q_u: cp.Variable
+    a_a: cp.Variable
+    a_u: cp.Variable
+    delta_q_a: cp.Expression
+    delta_q_u: cp.Expression
     delta_q: cp.Expression
     contact_motion: tuple[cp.Expression, cp.Expression, cp.Expression, cp.Expression]
     contact_rows: list[cp.Constraint]
@@ -89,8 +98,8 @@ def paper_problem(step: StepData) -> Page:
     torsional = step.contacts.torsion
 
     # What changes from step to step.
-    K_q = cp.Parameter((n_a, n_a), "K_q", PSD=True)  # stiffness of the actuated coordinates
-    M_u = cp.Parameter((n_u, n_u), "M_u", PSD=True)  # mass matrix of the un-actuated ones
+    K_q = cp.Parameter((n_a, n_a), "K_q")  # stiffness of the actuated coordinates
+    M_u = cp.Parameter((n_u, n_u), "M_u")  # mass matrix of the un-actuated ones
     tau_k = cp.Parameter(n_a, "tau_k")  # force of the springs
     tau_a = cp.Parameter(n_a, "tau_a")  # other forces on the actuated coordinates
     tau_u = cp.Parameter(n_u, "tau_u")  # forces on the un-actuated ones
@@ -100,10 +109,13 @@ def paper_problem(step: StepData) -> Page:
     J_2 = cp.Parameter((n_c, n_v), "J_2")  # along d2
     J_w = cp.Parameter((n_c, n_v), "J_w")  # about n
 
-    # What is sought: the displacement.
-    delta_q_a = cp.Variable(n_a, "delta_q_a")
-    delta_q_u = cp.Variable(n_u, "delta_q_u")
-    delta_q = cp.hstack([delta_q_a, delta_q_u])
+    # What is sought: accelerations, of which the displacement is h^2 times as much.
+    a_a = cp.Variable(n_a, "a_a")
+    a_u = cp.Variable(n_u, "a_u")
+    delta_q_a = h**2 * a_a
+    delta_q_u = h**2 * a_u
+    moving = [part for part in (delta_q_a, delta_q_u) if part.size]  # CVXPY stacks nothing empty
+    delta_q = cp.hstack(moving or [delta_q_a])
 
     # Eq. (4) is phi + [J'(n~ + d~_i)]' delta_q >= 0. In it phi + [J' n~]' delta_q is the gap, and
     # [J' d~_i]' delta_q is slip_1, slip_2, -slip_1, -slip_2, spin and -spin for i = 1 to 6.
@@ -114,32 +126,34 @@ def paper_problem(step: StepData) -> Page:
 
     # Eq. (10): the rows of Eq. (4), of which each contact has four or six.
     rows = [
-        gap + slip_1 >= 0,  # Eq. (5)
-        gap + slip_2 >= 0,
-        gap - slip_1 >= 0,  # Eq. (6)
-        gap - slip_2 >= 0,
-        (gap + spin)[torsional] >= 0,  # Eq. (7)
-        (gap - spin)[torsional] >= 0,
+        gap + slip_1,  # Eq. (5)
+        gap + slip_2,
+        gap - slip_1,  # Eq. (6)
+        gap - slip_2,
+        (gap + spin)[torsional],  # Eq. (7)
+        (gap - spin)[torsional],
     ]
 
-    # Eq. (13). CVXPY refuses a quadratic form of no coordinates.
-    stiffness = h / 2 * cp.quad_form(delta_q_a, K_q) if n_a else 0
-    inertia = 1 / (2 * h) * cp.quad_form(delta_q_u, M_u) if n_u else 0
-    work = h * (tau_k + tau_a) @ delta_q_a + h * tau_u @ delta_q_u
-    contact_rows = [row for row in rows if row.size]
+    # Eq. (13) over h^3. The quadratic forms are of the unknowns themselves: of h^2 times them CVXPY
+    # would make further unknowns and equations. It refuses a quadratic form of no coordinates.
+    stiffness = h**2 / 2 * cp.quad_form(a_a, K_q, assume_PSD=True) if n_a else 0
+    inertia = 1 / 2 * cp.quad_form(a_u, M_u, assume_PSD=True) if n_u else 0
+    work = (tau_k + tau_a) @ a_a + tau_u @ a_u
+    contact_rows = [row / h**2 >= 0 for row in rows if row.size]
     problem = cp.Problem(cp.Minimize(stiffness + inertia - work), contact_rows)
 
     named = (K_q, M_u, tau_k, tau_a, tau_u, phi, J_n, J_1, J_2, J_w)
     parameters = {parameter.name(): parameter for parameter in named}
     motion = (gap, slip_1, slip_2, spin)
-    return Page(problem, parameters, delta_q_a, delta_q_u, delta_q, motion, contact_rows)
+    displacement = (delta_q_a, delta_q_u, delta_q)
+    return Page(problem, parameters, a_a, a_u, *displacement, motion, contact_rows)
 
 
 def set_values(page: Page, step: StepData, units: Units | None = None, far: float = FAR) -> None:
     """Set the parameters of a page to those of a `step` of its kind.
 
-    They have been checked where the step was made: ``save_value`` does not look for the eigenvalues
-    of K_q and M_u again, as an assignment to ``value`` would.
+    They have been checked where the step was made. An assignment to the ``value`` of K_q or M_u is
+    not: the page takes for granted that both are positive semidefinite.
 
     Parameters
     ----------
@@ -148,12 +162,18 @@ def set_values(page: Page, step: StepData, units: Units | None = None, far: floa
     step : StepData
         SI units.
     units : Units, optional
-        In which the parameters are to be; SI units by default.
+        Natural units in which the page is to be solved, up to those of accelerations and forces:
+        see :func:`~quasistatic_ref.step.standard_form.page_units`. SI units by default.
     far : float
-        How far the contacts, and ends of own rows, may be in other units than SI units [-]: see
+        How far the contacts, and ends of own rows, may be in natural units [-]: see
         :func:`~quasistatic_ref.step.standard_form.ends_within`.
     """
-    S, ell, rho = si_units(step.n_v) if units is None else units
+    if units is None:
+        S, ell, rho = si_units(step.n_v)
+        far = math.inf
+    else:
+        S, ell, rho = page_units(units, step.h)
+        far *= units.size * units.length / (rho * ell)
     S_a = S[: step.n_a]
     S_u = S[step.n_a :]
     contacts = step.contacts
@@ -166,7 +186,7 @@ def set_values(page: Page, step: StepData, units: Units | None = None, far: floa
         return part
 
     tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
-    phi, b_extra = ends_within(step, Units(S, ell, rho), math.inf if units is None else far)
+    phi, b_extra = ends_within(step, Units(S, ell, rho), far)
     values = {
         "K_q": step.K_q * np.outer(S_a, S_a),
         "M_u": step.M_u * np.outer(S_u, S_u),

@@ -165,6 +165,29 @@ def si_units(n_v: int) -> Units:
     return Units(np.ones(n_v), 1.0, 1.0)
 
 
+def page_units(units: Units, h: float) -> Units:
+    """Units in which a page of accelerations and forces is the program in natural units.
+
+    With delta_q = h^2 a, energy / h^3 and rows / h^2 the matrix of (13) is multiplied by h, its
+    loads by 1 / h and the ends of (4) by 1 / h^2: S and ell become S and ell over sqrt(h), and rho
+    becomes rho / h^1.5, each to the next power of two.
+
+    Parameters
+    ----------
+    units : Units
+        Natural units; or SI units, for those of the page in natural units.
+    h : float
+        Time step [s].
+    """
+    root = _power_of_two(-0.5 * math.log2(h))
+    size = _power_of_two(-2.0 * math.log2(h) - math.log2(root))
+    return Units(units.coordinate * root, units.length * root, units.size * size)
+
+
+def _power_of_two(exponent: float) -> float:
+    return 2.0 ** min(round(exponent), 1023)  # the largest in float64
+
+
 def ends_within(step: StepData, units: Units, far: float = FAR) -> tuple[Array, Array]:
     """Gaps of the contacts and ends of the user's rows; those out of reach put nearer.
 

@@ -39,14 +39,15 @@ def problem_at(step, delta_q):
     """The problem of a step, with the values of its parameters and of its unknowns."""
     problem = paper_problem(step)
     set_values(problem, step)
-    problem.delta_q_a.value, problem.delta_q_u.value = np.split(delta_q, [step.n_a])
+    problem.a_a.value, problem.a_u.value = np.split(delta_q / step.h**2, [step.n_a])
     return problem
 
 
 def left_hand_sides(step, delta_q):
     """The left-hand side of each row i of the contacts that have it, at a displacement."""
-    # CVXPY keeps a >= 0 as 0 - a <= 0.
-    return [-constraint.expr.value for constraint in problem_at(step, delta_q).contact_rows]
+    # CVXPY keeps x >= 0 as 0 - x <= 0. Its x is the row over h^2.
+    rows = problem_at(step, delta_q).contact_rows
+    return [-(step.h**2) * constraint.expr.value for constraint in rows]
 
 
 def added_to_the_gap(rng):

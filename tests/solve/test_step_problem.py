@@ -1,20 +1,16 @@
-"""``StepProblem.solve`` solves the problem as it stands, and loses nothing to metres."""
+"""The page solves itself; ``StepProblem.solve`` in natural units, whatever its numbers are."""
 
-from dataclasses import replace
 from functools import cache
 
 import cvxpy as cp
 import numpy as np
 import pytest
-from cvxpy.reductions.solvers.conic_solvers.clarabel_conif import CLARABEL
 
 import quasistatic_ref as qr
 from quasistatic_ref.lab.bench.scenes import boxes
-from quasistatic_ref.solve import step_problem
 from quasistatic_ref.solve.backends import installed_backends
-from quasistatic_ref.solve.step_problem import problem_data
 from quasistatic_ref.tolerances import UNMOVED
-from tests.closeness import assert_relative, assert_same, assert_within
+from tests.closeness import assert_same, assert_within
 from tests.helpers import pinch, random_step, sphere_on_floor
 
 WEIGHT = (0.3, 0.0, -2.943, 0.0, 0.0, 1e-3)
@@ -60,7 +56,10 @@ def test_solve_is_right_in_si_units(name, solver):
     form = qr.standard_form(step)
     least = exact.delta_q @ form.H @ exact.delta_q / 2 - form.g @ exact.delta_q
     load = np.abs(form.g).max() or size * form.H.max()
-    assert page.problem.value == pytest.approx(least, rel=1e-6, abs=1e-6 * size * load)
+    value = page.problem.value * step.h**3
+    assert value == pytest.approx(least, rel=1e-6, abs=1e-6 * size * load)
+    said = page.problem.solution.opt_val * step.h**3
+    assert said == pytest.approx(least, rel=1e-6, abs=1e-6 * size * load)
 
 
 def test_the_ellipsoid_is_solved_with_its_multipliers():
@@ -80,71 +79,72 @@ def test_the_ellipsoid_is_solved_with_its_multipliers():
 
 @pytest.mark.parametrize("solver", [name for name in ABLE if name != "proxqp"])  # test_known_issues
 @pytest.mark.parametrize("lift", [1e-3, 1e-5, -1.0])
-def test_a_row_that_is_added_holds_and_has_its_multiplier(solver, lift):
-    """A ball of weight W is lifted by z: lam h = H_zz z / h + W if z > 0; a far row has none."""
+def test_a_row_that_is_added_holds_and_its_multiplier_is_a_force(solver, lift):
+    """A ball of weight W is lifted by z: a force of M z / h^2 + W if z > 0; a far row has none."""
     step = sphere_on_floor(wrench=(0.0, 0.0, -2.943, 0.0, 0.0, 0.0))
-    page = qr.StepProblem(step)
-    row = page.delta_q[2] >= lift
-    page.problem = cp.Problem(page.problem.objective, [*page.problem.constraints, row])
-    z = page.solve(solver)[2]
-    assert page.problem.status == cp.OPTIMAL
-    assert z == pytest.approx(max(lift, 0.0), rel=1e-6, abs=1e-12)
-    impulse = step.H[2, 2] * lift + step.h * 2.943 if lift > 0 else 0.0
-    assert row.dual_value == pytest.approx(impulse, rel=1e-6, abs=1e-9)
-
-
-def test_a_curved_constraint_a_cost_and_a_variable_of_a_user_are_obeyed():
-    """1 N s pulls the ball along x, no farther than 2 mm, whatever is added to its cost."""
-    step = sphere_on_floor(wrench=(0.0, 0.0, -2.943, 0.0, 0.0, 0.0))
+    force = step.M_u[2, 2] * lift / step.h**2 + 2.943 if lift > 0 else 0.0
+    rows = []
 
     def additions(page):
-        square = cp.Variable()
-        pull = -1.0 * page.delta_q[0]
-        return [
-            cp.norm(page.delta_q[:2]) <= 2e-3,
-            square >= cp.square(page.delta_q[0]),
-            square,
-            pull,
-        ]
+        rows.append(page.row(page.delta_q[2] - lift))
+        return [page.delta_q[2] >= lift]
 
     page = qr.StepProblem(step, additions)
-    assert_within(page.solve()[:2], [2e-3, 0.0], 1e-9)
-    assert_relative(page.problem.value, page.problem.objective.value)
+    z = page.solve(solver)[2]
+    assert page.problem.status == cp.OPTIMAL
+    assert z == pytest.approx(max(lift, 0.0), rel=1e-6, abs=1e-9)
+    assert page.problem.constraints[-1].dual_value == pytest.approx(force, rel=1e-6, abs=1e-6)
+    bare = qr.StepProblem(step)
+    row = bare.row(bare.delta_q[2] >= lift)
+    lifted = cp.Problem(bare.problem.objective, [*bare.problem.constraints, row])
+    lifted.solve(solver="CLARABEL")
+    assert_within(bare.delta_q.value[2], max(lift, 0.0), 1e-9)
+    assert row.dual_value == pytest.approx(force, rel=1e-6, abs=1e-6)
+    bare.problem = lifted
+    with pytest.raises(qr.InputError, match="is another problem than that of this step"):
+        bare.solve(solver)
 
 
-def test_what_has_no_solution_and_data_that_are_not_known_are_said_in_a_sentence(monkeypatch):
-    page = qr.StepProblem(pinch())
-    walls = [page.delta_q[0] >= 1e-3, page.delta_q[0] <= -1e-3]
-    whole = page.problem
-    page.problem = cp.Problem(whole.objective, [*whole.constraints, *walls])
+KINDS = {
+    "a norm": lambda x: cp.norm(x) <= 2e-3,
+    "a row": lambda x: x[0] <= 2e-3,
+    "an equation": lambda x: x[0] == 2e-3,
+    "a second-order cone": lambda x: cp.SOC(cp.Constant(2e-3), x),
+    "an entry >= 0": lambda x: cp.constraints.NonNeg(2e-3 - x[0]),
+    "a semidefinite matrix": lambda x: cp.diag(2e-3 - x) >> 0,
+    "an exponential cone": lambda x: cp.constraints.ExpCone(
+        x[0], cp.Constant(2e-3), cp.Constant(2e-3 * np.e)
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", [None, *KINDS])
+def test_rows_and_costs_of_a_user_are_in_metres_and_newton_metre_seconds(kind):
+    """A spring draws a free ball to 5 mm; alone by k / (k + m / h^2) of it, else at most 2 mm.
+
+    Its cost is h times its energy.
+    """
+    step = sphere_on_floor(wrench=(0.0, 0.0, -2.943, 0.0, 0.0, 0.0)).replace(cone="frictionless")
+    k = 1e4
+
+    def additions(page):
+        spring = step.h * k / 2 * cp.square(page.delta_q[0] - 5e-3)
+        return [spring] if kind is None else [spring, KINDS[kind](page.delta_q[:2])]
+
+    page = qr.StepProblem(step, additions)
+    expected = 5e-3 * k / (k + step.M_u[0, 0] / step.h**2) if kind is None else 2e-3
+    assert_within(page.solve()[0], expected, 1e-8)
+    assert_within(page.problem.value, page.problem.objective.value, 1e-9)
+
+
+def test_what_has_no_solution_is_said_in_a_sentence():
+    def walls(page):
+        return [page.delta_q[0] >= 1e-3, page.delta_q[0] <= -1e-3]
+
+    page = qr.StepProblem(pinch(), walls)
     with pytest.raises(qr.StepNotSolved, match="infeasible"):
         page.solve()
     assert page.problem.status == cp.INFEASIBLE
-    page.problem = cp.Problem(whole.objective, [*whole.constraints, cp.diag(page.delta_q[:2]) >> 0])
-    assert (page.solve()[:2] >= -1e-12).all()
-
-    def another_form(*arguments):
-        data = problem_data(*arguments)
-        return replace(data, numbers={**data.numbers, "h": data.numbers["b"]})
-
-    monkeypatch.setattr(step_problem, "problem_data", another_form)
-    with pytest.raises(qr.BackendError, match="takes data of a form that is not known here"):
-        page.solve()
-
-
-def test_a_solver_without_multipliers_is_said_to_have_none(monkeypatch):
-    """As CVXPY's interface to SCIP does: it gives None in their place, and unknowns of its own."""
-    inverted = CLARABEL.invert
-
-    def without(self, *data):
-        solution = inverted(self, *data)
-        solution.dual_vars = None
-        solution.primal_vars = {key: np.zeros(15) for key in solution.primal_vars}
-        return solution
-
-    monkeypatch.setattr(CLARABEL, "invert", without)
-    with pytest.raises(qr.BackendError, match="gives no multipliers through CVXPY; choose cl"):
-        qr.StepProblem(pinch()).solve()
 
 
 def test_a_page_of_more_than_a_thousand_numbers_is_solved_in_cvxpy_s_own_way():
@@ -157,16 +157,12 @@ def test_a_page_of_more_than_a_thousand_numbers_is_solved_in_cvxpy_s_own_way():
     assert page.problem.status == cp.OPTIMAL
 
 
-def test_a_solver_that_cvxpy_does_not_call_and_whole_numbers_are_refused():
+def test_a_solver_that_cvxpy_does_not_call_is_refused():
     page = qr.StepProblem(pinch())
     with pytest.raises(qr.BackendError, match="is not a backend"):
         page.solve("clarabell")
     with pytest.raises(qr.BackendError, match="is not called through CVXPY"):
         page.solve("none")
-    switch = cp.Variable(boolean=True)
-    page.problem = cp.Problem(page.problem.objective, [switch <= page.delta_q[0]])
-    with pytest.raises(qr.InputError, match="unknowns that are whole numbers"):
-        page.solve("highs")
 
 
 @pytest.mark.extra("study")
@@ -177,8 +173,8 @@ def test_multipliers_of_a_solve_that_gave_none_are_not_those_of_the_solve_before
     page.solve()
     assert page.dual().any()
     switch = cp.Variable(boolean=True)
-    linear = cp.Minimize(cp.sum(page.delta_q_a) + switch)
-    bounded = [page.delta_q_a <= 1.0, page.delta_q_a >= -1.0]
+    linear = cp.Minimize(cp.sum(page.a_a) + switch)
+    bounded = [page.a_a <= 1.0, page.a_a >= -1.0]
     page.problem = cp.Problem(linear, [*page.problem.constraints, *bounded])
     page.problem.solve(solver="HIGHS")
     assert page.contact_rows[0].dual_value is not None

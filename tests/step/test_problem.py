@@ -9,9 +9,9 @@ from numpy.testing import assert_array_equal
 from quasistatic_ref import Extra, StepDataError, StepProblem, load_scenario, solve_step
 from quasistatic_ref.solve import step_problem
 from quasistatic_ref.solve.step_problem import CvxpySolver
-from quasistatic_ref.solve.units import ScaledStep
+from quasistatic_ref.solve.units import ScaledStep, in_si
 from quasistatic_ref.step.problem import paper_problem, set_values
-from quasistatic_ref.step.standard_form import friction_rows
+from quasistatic_ref.step.standard_form import friction_rows, page_units, si_units
 from tests.closeness import assert_close, assert_relative, assert_within
 from tests.helpers import (
     PAPER,
@@ -69,7 +69,8 @@ CONES = ("pyramid", "product", "facets-8", "frictionless")
 def test_the_data_of_the_filled_page_are_the_standard_form(name, large, rng, monkeypatch):
     """In SI and in natural units, whether the page is compiled once or canonicalised each time.
 
-    With rows of the user's own; CVXPY's list goes over the rows of a contact first.
+    With delta_q = h^2 a, energy / h^3 and rows / h^2. With rows of the user's own; CVXPY's list
+    goes over the rows of a contact first.
     """
     monkeypatch.setattr(step_problem, "MOST_ENTRIES", 0 if large else step_problem.MOST_ENTRIES)
     own = Extra(("a", "b"), rng.normal(size=(2, 13)), rng.normal(size=2))
@@ -78,17 +79,20 @@ def test_the_data_of_the_filled_page_are_the_standard_form(name, large, rng, mon
     page = StepProblem(steps[0])
     m = int(steps[0].offsets[-1])
     order = [*np.argsort(np.nonzero(steps[0].mask)[1], kind="stable"), m, m + 1]
+    h = steps[0].h
+    unit = si_units(13)
     for step in steps:
         scaled = ScaledStep(step)
-        for units, form in ((None, scaled.form), (scaled.units, scaled.near)):
+        natural = (scaled.units, scaled.near, page_units(unit, h))
+        for units, form, (S, ell, rho) in ((None, scaled.form, unit), natural):
             set_values(page.page, step, units)
             data = step_problem.problem_data(page.problem, "clarabel", {}).numbers
-            assert_relative(data["P"].toarray(), form.H)
-            assert_close(data["c"], -form.g, ROUNDING)
-            assert_close(-data["A"].toarray(), form.A[order], ROUNDING)
-            assert_array_equal(-data["b"], form.b[order])
-            if name == "pyramid":  # others add three terms, which rounds
-                assert_array_equal(-data["A"].toarray(), form.A[order])
+            assert_relative(data["P"].toarray(), form.H * np.outer(S, S) * h)
+            assert_close(data["c"], -form.g * S / rho / h, ROUNDING)
+            assert_close(-data["A"].toarray(), form.A[order] * (S / ell), ROUNDING)
+            assert_relative(-data["b"], form.b[order] / (rho * ell) / h**2)
+    assert_within(S**2 * h - 1.0, 0.0, 1.0)  # the page's own units come to about one
+    assert_within(rho * ell * h**2 - 1.0, 0.0, 1.0)
 
 
 @pytest.mark.parametrize("name", ["bunny_grasp", "door"])
@@ -101,9 +105,13 @@ def test_a_plain_step_is_the_page_filled_and_solved_in_public(name):
     page = StepProblem(step)
     set_values(page.page, step, scaled.units)
     page.problem.solve(solver="CLARABEL", canon_backend=step_problem.CANON, **options)
+    units = page_units(scaled.units, step.h)
+    delta_q, lam = in_si(page.primal(), page.dual(), units)
     reply = solver.answer(scaled, accuracy)
-    assert_array_equal(reply.x, page.primal())
-    assert_array_equal(reply.lam, np.where(scaled.out_of_reach, 0.0, page.dual()))
+    found, impulses = in_si(*reply.answer, scaled.units)
+    assert_array_equal(found, delta_q)
+    assert_array_equal(impulses, np.where(scaled.out_of_reach, 0.0, lam))
+    assert_array_equal(StepProblem(step).solve(), delta_q)
 
 
 def test_the_page_is_dpp_where_quadratic_forms_are_affine_in_their_matrix(rng):

@@ -18,13 +18,13 @@ from quasistatic_ref.optional.extensions.own_rows import joined
 from quasistatic_ref.optional.extensions.quadratic import quadratic_program
 from quasistatic_ref.optional.extensions.terms import checked_terms
 from quasistatic_ref.solve.backends import backend, check_takes_cones
-from quasistatic_ref.solve.step_problem import StepProblem, problem_data
+from quasistatic_ref.solve.step_problem import StepProblem, divided, problem_data
 from quasistatic_ref.solve.units import ScaledStep, in_si
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.problem import set_values
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
-from quasistatic_ref.step.standard_form import Units, si_units
+from quasistatic_ref.step.standard_form import Units, page_units, si_units
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 
 
@@ -48,11 +48,12 @@ def extension_data(step: StepData, extension: Extension) -> Extra | None:
     """
     if extension.without_stiffness:
         return None
-    problem = StepProblem(step)
+    # Where h is 1 s, accelerations are displacements, and all numbers of theirs stay as they are.
+    problem = StepProblem(step.with_fields(h=1.0))
     terms = _terms(extension, step, si_units(step.n_v), problem)
     costs = [term for term in terms if isinstance(term, cp.Expression)]
     constraints = [term for term in terms if isinstance(term, cp.Constraint)]
-    unknowns = (problem.delta_q_a, problem.delta_q_u)
+    unknowns = (problem.a_a, problem.a_u)
     for x in unknowns:
         x.value = np.zeros(x.shape)
     names: list[str] = []
@@ -115,7 +116,8 @@ def extended_solution(
     units = scaled.units
     if not (scaled.form.g.any() or (scaled.form.b > 0).any()):  # the extension alone drives it
         units = units._replace(size=1.0)
-    problem = StepProblem(step, partial(_terms, extension, step, units))
+    of_page = page_units(units, step.h)
+    problem = StepProblem(step, partial(_terms, extension, step, of_page))
     # An extension may move what no load moves: nothing is out of reach.
     set_values(problem.page, step, units, far=math.inf)
     if extension.without_stiffness:  # nothing is left of Eq. (1)
@@ -131,7 +133,7 @@ def extended_solution(
         multipliers = problem.dual()
         if multipliers is None:
             raise StepNotSolved(name, f"{name} gives no multipliers through CVXPY", step, tried)
-        delta_q, lam = in_si(problem.primal(), multipliers, units)
+        delta_q, lam = in_si(problem.primal(), multipliers, of_page)
         claimed = Certificate("none") if certify == "off" else certificate
         return StepSolution(delta_q, lam, step, claimed, statistics, alone=False)
     assert failure is not None  # a backend has at least one set of options
@@ -143,8 +145,9 @@ def _terms(
 ) -> list[cp.Constraint | cp.Expression]:
     """Constraints and costs of an extension, in the variables of a problem in `units`."""
     symbols = _symbols(problem, step, units, len(extension.rises))
+    length = units.size * units.length
     return [
-        term if isinstance(term, cp.Constraint) else term / units.size**2
+        divided(term, by=length) if isinstance(term, cp.Constraint) else term / units.size**2
         for term in checked_terms(extension, symbols)
     ]
 

@@ -39,7 +39,7 @@ def quadratic_program(
         Scalars.
     constraints : sequence of cvxpy.Constraint
     unknowns : sequence of cvxpy.Variable
-        delta_q_a and delta_q_u.
+        Of which the program is: delta_q_a and delta_q_u.
 
     Returns
     -------

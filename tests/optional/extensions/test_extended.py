@@ -18,6 +18,7 @@ from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.problem import set_values
+from quasistatic_ref.step.standard_form import page_units
 from tests.closeness import assert_same
 from tests.helpers import changed, point_on_floor, random_step
 from tests.tolerances import ROUNDING
@@ -43,11 +44,11 @@ def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
     assert units.length > 2
     problem = StepProblem(step)
     set_values(problem.page, step, units)
+    of_page = page_units(units, step.h)
     delta_q = rng.normal(size=7)
-    x = delta_q / (units.size * units.coordinate)
-    problem.delta_q_a.value = x[:3]
-    problem.delta_q_u.value = x[3:]
-    found = np.concatenate([slack.value for slack in _symbols(problem, step, units, 0).slack])
+    a = delta_q / (of_page.size * of_page.coordinate) / step.h**2
+    problem.a_a.value, problem.a_u.value = np.split(a, [3])
+    found = np.concatenate([slack.value for slack in _symbols(problem, step, of_page, 0).slack])
     slack = form.A @ delta_q - form.b  # by contacts; an extension has them by rows
     order = [0, 6, 1, 7, 2, 8, 3, 9, 4, 5]
     np.testing.assert_allclose(found, slack[order], rtol=ROUNDING, atol=16 * ROUNDING)
