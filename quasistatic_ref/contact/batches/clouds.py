@@ -11,8 +11,9 @@ from quasistatic_ref.contact.normals import TIED_FACES, UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import Pose, poses_in_world
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+from quasistatic_ref.numbers.compiled import compiled
 from quasistatic_ref.numbers.ordered import product
-from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PointCloud
+from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PointCloud, Shape
 from quasistatic_ref.shapes.rounded import Rounded, distance_to_rounded_box
 
 BLOCKS: Final = 32
@@ -23,29 +24,39 @@ class Clouds(Batch):
     """Pairs of one cloud, always on the same side, with solids that have a closed form.
 
     It is small enough that calls take the time, and not its numbers.
+
+    Attributes
+    ----------
+    cloud_is_alpha : bool
+    points : ndarray, shape (N, 3)
+        Of the cloud [m].
+    is_plane, has_faces : ndarray of bool, shape (P,)
+        Of each solid: whether it is a half-space, and whether it has faces that may tie.
+    sizes : ndarray, shape (P, 4)
+        Half extents of its core and radius [m]; of a half-space normal [-] and offset [m].
+    extent : ndarray, shape (P,)
+        Of each solid [m]; 0 of a half-space.
     """
 
     def __init__(self, pairs: Sequence[ContactPair]) -> None:
         super().__init__(pairs)
-        self._turn = 1 if isinstance(pairs[0].beta.shape, PointCloud) else -1
-        sides = [(pair.alpha.shape, pair.beta.shape)[:: self._turn] for pair in pairs]
-        solids = [solid for solid, _ in sides]
-        cloud = sides[0][1]
+        self.cloud_is_alpha = isinstance(pairs[0].alpha.shape, PointCloud)
+        sides = [(pair.alpha.shape, pair.beta.shape) for pair in pairs]
+        solids = [side[self.cloud_is_alpha] for side in sides]
+        cloud = sides[0][not self.cloud_is_alpha]
         assert isinstance(cloud, PointCloud)
-        self._points = cloud.points
+        self.points = cloud.points
+        self.is_plane = np.array([isinstance(solid, HalfSpace) for solid in solids])
+        self.has_faces = np.array([isinstance(solid, Box) for solid in solids])
+        self.extent = np.where(self.is_plane, 0.0, [solid.extent for solid in solids])
+        self.sizes = np.array([closed_form(solid) for solid in solids])
         self._coordinates = np.ascontiguousarray(cloud.points.T)
-        planes = [solid for solid in solids if isinstance(solid, HalfSpace)]
-        cores = [solid.core for solid in solids if isinstance(solid, Rounded)]
-        is_plane = np.array([isinstance(solid, HalfSpace) for solid in solids])
-        self._planes = np.flatnonzero(is_plane)
-        self._normals = np.array([plane.normal for plane in planes]).reshape(-1, 3)
-        self._offsets = np.array([plane.offset for plane in planes])
-        self._rounded = np.flatnonzero(~is_plane)
-        self._halves = np.array([half for half, _ in cores]).reshape(-1, 3)
-        self._radii = np.array([radius for _, radius in cores])
-        self._has_faces = np.array([isinstance(solid, Box) for solid in solids])
-        self._extents = np.where(is_plane, 0.0, [solid.extent for solid in solids])
+        self._planes = np.flatnonzero(self.is_plane)
+        self._normals, self._offsets = np.split(self.sizes[self._planes], [3], axis=1)
+        self._rounded = np.flatnonzero(~self.is_plane)
+        self._halves, self._radii = np.split(self.sizes[self._rounded], [3], axis=1)
 
+    @compiled
     def contacts(self, R: Array, t: Array) -> tuple[Mask, ClosestPoints]:
         """The points that rank first on each solid, at poses of the links (L, 3, 3), (L, 3) [m].
 
@@ -59,7 +70,7 @@ class Clouds(Batch):
         self, alpha: Pose, beta: Pose, seen: Array, places: Array
     ) -> tuple[Mask, ClosestPoints]:
         """The points that rank first at poses of both; `seen` and `places` are (P,) [m]."""
-        solid, cloud = (alpha, beta)[:: self._turn]
+        cloud, solid = (alpha, beta) if self.cloud_is_alpha else (beta, alpha)
         away = (cloud[1] - solid[1])[..., None]
         relative = product(solid[0].mT, np.concatenate([cloud[0], away], axis=2))[..., None]
         x = relative[:, :, 0] * self._coordinates[0]  # in the frame of each solid, (P, 3, N)
@@ -73,8 +84,8 @@ class Clouds(Batch):
         x = x.swapaxes(1, 2)[kept]
         known = ~self._ties(x, phi, places)
         surface = phi, self._normals_at(x), np.full(first.shape, UNIQUE_NORMAL)
-        points = contacts_over(solid, cloud, self._points[first], 0.0, surface, first)
-        return known, points if self._turn > 0 else points.swapped()
+        points = contacts_over(solid, cloud, self.points[first], 0.0, surface, first)
+        return known, points.swapped() if self.cloud_is_alpha else points
 
     def _distances(self, x: Array) -> Array:
         """Signed distances, (P, N) [m], of points in the frames of the solids, (P, 3, N) [m]."""
@@ -82,14 +93,14 @@ class Clouds(Batch):
         if len(self._planes):
             along = x[self._planes] * self._normals[..., None]
             height = along[:, 0] + along[:, 1] + along[:, 2]
-            phi[self._planes] = height - self._offsets[:, None]
+            phi[self._planes] = height - self._offsets
         if len(self._rounded):  # as distance_to_rounded_box
             excess = np.abs(x[self._rounded]) - self._halves[..., None]
             inside = np.maximum.reduce(excess, axis=1)
             beyond = np.maximum(excess, 0.0, out=excess)
             beyond *= beyond
             outside = np.sqrt(beyond[:, 0] + beyond[:, 1] + beyond[:, 2])
-            phi[self._rounded] = outside + np.minimum(inside, 0.0) - self._radii[:, None]
+            phi[self._rounded] = outside + np.minimum(inside, 0.0) - self._radii
         return phi
 
     def _first(self, phi: Array) -> Indices:
@@ -115,8 +126,8 @@ class Clouds(Batch):
 
     def _ties(self, x: Array, phi: Array, places: Array) -> Mask:
         """Of which pairs (P,) two faces are as high over a point that touches or is inside."""
-        within = TIED_FACES * np.maximum(places, self._extents)
-        pair, point = ((phi <= within[:, None]) & self._has_faces[:, None]).nonzero()
+        within = TIED_FACES * np.maximum(places, self.extent)
+        pair, point = ((phi <= within[:, None]) & self.has_faces[:, None]).nonzero()
         ties = np.zeros(len(x), dtype=bool)
         if len(pair):
             at = x[pair, point]
@@ -125,3 +136,12 @@ class Clouds(Batch):
             heights.partition(-2, axis=1)
             ties[pair[heights[:, -2] >= heights[:, -1] - within[pair]]] = True
         return ties
+
+
+def closed_form(solid: Shape) -> list[float]:
+    """Half extents of a core and radius [m], or normal [-] and offset [m]: four numbers."""
+    if isinstance(solid, HalfSpace):
+        return [*solid.normal, solid.offset]
+    assert isinstance(solid, Rounded)
+    half, radius = solid.core
+    return [*half, radius]

@@ -1,8 +1,10 @@
 """The compiled library, loaded by cffi with the declarations of ``source/fast.h``."""
 
-from collections.abc import Mapping
+import ctypes
+import os
+from collections.abc import Callable, Mapping
 from functools import cache
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from cffi import FFI
@@ -76,3 +78,39 @@ class Structure:
     def __getitem__(self, field: str) -> NDArray[Any]:
         """An array of the structure by its field, which C may write."""
         return self._arrays[field]
+
+
+VARIABLE: Final = "QUASISTATIC_REF_COMPILED"
+"""The variable of the environment that turns compiled code off, if it is 0."""
+
+Function = Callable[..., int]
+"""A function of the library. Its arguments are addresses of arrays; it says whether it answered."""
+
+
+@cache
+def turned_off() -> bool:
+    """Whether the user wants no compiled code."""
+    return os.environ.get(VARIABLE) == "0"
+
+
+@cache
+def function(name: str) -> Function:
+    """A function of the library by its name, where nothing is :func:`missing`."""
+    found: Function = getattr(ctypes.CDLL(str(LIBRARY)), name)
+    return found
+
+
+class Addresses(list[ctypes.c_void_p]):
+    """Addresses of arrays, as C takes them; the arrays live as long.
+
+    Parameters
+    ----------
+    arrays : ndarray
+        Of numbers of 64 bits, or of truth values, of any shape and unit; what is not contiguous
+        is copied.
+    """
+
+    def __init__(self, *arrays: NDArray[Any]) -> None:
+        self.arrays = [np.ascontiguousarray(array) for array in arrays]
+        assert all(array.dtype in (np.float64, np.int64, np.bool_) for array in self.arrays)
+        super().__init__(ctypes.c_void_p(array.ctypes.data) for array in self.arrays)
