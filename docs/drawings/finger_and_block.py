@@ -70,7 +70,7 @@ def figure() -> Figure:
         end.annotate(
             "", (touch + 2.6 * way, 1.5), (touch, 1.5), arrowprops=look | {"linewidth": scaled(2)}
         )
-    end.text(touch + 1.2, 1.75, f"N = {solution.wrench[0, 2]:.2f} N", ha="left")
+    end.text(touch + 5.2, 1.3, f"N = {solution.wrench[0, 2]:.2f} N", ha="left", va="center")
     start.set_xlabel("")
     for axes, words in ((start, "the step begins"), (end, "the step ends")):
         axes.set_title(words, loc="left")

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from docs.drawings.labels import label_axes
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 
@@ -45,5 +44,6 @@ def figure() -> Figure:
     axes.set_yticks(range(6), ROWS)
     axes.tick_params(length=0)
     axes.grid(visible=False)
-    label_axes(axes, "left finger, then right finger: a unit of")
+    for middle, finger in ((1.5, "left finger"), (5.5, "right finger")):
+        axes.text(middle, -0.6, f"a unit of the {finger}'s", ha="center", va="bottom")
     return page

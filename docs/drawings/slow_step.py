@@ -20,6 +20,7 @@ TIMES = np.array([2e-3, 5e-3, 10e-3, 20e-3, 50e-3, 100e-3])
 V, MU_V, SLOWLY = 0.05, 0.5, 10.0
 STYLES = {"run": "o", "slowly": "^", "slowly, by Coulomb's law": "s"}
 PEN: dict[str, Any] = {"color": "black", "markerfacecolor": "none", "linewidth": 0.9}
+GREY: dict[str, Any] = {"color": "0.6", "linewidth": 3, "label": "formula (R13); half the weight"}
 FINGERS = {
     "wiper": (2e4, [0, 0, 0.01], [0, 0, 0.00975], [V, 0, 0]),
     "left": (1e6, [-0.06, 0, 0], [-0.06 + 12e-6, 0, 0], [0, 0, V]),
@@ -62,23 +63,20 @@ def forces(step: StepData) -> list[Array]:
 
 
 def figure() -> Figure:
-    """The normal force of the wiper, and the friction of a finger that lifts, over h.
-
-    Grey are (R13) and half the weight.
-    """
+    """The normal force of the wiper, and the friction of a finger that lifts, over h."""
     page, axes = panels(6.3, 2.9, columns=2)
     for one, lifts in zip(axes, (False, True), strict=True):
         each = np.array([forces(last_step(float(h), lifts)) for h in TIMES])
         shown = np.hypot(each[..., 0], each[..., 1]) if lifts else each[..., 2]
         if not lifts:
-            one.plot(1e3 * TIMES, 2e4 * (0.25e-3 + MU_V * TIMES * V), color="0.6", linewidth=3)
+            one.plot(1e3 * TIMES, 2e4 * (0.25e-3 + MU_V * TIMES * V), **GREY)
         else:
-            one.axhline(GRAVITY / 2, color="0.6", linewidth=3)
+            one.axhline(GRAVITY / 2, **GREY)
         for (law, style), values in zip(STYLES.items(), shown.T, strict=True):
             one.plot(1e3 * TIMES, values, style, label=law, **PEN)
         one.set_xscale("log")
         label_axes(one, "h [ms]", "friction [N]" if lifts else "normal force [N]", key=False)
-        one.set_title("two of 12 N lift 1 kg" if lifts else "one of 5 N wipes")
+        one.set_title("two fingers of 12 N lift 1 kg" if lifts else "a finger of 5 N wipes")
         one.set_ylim(bottom=0)
     legend_below(axes, axes[0].get_legend_handles_labels()[0])
     return page

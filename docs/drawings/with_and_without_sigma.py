@@ -36,18 +36,22 @@ def figure() -> Figure:
         x = np.arange(len(ROWS))
         one.bar(x, forces, 0.6, color="#0072B2", label=r"$\lambda_i / h$ [N]")
         one.bar(
-            x, -1e5 * slacks, 0.6, color="#E69F00", label=r"slack of the row, downwards [10 um]"
+            x, -1e5 * slacks, 0.6, color="#E69F00", label=r"slack of the row, downwards [10 $\mu$m]"
         )
         for k in range(len(ROWS)):
             pushes = forces[k] > 1e-6
-            words = f"{forces[k]:.2f} N" if pushes else f"{1e6 * slacks[k]:.0f} um"
+            words = f"{forces[k]:.2f} N" if pushes else f"{1e6 * slacks[k]:.0f} µm"
             y = forces[k] + 0.2 if pushes else -1e5 * slacks[k] - 0.2
             one.text(k, y, words, ha="center", va="bottom" if pushes else "top")
         one.axhline(0, color="0.3", linewidth=0.8)
         one.set_xticks(x, ROWS)
-        law = rf"with $\sigma$ = {1e6 * sigma:.0f} um" if corrected else r"without $\sigma$"
+        law = rf"with $\sigma$ = {1e6 * sigma:.0f} µm" if corrected else r"without $\sigma$"
         one.set(ylim=(-13, 13))
+        one.set_axisbelow(True)
+        one.grid(visible=False)
         label_axes(one, "row", title=law, key=False)
-    axes[0].set_yticks([])
+    axes[0].set_yticks([-10, -5, 0, 5, 10], ["10", "5", "0", "5", "10"])
+    axes[0].set_ylabel("slack, force")
+    axes[1].label_outer(remove_inner_ticks=True)
     legend_below(axes, axes[0].get_legend_handles_labels()[0])
     return page

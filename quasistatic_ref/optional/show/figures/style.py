@@ -83,9 +83,13 @@ def style_file(name: str | Path) -> str | Path:
 def sized(width: float, height: float) -> tuple[float, float]:
     """Size of a figure [in] that is `width` x `height` on paper, under the present rcParams.
 
-    It grows with ``font.size``, and is no wider than ``figure.figsize``.
+    It grows with ``font.size``, and is no wider than ``figure.figsize``. Where text is larger than
+    on paper it is no higher either: it is shown as high as a slide, whose text stays readable.
     """
-    return min(scaled(width), float(plt.rcParams["figure.figsize"][0])), scaled(height)
+    widest, highest = map(float, plt.rcParams["figure.figsize"])
+    if scaled(1.0) > 1.0:
+        height = min(height, highest / scaled(1.0))
+    return min(scaled(width), widest), scaled(height)
 
 
 def scaled(size: float) -> float:
