@@ -37,7 +37,7 @@ def finger(name: str) -> dict[str, Any]:
         {"t": t, "base": {"xyz": [x + t * v for x, v in zip(first, velocity, strict=True)]}}
         for t in (0.0, 10.0)
     ]
-    return {"urdf": tip, "K_q": {"base": [K, K, K, 1e4, 1e4, 1e4]}, "targets": way}
+    return {"body": tip, "K_q": {"base": [K, K, K, 1e4, 1e4, 1e4]}, "targets": way}
 
 
 def last_step(h: float, lifts: bool) -> StepData:

@@ -23,7 +23,7 @@ scenario = qr.load_scenario({
     "h": 0.05,
     "steps": 60,
     "bodies": {
-        "finger": {"urdf": finger, "K_q": {"base": [K_q, K_q, K_q, 10, 10, 10]}},
+        "finger": {"body": finger, "K_q": {"base": [K_q, K_q, K_q, 10, 10, 10]}},
         "block": block,
     },
     "shapes": {"floor": qr.HalfSpace((0, 0, 1), 0.0)},

@@ -23,7 +23,7 @@ def scene(side):
         "h": 0.01, "steps": 1, "gravity": [0, 0, 0],
         "bodies": {
             "finger": {
-                "urdf": qr.Body.of_shape("finger", qr.Sphere(finger), mass=0.1, xyz=(x, side, 0),
+                "body": qr.Body.of_shape("finger", qr.Sphere(finger), mass=0.1, xyz=(x, side, 0),
                                          actuated=["base"]),
                 "K_q": {"base": [1000, 1000, 1000, 10, 10, 10]},
             },

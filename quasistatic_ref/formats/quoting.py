@@ -31,7 +31,7 @@ OTHER_WORDS = {
     "pose": "pos position xyz rpy quat origin transform",
     "xyz": "pos position translation origin",
     "rpy": "quat orientation euler rotation",
-    "urdf": "mesh file model filename path",
+    "urdf": "mesh file model filename path body",
     "cloud": "points point_cloud",
     "shapes": "geometry geom geoms collision collisions",
     "shape": "geometry geom solid",

@@ -74,7 +74,7 @@ def apply_settings(
     settings : sequence of str, or mapping of str to object
         ``dotted.key=value``, the value being TOML or else a plain word; or values by dotted key.
     named : mapping of str to object
-        Values by the names of fields at the top, made last; or by dotted keys.
+        Values by the names of fields at the top, made next; or by dotted keys, made last.
 
     Returns
     -------
@@ -101,13 +101,15 @@ def apply_settings(
             key, equals, text = str(setting).partition("=")
             keys.append(key.strip())
             _put(tables, key if equals else "", parsed(text), SET, setting)
-    for key in filter(_is_dotted, named):
-        _put(tables, key, python_value(key, named[key]), "settings", key)
     made = _second_level(tables) - before
     for key in itertools.filterfalse(_is_dotted, named):
         value = python_value(key, named[key])
         _check_whole(key, tables.get(key), value)
         tables[key] = value
+    before = _second_level(tables)
+    for key in filter(_is_dotted, named):
+        _put(tables, key, python_value(key, named[key]), "settings", key)
+    made |= _second_level(tables) - before
     return {pair: _leading_to(pair, keys) for pair in made & _second_level(tables)}
 
 

@@ -57,7 +57,7 @@ from quasistatic_ref.simulate.stiffness import stiffness_of_parts
 from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import Target
-from quasistatic_ref.solve.backends import DEFAULT, is_function
+from quasistatic_ref.solve.backends import DEFAULT, Certify, is_function
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ
 
@@ -193,6 +193,9 @@ def load_scenario(
     name: str | PathLike[str] | Mapping[str, Any],
     settings: Changes = (),
     *,
+    backend: str | None = None,
+    certify: Certify | None = None,
+    accuracy: float | None = None,
     of_others: bool = False,
     **fields: Any,
 ) -> Scenario:
@@ -206,12 +209,14 @@ def load_scenario(
     settings : sequence of str, or mapping of str to object
         Changes, made before anything is checked: ``dotted.key=value``, as after the command
         line's ``--set``; or values by dotted key, ``{"contacts.grip.mu_omega": 0}``.
+    backend, certify, accuracy : optional
+        In place of those of the table ``[solver]``; `accuracy` in natural units [-].
     of_others : bool
         Whether a mapping was written by somebody whom you do not trust.
         It then may do what a file in the working folder may: its paths stay in that folder, and
         its backend is no function. A file always is of others; `settings` and `fields` are yours.
     fields : object
-        The same for fields at the top: ``steps=120``.
+        The same as `settings` for fields at the top: ``steps=120``.
 
     Returns
     -------
@@ -224,8 +229,9 @@ def load_scenario(
 
     Examples
     --------
-    >>> qr.load_scenario("bunny_grasp", {"contacts.grip.mu_omega": 0.0}, steps=3).steps
-    3
+    >>> loose = {"contacts.grip.mu_omega": 0.0}
+    >>> qr.load_scenario("bunny_grasp", loose, backend="osqp", steps=3).backend
+    'osqp'
     >>> scene = {
     ...     "h": 0.01,
     ...     "steps": 5,
@@ -236,6 +242,11 @@ def load_scenario(
     >>> qr.load_scenario(scene).run(progress=False).steps
     5
     """
+    chosen = {"backend": backend, "certify": certify, "accuracy": accuracy}
+    fields |= {f"solver.{word}": one for word, one in chosen.items() if one is not None}
+    if isinstance(word := fields.get("solver"), str):
+        problem = "is the table of backend, certify and accuracy; did you mean 'backend'?"
+        raise ScenarioError(problem, field="solver", value=word)
     if isinstance(name, Mapping):
         tables = scene_tables(name, of_others)
         with about_changes(settings, fields):

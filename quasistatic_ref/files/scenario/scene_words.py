@@ -24,7 +24,7 @@ def scene_tables(scene: Mapping[str, Any], of_others: bool = False) -> dict[str,
     ----------
     scene : mapping
         As a scenario file, ``{"h": 0.01, "bodies": {"block": {...}}, ...}``. A body may be a Body,
-        or have one as its ``urdf``, whose fields its table then overrides; a shape may be a Shape,
+        or have one as its ``body``, whose fields its table then overrides; a shape may be a Shape,
         or a table with a Shape as its ``shape``; arrays of NumPy serve as lists.
     of_others : bool
         Whether its words are a stranger's, as those of a file.
@@ -35,7 +35,7 @@ def scene_tables(scene: Mapping[str, Any], of_others: bool = False) -> dict[str,
         If something is not a table, or a shape has no words in a scenario file.
     """
     tables = {"format": FORMAT, "version": VERSION, **scene}
-    tables["bodies"] = {name: _body(one) for name, one in _named(tables, "bodies")}
+    tables["bodies"] = {name: _body(name, one) for name, one in _named(tables, "bodies")}
     tables["shapes"] = {name: _shape(name, one) for name, one in _named(tables, "shapes")}
     return {str(name): python_value(name, value, of_others) for name, value in tables.items()}
 
@@ -47,11 +47,17 @@ def _named(tables: Mapping[str, Any], kind: str) -> list[tuple[str, Any]]:
     return list(named.items())
 
 
-def _body(entry: Any) -> Any:
-    table = {"urdf": entry} if isinstance(entry, Body) else entry
-    if not isinstance(table, Mapping) or not isinstance(table.get("urdf"), Body):
+def _body(name: str, entry: Any) -> Any:
+    table = {"body": entry} if isinstance(entry, Body) else entry
+    if not isinstance(table, Mapping):
         return table
-    body = table["urdf"]
+    word = "body" if "body" in table else "urdf"
+    body = table.get(word)
+    if word == "body" and not (isinstance(body, Body) and "urdf" not in table):
+        problem = "must be a Body, in the place of urdf, which is a file or its text"
+        raise ScenarioError(problem, field=f"bodies.{name}.body", value=type(body).__name__)
+    if not isinstance(body, Body):
+        return table
     words = {
         "urdf": body.urdf,
         "base": body.base,
@@ -60,7 +66,7 @@ def _body(entry: Any) -> Any:
         "positions": dict(body.positions),
         "package_dirs": [str(folder) for folder in body.package_dirs],
     }
-    return words | {name: value for name, value in table.items() if name != "urdf"}
+    return words | {key: value for key, value in table.items() if key != word}
 
 
 def _shape(name: str, entry: Any) -> Any:

@@ -1,11 +1,12 @@
 """Changes of a scenario: the command line's strings, mappings and keywords say the same."""
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, load_scenario
+from quasistatic_ref import InputError, ScenarioError, load_scenario
 from tests.cases import cases, refusal
 from tests.closeness import assert_same
 from tests.files.urdf.urdf_texts import urdf_of_text
@@ -42,6 +43,23 @@ def test_keywords_are_made_last_and_a_table_may_be_given_whole(path):
     scenario = load_scenario(path, {"steps": 3, "solver": {"backend": "osqp"}}, steps=4)
     assert (scenario.steps, scenario.backend) == (4, "osqp")
     assert load_scenario(path, solver={"certify": "off"}).certify == "off"
+
+
+def test_the_fields_of_solver_are_keywords_by_their_own_words(path):
+    scenario = load_scenario(path, backend="osqp", certify="off", accuracy=1e-8)
+    assert (scenario.backend, scenario.certify, scenario.accuracy) == ("osqp", "off", 1e-8)
+    table = {"backend": "piqp", "certify": "residual"}
+    both = load_scenario(path, {"solver.backend": "osqp"}, solver=table, backend="daqp")
+    assert (both.backend, both.certify) == ("daqp", "residual")
+    for word, value, said in (
+        ("backend", "osqqp", "solver.backend: is not a backend; did you mean 'osqp'?"),
+        ("certify", "of", "solver.certify: is not a choice; did you mean 'off'?"),
+        ("accuracy", 0, "solver.accuracy: must be greater than 0 (got 0)"),
+        ("solver", "osqp", "certify and accuracy; did you mean 'backend'?"),
+        ("tolerance", 1e-9, "tolerance: is unknown; did you mean 'accuracy' of [solver]?"),
+    ):
+        with pytest.raises(ScenarioError, match=re.escape(said)):
+            load_scenario(path, **{word: value})
 
 
 def test_what_is_given_is_not_changed(path):

@@ -27,7 +27,7 @@ def with_objects():
     return {
         "h": np.float64(0.02), "steps": 3, "gravity": np.array([0, 0, -9.81]),
         "bodies": {
-            "hand": {"urdf": hand, "K_q": {"slide": 100.0}, "positions": {"slide": -0.1}},
+            "hand": {"body": hand, "K_q": {"slide": 100.0}, "positions": {"slide": -0.1}},
             "ball": qr.Body.of_shape("ball", qr.Sphere(0.05), 0.3, xyz=(0, 0, 0.05)),
         },
         "shapes": {
@@ -81,6 +81,10 @@ def test_the_scene_that_was_given_stays_as_it_was():
             "bodies.arm.q: is unknown; did you mean 'pos",
         ),
         ({"bodies": {"arm": {"urdf": "<robot"}}}, "not well-formed|malformed"),
+        (
+            {"bodies": {"arm": {"body": "arm.urdf"}}},
+            "arm.body: must be a Body, in the place",
+        ),
     ],
 )
 def test_mistakes_are_answered_as_in_a_file(change, words):
