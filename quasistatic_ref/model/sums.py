@@ -9,6 +9,7 @@ import numpy as np
 from quasistatic_ref.model.joints import BY_ENTRIES
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.compiled import compiled
 
 MANY: Final = 12
 """Joints of one kind from which arrays are quicker than numbers."""
@@ -21,42 +22,54 @@ class Sums:
     ----------
     joints : sequence of Joint
         In the order of q.
+
+    Attributes
+    ----------
+    n_q, n_v : int
+        Numbers of their entries.
+    many : list of (Joint, ndarray of int, ndarray of int)
+        Of each kind with many joints one of them, and the entries of q and of delta_q of all.
+    few : list of Joint
+        All others.
     """
 
     def __init__(self, joints: Sequence[Joint]) -> None:
         kinds: dict[type[Joint], list[Joint]] = defaultdict(list)
         for joint in joints:
             kinds[type(joint)].append(joint)
-        self._many = [
+        self.many = [
             (some[0], _entries([one.q for one in some]), _entries([one.v for one in some]))
             for kind, some in kinds.items()
             if kind in BY_ENTRIES and len(some) >= MANY
         ]
-        at_once = {type(joint) for joint, _, _ in self._many}
-        self._few = [joint for joint in joints if type(joint) not in at_once]
-        self._n_v = joints[-1].v.stop if joints else 0
+        at_once = {type(joint) for joint, _, _ in self.many}
+        self.few = [joint for joint in joints if type(joint) not in at_once]
+        self.n_q: int = joints[-1].q.stop if joints else 0
+        self.n_v: int = joints[-1].v.stop if joints else 0
 
+    @compiled
     def plus(self, q: Array, delta_q: Array) -> Array:
         """Entries of q (+) delta_q, from those of both; shapes (n_q,) and (n_v,) [m, rad, -]."""
         there = np.empty(len(q))
-        with np.errstate(all="ignore"):  # as plain arithmetic
-            for joint, at, v in self._many:
+        for joint, at, v in self.many:
+            with np.errstate(all="ignore"):  # as plain arithmetic
                 there[at] = joint.moved([*q[at]], [*delta_q[v]])
         here = q.tolist()
         change = delta_q.tolist()
-        for joint in self._few:
+        for joint in self.few:
             there[joint.q] = joint.moved(here[joint.q], change[joint.v])
         return there
 
+    @compiled
     def change(self, q: Array, q_next: Array) -> Array:
         """Entries of q_next (-) q, shape (n,) [m, rad], from those of both [m, rad, -]."""
-        change = np.empty(self._n_v)
-        with np.errstate(all="ignore"):
-            for joint, at, v in self._many:
+        change = np.empty(self.n_v)
+        for joint, at, v in self.many:
+            with np.errstate(all="ignore"):
                 change[v] = joint.change([*q[at]], [*q_next[at]])
         here = q.tolist()
         there = q_next.tolist()
-        for joint in self._few:
+        for joint in self.few:
             change[joint.v] = joint.change(here[joint.q], there[joint.q])
         return change
 

@@ -45,7 +45,18 @@ def turned(joints, rng):
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_many_joints_at_once_are_each_by_itself(kind, rng):
-    joints = joints_of(*[kind, KINDS[0], Odd] * (2 * MANY))
+    check(joints_of(*[kind, KINDS[0], Odd] * (2 * MANY)), rng)
+
+
+@pytest.mark.parametrize("other", KINDS, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
+def test_few_joints_by_compiled_code_are_each_by_itself(kind, other, rng):
+    check(joints_of(kind, other), rng)
+    check(joints_of(kind), rng)
+
+
+def check(joints, rng):
+    """Sums and differences of all joints, and those of each."""
     sums = Sums(joints)
     for size in (0.0, 1e-300, 1e-9, 1e-3, 1.0, 1e3, 1e8, 1e200):
         q, other = turned(joints, rng), turned(joints, rng)

@@ -1,6 +1,5 @@
 """The compiled library, loaded by cffi with the declarations of ``source/fast.h``."""
 
-import ctypes
 import os
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -83,8 +82,12 @@ class Structure:
 VARIABLE: Final = "QUASISTATIC_REF_COMPILED"
 """The variable of the environment that turns compiled code off, if it is 0."""
 
-Function = Callable[..., int]
-"""A function of the library. Its arguments are addresses of arrays; it says whether it answered."""
+ARGUMENTS: Final = {"cloud_contacts": 14, "plus": 5, "change": 5}
+"""Numbers of arguments of each function, all of them addresses of arrays; it returns whether it
+has answered."""
+
+address = ffi.from_buffer
+"""The address of a contiguous array, as C takes it; what is returned keeps the array alive."""
 
 
 @cache
@@ -94,23 +97,24 @@ def turned_off() -> bool:
 
 
 @cache
-def function(name: str) -> Function:
+def function(name: str) -> Callable[..., int]:
     """A function of the library by its name, where nothing is :func:`missing`."""
-    found: Function = getattr(ctypes.CDLL(str(LIBRARY)), name)
+    found: Callable[..., int] = getattr(_functions(), name)
     return found
 
 
-class Addresses(list[ctypes.c_void_p]):
-    """Addresses of arrays, as C takes them; the arrays live as long.
+@cache
+def _functions() -> Any:
+    declared = [
+        f"int64_t {name}({', '.join(['const void *'] * count)});"
+        for name, count in ARGUMENTS.items()
+    ]
+    ffi.cdef("\n".join(declared))
+    return ffi.dlopen(str(LIBRARY))
 
-    Parameters
-    ----------
-    arrays : ndarray
-        Of numbers of 64 bits, or of truth values, of any shape and unit; what is not contiguous
-        is copied.
-    """
 
-    def __init__(self, *arrays: NDArray[Any]) -> None:
-        self.arrays = [np.ascontiguousarray(array) for array in arrays]
-        assert all(array.dtype in (np.float64, np.int64, np.bool_) for array in self.arrays)
-        super().__init__(ctypes.c_void_p(array.ctypes.data) for array in self.arrays)
+def addresses(*arrays: NDArray[Any]) -> list[Any]:
+    """Addresses of arrays that stay, of numbers of 64 bits, copied where not contiguous."""
+    contiguous = [np.ascontiguousarray(array) for array in arrays]
+    assert all(array.dtype in (np.float64, np.int64) for array in contiguous)
+    return [address(array) for array in contiguous]

@@ -1,0 +1,78 @@
+"""(+) and (-) of a few joints: source/sums.c. Of many joints NumPy is as quick."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from quasistatic_ref.model.joints.axis_joint import Prismatic, Revolute
+from quasistatic_ref.model.joints.continuous import Continuous
+from quasistatic_ref.model.joints.floating import Floating
+from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.model.joints.planar import Planar
+from quasistatic_ref.model.sums import Sums
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.compiled.library import address, addresses, function
+
+KINDS: dict[type[Joint], int] = {Floating: 0, Planar: 1, Continuous: 2, Revolute: 3, Prismatic: 3}
+"""Their numbers in C."""
+
+Sum = Callable[[Array, Array], Array | None]
+
+
+def plus(sums: Sums) -> Sum | None:
+    """``Sums.plus``; it declines where a sine stays open."""
+    return _of_few("plus", sums, sums.n_q)
+
+
+def change(sums: Sums) -> Sum | None:
+    """``Sums.change``; it declines where an angle stays open, and bases in the plane."""
+    return _of_few("change", sums, sums.n_v)
+
+
+def _of_few(name: str, sums: Sums, size: int) -> Sum | None:
+    joints = sums.few
+    if sums.many or not all(type(joint) in KINDS for joint in joints):
+        return None
+    starts = [[KINDS[type(joint)], joint.q.start, joint.v.start] for joint in joints]
+    kept = addresses(np.array([len(joints)]), np.reshape(np.array(starts, np.int64), (-1, 3)).T)
+    compiled = function(name)
+
+    def answer(q: Array, other: Array) -> Array | None:
+        written = np.empty(size)
+        arrays = np.ascontiguousarray(q), np.ascontiguousarray(other), written
+        return written if compiled(*kept, *map(address, arrays)) else None
+
+    return answer
+
+
+def trials_of_plus() -> list[tuple[Sums, tuple[Array, Array]]]:
+    """A joint of each kind, moved far, a little, and not at all."""
+    sums = Sums(_joints(KINDS))
+    q = np.array([0.1, -0.2, 0.3, *UNIT, 0.4, 0.2, *TURN, 0.96, 0.28, 0.3, 1.5])
+    delta_q = np.array([0.3, -0.1, 0.2, 0.7, -0.4, 1.1, 0.2, 0.1, 0.5, -0.3, 0.6, 0.02])
+    return [(sums, (q, size * delta_q)) for size in (1.0, 1e-4, 0.0)]
+
+
+def trials_of_change() -> list[tuple[Sums, tuple[Array, Array]]]:
+    """Joints that are elsewhere, and as far around as can be."""
+    sums = Sums(_joints([kind for kind in KINDS if kind is not Planar]))
+    q = np.array([0.1, -0.2, 0.3, *UNIT, *TURN, 0.3, 1.5])
+    there = np.array([0.2, 0.1, -0.3, *UNIT[::-1], 0.28, 0.96, 0.1, 0.2])
+    return [(sums, (q, there)), (sums, (there, q)), (sums, (q, q))]
+
+
+UNIT = (0.1, 0.5, -0.7, 0.5)
+TURN = (0.6, -0.8)
+
+
+def _joints(kinds: Iterable[type[Joint]]) -> list[Joint]:
+    """A joint of each kind, one after another."""
+    joints: list[Joint] = []
+    q = v = 0
+    for kind in kinds:
+        joint = kind("j", True, slice(0), slice(0))
+        sizes = len(joint.neutral()), len(joint.coordinates)
+        joints.append(replace(joint, q=slice(q, q + sizes[0]), v=slice(v, v + sizes[1])))
+        q, v = joints[-1].q.stop, joints[-1].v.stop
+    return joints
