@@ -147,7 +147,7 @@ CONTENTS = {
         "scripts/index",
     ),
     "The model": (
-        "theory/equations", "theory/errata", "conventions", "derivations", "cones", "coulomb",
+        "theory/equations", "theory/errata", "conventions", "derivations", "cones",
         "artifacts", "theory/references",
     ),
     "Proofs and derivatives": ("exactness", "exact_qp", "derivatives"),
@@ -162,10 +162,12 @@ CONTENTS = {
 }  # fmt: skip
 """The parts of the site and their pages, in the order of its navigation."""
 INDEXED = {
-    "artifacts": ("## The time step", "time step"),
-    "guides/check_your_implementation": ("# Check your implementation", "port"),
+    "artifacts": {"## The drag of a run": "Pi", "## The time step": "time step"},
+    "conventions": {"## One step, as solvers see it": "lam"},
+    "guides/check_your_implementation": {"# Check your implementation": "port"},
+    "quickstart": {"## Install": "licence"},
 }
-"""Words that readers search for, which stand in many pages: the heading that they should find."""
+"""Headings that readers should find by a word which stands in many pages, or in none."""
 CITED_RESULT = re.compile(r"\((R\d+)\)")
 NAMED_EQUATIONS = re.compile(r"\bEqs?\. \(\d+\)(?:(?: to |, | and )\(\d+\))*")
 WORK = re.compile(r"\[[^\]]*\]\([./]*references\.bib#(\w+)\)")
@@ -202,8 +204,8 @@ def setup(app):
 def _expanded(app, docname, source):
     """Pages are plain Markdown, which a code host shows; here links lead to pages of the site.
 
-    ``<!-- contents -->`` is the navigation, ``% fields of a scenario`` and ``% arrays of a
-    trajectory`` are the tables by which these are read.
+    ``<!-- contents -->`` is the navigation, ``<!-- fields of a scenario -->`` and ``<!-- arrays of
+    a trajectory -->`` are the tables by which these are read.
     """
     up = "../" * docname.count("/")
     text = source[0]
@@ -219,12 +221,11 @@ def _expanded(app, docname, source):
     text = OUTSIDE.sub(r"{download}`\1 <\2>`", text)
     text = WORK.sub(r"{cite:t}`\1`", text)
     text = text.replace("<!-- contents -->", _contents())
-    if docname in INDEXED:
-        heading, words = INDEXED[docname]
+    for heading, words in INDEXED.get(docname, {}).items():
         text = text.replace(f"{heading}\n", f"{heading}\n\n```{{index}} ! {words}\n```\n", 1)
     text = text.replace(f"]({up}gallery/README.md)", f"]({up}scripts/index.rst)")
-    text = text.replace("\n% fields of a scenario\n", "\n" + reference_page(SCENARIO))
-    text = text.replace("\n% arrays of a trajectory\n", "\n" + arrays_page())
+    text = text.replace("\n<!-- fields of a scenario -->\n", "\n" + reference_page(SCENARIO))
+    text = text.replace("\n<!-- arrays of a trajectory -->\n", "\n" + arrays_page())
     if docname in CLOSED_FORMS:
         text = RESULT.sub(lambda r: f"[**({r[1]}){r[2]}**]{{#{r[1].lower()}}}", text)
     source[0] = _results_linked(text)

@@ -19,7 +19,6 @@ DOCS = ROOT / "docs"
 PAGES = [
     "artifacts.md",
     "cones.md",
-    "coulomb.md",
     "derivations.md",
     "findings.md",
     "guides/check_your_implementation.md",
@@ -29,7 +28,7 @@ PAGES = [
     "guides/write_a_scenario.md",
     "quickstart.md",
 ]
-LONG = "artifacts.md", "coulomb.md", "derivations.md", "guides/runs.md", "quickstart.md"
+LONG = "artifacts.md", "derivations.md", "guides/runs.md", "quickstart.md"
 """Pages whose commands take seconds."""
 READERS_OWN = "my_sim"
 STEP = re.compile(r"--step (\d+)")
