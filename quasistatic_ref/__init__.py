@@ -27,7 +27,6 @@ _HOMES = {
     "simulate.result": "StepResult",
     "simulate.limits": "Limits",
     "simulate.simulator": "Simulator",
-    "optional.fast.simulator": "FastSimulator",
     "optional.derivatives.derivatives": "derivatives",
     "optional.derivatives.step_jax": "step_jax",
     "simulate.rollout": "rollout",
@@ -131,7 +130,6 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         Extension as Extension,
         Symbols as Symbols,
     )
-    from quasistatic_ref.optional.fast.simulator import FastSimulator as FastSimulator
     from quasistatic_ref.optional.forces.forces import contact_forces as contact_forces
     from quasistatic_ref.optional.guests.mujoco import mujoco_step as mujoco_step
     from quasistatic_ref.optional.guests.mujoco_opinion import mujoco_opinion as mujoco_opinion

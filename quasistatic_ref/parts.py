@@ -50,9 +50,8 @@ PARTS: Final = {
     ),
     "qpsolvers_solver": ("qpsolvers", "optional.qpsolvers.through_qpsolvers:QpsolversSolver"),
     "qpsolvers_names": ("qpsolvers", "optional.qpsolvers.through_qpsolvers:available_solvers"),
-    "fast_solver": ("fast", "optional.fast.solver:fast_solver"),
-    "fast_simulator": ("fast", "optional.fast.simulator:FastSimulator"),
-    "fast_backend": ("fast", "optional.fast.simulator:default_backend"),
+    "daqp_solver": ('backend = "daqp"', "optional.daqp.solver:DaqpSolver"),
+    "fast_backend": ("fast", "optional.daqp.default:default_backend"),
     # Of runs.
     "doctor": ("strict", "optional.doctor.observer:Doctor"),
     "scene_findings": ("findings", "optional.doctor.checks:scene_findings"),

@@ -17,7 +17,7 @@ from quasistatic_ref.lab.scenes.rigid import free_step, point_step, sphere_step
 from quasistatic_ref.step.cones import cone
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
-INTERFACES = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))
+INTERFACES = (*REQUIRED[:-1], "cvxpy:daqp", *(f"qpsolvers:{name}" for name in REQUIRED))
 JUDGE = "daqp"
 PAPER = 7, 6, (6,) * 10 + (4,) * 5
 """n_a, n_u and rows of each contact, of the paper's grasp."""

@@ -35,6 +35,7 @@ from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.precision import check_arithmetic, working_precision
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, row_layout
+from quasistatic_ref.step.hessian import Hessian
 from quasistatic_ref.step.standard_form import inequalities
 
 EXACT: Final = 1 << 30
@@ -269,15 +270,13 @@ class StepForm(ExactForm):
         self.n = step.n_v
         self.m = step.m
         self.h = arb(step.h)
-        n_a = step.n_a
-        pull = arb_mat(self.n, 1)
-        of_cost = b""
-        if step.extra.cost is not None:
+        if step.extra.cost is None:
+            pull = arb_mat(self.n, 1)
+            springs, self.H, self.H_inverse = step.hessian.once(exact_hessian)
+        else:
             H, g = step.extra.cost
-            of_cost = H.tobytes()
             pull = exact_matrix(g[:, None])
-        matrices = step.K_q.tobytes(), step.M_u.tobytes(), of_cost
-        springs, self.H, self.H_inverse = _hessian(matrices, n_a, self.n, step.h)
+            springs, self.H, self.H_inverse = _with_cost(step.hessian, H.tobytes())
         shift = arb_mat(self.n, 1, [*step.delta_q_bar_a.tolist(), *[0] * step.n_u])
         force = arb_mat(self.n, 1, [*step.tau_a.tolist(), *step.tau_u.tolist()])
         with working_precision(EXACT):
@@ -371,25 +370,34 @@ def row_sizes(A: Array, b: Array, most: Array) -> Array:
     return sizes
 
 
-@lru_cache(maxsize=32)
-def _hessian(
-    matrices: tuple[bytes, bytes, bytes], n_a: int, n: int, h: float
-) -> tuple[arb_mat, arb_mat, arb_mat]:
+def exact_hessian(hessian: Hessian, of_cost: Array | None = None) -> tuple[arb_mat, ...]:
     """h^2 K_q; H = h^2 K_q + M_u + h H of a cost; and the inverse of H in balls.
 
-    The numbers are those of K_q, M_u and the H of a cost, if there is one.
+    Parameters
+    ----------
+    hessian : Hessian
+    of_cost : ndarray, shape (n_v, n_v), optional
+        H of a user's cost.
     """
+    n_a = hessian.n_a
+    n = n_a + len(hessian.M_u)
     parts = np.zeros((3, n, n))
-    numbers = [np.frombuffer(matrix) for matrix in matrices]
-    parts[0, :n_a, :n_a] = numbers[0].reshape(n_a, n_a)
-    parts[1, n_a:, n_a:] = numbers[1].reshape(n - n_a, n - n_a)
-    if numbers[2].size:
-        parts[2] = numbers[2].reshape(n, n)
-    K_q, M_u, of_cost = map(exact_matrix, parts)
+    parts[0, :n_a, :n_a] = hessian.K_q
+    parts[1, n_a:, n_a:] = hessian.M_u
+    if of_cost is not None:
+        parts[2] = of_cost
+    K_q, M_u, H_cost = map(exact_matrix, parts)
     with working_precision(EXACT):
-        springs = K_q * (arb(h) * h)
-        H = springs + M_u + of_cost * arb(h)
+        springs = K_q * (arb(hessian.h) * hessian.h)
+        H = springs + M_u + H_cost * arb(hessian.h)
     return springs, H, inverse(H)
+
+
+@lru_cache(maxsize=32)
+def _with_cost(hessian: Hessian, of_cost: bytes) -> tuple[arb_mat, ...]:
+    """:func:`exact_hessian` of a cost, cached, because most steps of a run have the same."""
+    n = hessian.n_a + len(hessian.M_u)
+    return exact_hessian(hessian, np.frombuffer(of_cost).reshape(n, n))
 
 
 @lru_cache(maxsize=64)

@@ -20,6 +20,10 @@ from quasistatic_ref.numbers.arrays import Indices, Mask, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
+Pairs = tuple[Indices, Indices]
+"""Numbers of couplings, and of coordinates that they couple, shape (k,) each."""
+NOTHING: Pairs = np.zeros(0, np.int64), np.zeros(0, np.int64)
+
 
 class Group(NamedTuple):
     """Indices of a group's coordinates, contacts and rows within a step, each ascending.
@@ -45,7 +49,15 @@ class Group(NamedTuple):
         return [place[row] for row in rows if row in place]
 
 
-def groups(step: StepData) -> list[Group]:
+class Groups(tuple[Group, ...]):
+    """The groups of steps of one structure: one object for it, which is compared as such."""
+
+    __slots__ = ()
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
+
+
+def groups(step: StepData) -> Groups:
     """The groups of a step, in the order of their first coordinates; at least one.
 
     Rows in which nothing moves belong to the first group.
@@ -54,21 +66,44 @@ def groups(step: StepData) -> list[Group]:
     ----------
     step : StepData
     """
-    n_c = step.contacts.n_c
-    n_rows = n_c + len(step.extra.names)
-    contact, of_contact = step.contacts.moved
-    row, of_row = np.nonzero(step.extra.A)
-    i, j = step.coupled_entries
-    coupling = np.concatenate([contact, n_c + row, n_rows + i])
-    coordinate = np.concatenate([of_contact, of_row, j])
-    shape = n_rows + step.n_v, step.n_v
-    return [*_groups(coupling.tobytes(), coordinate.tobytes(), shape, step.counts.tobytes())]
+    extra = step.extra
+    row, of_row = np.nonzero(extra.A)
+    of_step = step.contacts.moved, step.coupled_entries, step.counts, step.n_v
+    return coupled_groups(*of_step, (row, of_row), len(extra.names))
+
+
+def coupled_groups(
+    of_contacts: Pairs,
+    of_H: Pairs,
+    counts: Indices,
+    n_v: int,
+    of_extra: Pairs = NOTHING,
+    e: int = 0,
+) -> Groups:
+    """The groups of steps of one structure, from what may couple coordinates.
+
+    Parameters
+    ----------
+    of_contacts, of_extra : (ndarray, ndarray) of int, shapes (k,)
+        Numbers of contacts, or of e rows of a user's, and of the coordinates that may move them.
+    of_H : (ndarray, ndarray) of int, shapes (k,)
+        Rows and columns of the entries of H that may be nonzero.
+    counts : ndarray of int, shape (n_c,)
+        Number of rows of each contact.
+    n_v, e : int
+    """
+    n_c = len(counts)
+    n_rows = n_c + e
+    coupling = np.concatenate([of_contacts[0], n_c + of_extra[0], n_rows + of_H[0]])
+    coordinate = np.concatenate([of_contacts[1], of_extra[1], of_H[1]])
+    shape = n_rows + n_v, n_v
+    return _groups(coupling.tobytes(), coordinate.tobytes(), shape, counts.tobytes())
 
 
 @lru_cache(maxsize=64)
 def _groups(
     coupling: bytes, coordinate: bytes, shape: tuple[int, int], row_counts: bytes
-) -> tuple[Group, ...]:
+) -> Groups:
     """The groups of a step, from the pattern of its nonzero numbers.
 
     Parameters
@@ -82,7 +117,7 @@ def _groups(
     """
     every = (np.frombuffer(numbers, np.int64) for numbers in (coupling, coordinate, row_counts))
     of_coupling, of_coordinate, counts = every
-    return parted(of_coupling, of_coordinate, shape, counts)
+    return Groups(parted(of_coupling, of_coordinate, shape, counts))
 
 
 def parted(
@@ -159,10 +194,11 @@ def group_step(step: StepData, group: Group) -> StepData:
         return step
     a = c[c < step.n_a]
     u = c[c >= step.n_a] - step.n_a
+    hessian = step.hessian.part(c)
     return StepData.unchecked(
         h=step.h,
-        K_q=read_only(step.K_q[np.ix_(a, a)]),
-        M_u=read_only(step.masses(u)),
+        K_q=hessian.K_q,
+        hessian=hessian,
         tau_a=read_only(step.tau_a[a]),
         tau_u=read_only(step.tau_u[u]),
         delta_q_bar_a=read_only(step.delta_q_bar_a[a]),

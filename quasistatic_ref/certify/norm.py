@@ -28,6 +28,7 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.numbers.pivots import exact_factor
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.hessian import Hessian
 from quasistatic_ref.step.standard_form import linear_term, standard_form
 from quasistatic_ref.tolerances import UNMOVED
 
@@ -78,8 +79,24 @@ class EnergyNorm:
         return lengths
 
 
+def norm_of(step: StepData) -> EnergyNorm:
+    """The norm of a step; errors as of :func:`energy_norm`."""
+    if step.extra.cost is None:
+        return norm_of_hessian(step.hessian)
+    return energy_norm(step.H)
+
+
+def norm_of_hessian(hessian: Hessian) -> EnergyNorm:
+    """The norm of steps with this H; errors as of :func:`energy_norm`."""
+    return hessian.once(_norm)
+
+
+def _norm(hessian: Hessian) -> EnergyNorm:
+    return energy_norm(hessian.matrix)
+
+
 def energy_norm(H: Array) -> EnergyNorm:
-    """The norm of a step, from its float64 H, shape (n_v, n_v) [N m s/m^2].
+    """The norm of a float64 H, shape (n_v, n_v) [N m s/m^2].
 
     Raises
     ------
@@ -186,7 +203,7 @@ def single_lengths(parts: Parts) -> list[list[float]]:
         Of each group [(N m s)^0.5].
     """
     return [
-        [*map(energy_norm(part.H).of_impulse, (*single_loads(part), linear_term(part)))]
+        [*map(norm_of(part).of_impulse, (*single_loads(part), linear_term(part)))]
         for _, part in parts
     ]
 
@@ -219,7 +236,7 @@ def check_length(step: StepData, delta_q: Array, parts: Parts) -> None:
     relative = []
     for group, part in parts:
         moved = delta_q[group.coordinates]
-        norm = energy_norm(part.H)
+        norm = norm_of(part)
         of_loads = norm.of_impulses(single_loads(part))
         most = 0.1 * ILL_POSED * float(of_loads.max())  # a tenth is for rounding
         length = norm.of_displacement(moved)
@@ -252,7 +269,7 @@ def relative_length(step: StepData, delta_q: Array) -> float:
     float
     """
     form = standard_form(step)
-    norm = energy_norm(form.H)
+    norm = norm_of(step)
     b = np.maximum(form.b, 0.0)
     of_cost = [] if step.extra.cost is None else [step.extra.cost[1]]
     parameters = np.concatenate([step.delta_q_bar_a, step.tau_a, step.tau_u, *of_cost, b])
@@ -280,7 +297,7 @@ def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> floa
         The answer, and the optimum [m, rad].
     """
     parts = group_steps(step)
-    norms = [(group.coordinates, energy_norm(part.H)) for group, part in parts]
+    norms = [(group.coordinates, norm_of(part)) for group, part in parts]
     off, moved = (
         math.hypot(*(norm.of_displacement(v[c]) for c, norm in norms))
         for v in (delta_q - exact_delta_q, exact_delta_q)

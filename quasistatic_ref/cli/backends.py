@@ -7,6 +7,8 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.parts import is_there
 from quasistatic_ref.solve.backends import (
     BACKENDS,
+    BY_CVXPY,
+    DAQP,
     DEFAULT,
     NONE,
     QPSOLVERS,
@@ -22,7 +24,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print the table of backends."""
     known = backend_names()
-    quick = fast_default()
+    quick = DAQP if is_there("daqp_solver") and find_spec(DAQP) else None
     if options.json:
         shared.print_json({"default": DEFAULT, "default_of_fast": quick, "installed": known})
         return 0
@@ -31,17 +33,9 @@ def run(options: argparse.Namespace) -> int:
         name = entry.name
         name += " (default)" if name == DEFAULT else ""
         name += " (default with --fast)" if entry.name == quick else ""
-        reached = [key if key in known else "-" for key in (entry.name, QPSOLVERS + entry.name)]
+        by_cvxpy = BY_CVXPY if entry.name == DAQP else entry.name
+        reached = [key if key in known else "-" for key in (by_cvxpy, QPSOLVERS + entry.name)]
         rows.append((name, *reached, entry.method))
     rows.append((NONE, "-", "-", "exact method from a cold start"))
     shared.print_rows(rows)
     return 0
-
-
-def fast_default() -> str | None:
-    """The backend of `fast` where none is named; None if its folder or its packages are missing."""
-    if not is_there("fast_solver") or not all(map(find_spec, ("daqp", "cffi"))):
-        return None
-    from quasistatic_ref.optional.fast.solver import DAQP
-
-    return DAQP

@@ -19,7 +19,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.parts import is_there, needing
+from quasistatic_ref.parts import is_there
 from quasistatic_ref.simulate.finding import severity
 from quasistatic_ref.step.cones import cone
 
@@ -98,7 +98,7 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
         if coordinate["actuated"]:
             coordinate["K_q"] = scenario.K_q[i, i]
     record |= {"h": scenario.h, "steps": scenario.steps, "backend": scenario.backend}
-    record |= {"fast": scenario.fast, "cone": scenario.cone, "steps_by": steps_by(scenario)}
+    record |= {"fast": scenario.fast, "cone": scenario.cone}
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     record["tied"] = tied_at_start(scenario)
@@ -115,21 +115,6 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
         record["findings"] = [finding_table(one) for one in findings if one.name not in ignored]
     record["fields"] = named_fields(scenario.path)
     return record
-
-
-def steps_by(scenario: Scenario) -> str:
-    """The solver and the path, plain or fast, that take a scenario's steps, in words."""
-    if not scenario.fast:
-        return "the plain path, which defines a step; --fast takes the same steps sooner"
-    with needing("fast"):
-        from quasistatic_ref.optional.compiled.library import missing
-        from quasistatic_ref.optional.fast.closest import solid_size
-
-    if (reason := missing()) is not None:
-        return f"the plain path: {reason}"
-    others = ", ".join(dict.fromkeys(p.name for p in scenario.pairs if solid_size(p) is None))
-    known = "compiled code"
-    return f"{known}; closest points of {others} by the plain path" if others else known
 
 
 def tied_at_start(scenario: Scenario) -> list[str]:
@@ -196,7 +181,6 @@ def _print(record: dict[str, Any]) -> None:
         variables, constraints = record["size"]
         print(f"\neach step: {variables} variables, {constraints} rows; h = {record['h']:g} s")
         print(f"solved by {record['backend']}")
-        shared.print_wrapped(f"steps are taken by {record['steps_by']}", "")
     _print_list("normals that are one of several at the start", record.get("tied", []))
     findings = [
         f"{severity(one['grave'])}: {one['sentence']} [{one['name']}]"

@@ -15,7 +15,7 @@ from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.files.solution import infeasible_text, solution_text
-from quasistatic_ref.solve.backends import CERTIFY
+from quasistatic_ref.solve.backends import CERTIFY, DAQP
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
@@ -51,7 +51,8 @@ def run(options: argparse.Namespace) -> int:
     if options.digits is not None:
         _check_digits(options.digits, certify, step)
     try:
-        solver = solver_for(step, options.backend, options.fast)
+        quick = options.backend is None and options.fast and cone(step.cone).polyhedral
+        solver = solver_for(step, DAQP if quick else options.backend)
         solution = solve_step(step, solver, certify=certify)
     except StepInfeasible as proof:
         _write(options.output, infeasible_text(step, proof.farkas.exact))

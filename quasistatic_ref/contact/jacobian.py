@@ -1,24 +1,23 @@
 """Contact Jacobians, Eqs. :eq:`eq-2`-:eq:`eq-3`, and the contacts of a step."""
 
-from typing import Final
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.ordered import YZX, ZXY, crossed, dot, product
-from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.numbers.arrays import Array, Indices, Scalar, read_only
+from quasistatic_ref.numbers.ordered import YZX, ZXY, crossed, dot
+from quasistatic_ref.step.contacts import Contacts, friction_coefficients
 
 AXES = np.eye(3)
-BLOCK: Final = 400_000
-"""Most entries of J [-] that are formed at once: of 1000 bodies it has a hundred million."""
 
 
 class ContactGeometry:
-    """Jacobians of contacts between fixed links, prepared once for all steps.
+    """Jacobians of contacts between fixed links, by the coordinates that can move each contact.
 
     Parameters
     ----------
@@ -26,22 +25,55 @@ class ContactGeometry:
         Which links the points belong to; 0 is the world.
     column_map : ColumnMap
         How the links move.
+
+    Attributes
+    ----------
+    column : ndarray of int, shape (n_c, w)
+        The coordinates that can move each contact, ascending; n_v where it has fewer.
     """
 
     def __init__(self, layout: ContactLayout, column_map: ColumnMap) -> None:
         self.layout = layout
-        self.column_map = column_map
-        self.links = np.stack([layout.link_alpha, layout.link_beta])
-        n_c = len(layout.link_alpha)
-        # What is formed of a block of contacts stays in a processor's cache.
-        count = max(1, BLOCK // (4 * column_map.moves.shape[-1] + 1))
-        self.blocks = [slice(i, i + count) for i in range(0, n_c, count)]
-        # 1 where a column of J moves alpha's (first) or beta's link, else 0; for each row of J.
-        whole = len(self.blocks) == 1
-        self.moves = np.repeat(column_map.moves[self.links], 4, axis=2) if whole else None
+        self.n_v = column_map.n_v
+        links = np.stack([layout.link_alpha, layout.link_beta])
+        moves = column_map.moves[:, 0] > 0
+        # The columns of pinocchio's or MuJoCo's Jacobian that move a contact, by coordinates.
+        x, v, share = column_map.shares
+        of_x = padded(x, v, moves.shape[1], self.n_v)
+        contact, mover = np.nonzero(moves[links].any(axis=0))
+        some = np.lexsort((of_x[mover].min(axis=1, initial=self.n_v), contact))
+        joint = padded(contact, mover[some], len(layout.rows), -1)
+        self._joint = np.maximum(joint, 0)
+        self._sides = []  # beta's, then alpha's, if any column moves it
+        for name, sign, link in (
+            ("beta", 1.0, layout.link_beta),
+            ("alpha", -1.0, layout.link_alpha),
+        ):
+            moved = moves[link[:, None], self._joint] & (joint >= 0)
+            if moved.any():
+                self._sides.append((name, sign, moved[:, None] * 1.0))
+        # A column mostly moves with one coordinate, as much as that.
+        of_joint = np.where(joint[..., None] >= 0, of_x[self._joint], self.n_v)
+        coordinate: Indices = of_joint.reshape(len(joint), joint.shape[1] * of_x.shape[1])
+        ascending = np.sort(coordinate, axis=1)
+        c, k = np.nonzero((np.diff(ascending, axis=1, prepend=-1) > 0) & (ascending < self.n_v))
+        self.column = read_only(padded(c, ascending[c, k], len(joint), self.n_v))
+        self._sums: list[tuple[Indices, Indices, Indices, Array]] = []
+        if not ((share == 1).all() and np.array_equal(self.column, coordinate)):
+            c, t = np.nonzero(coordinate < self.n_v)
+            place = (self.column[c] < coordinate[c, t, None]).sum(axis=1)
+            shares = padded(x, share, moves.shape[1], 0.0)[self._joint].reshape(coordinate.shape)
+            same = coordinate[c] == coordinate[c, t, None]
+            turn = (same & (np.arange(coordinate.shape[1]) < t[:, None])).sum(axis=1)
+            for i in range(turn.max(initial=-1) + 1):
+                at = turn == i
+                k = t[at] // of_x.shape[1]
+                self._sums.append((c[at], place[at], k, shares[c, t][at, None]))
 
     def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
-        """The contacts of one step, from the closest points of all pairs. In C: rows.c.
+        """The contacts of one step, from the closest points of all pairs.
+
+        They are right by construction, but for numbers that are not finite.
 
         Parameters
         ----------
@@ -51,17 +83,26 @@ class ContactGeometry:
         """
         layout = self.layout
         d1, d2 = tangents(points.n)
-        return Contacts(
+        own = self.jacobian(kinematics.columns, points.alpha, points.beta, points.n)
+        return Contacts.unchecked(
             name=layout.contact_names(points.point),
-            phi=points.phi,
-            n=points.n,
-            d1=d1,
-            d2=d2,
-            J=self.jacobian(kinematics.columns, points.alpha, points.beta, points.n),
+            phi=read_only(points.phi + 0.0),  # zero is 0.0, never -0.0
+            n=read_only(points.n + 0.0),
+            d1=read_only(d1 + 0.0),
+            d2=read_only(d2),
+            own=read_only(own),
+            column=self.column,
+            n_v=self.n_v,
             mu_v=layout.mu_v,
             mu_omega=layout.mu_omega,
             rows=layout.rows,
+            mu=self._mu,
         )
+
+    @cached_property
+    def _mu(self) -> Array:
+        layout = self.layout
+        return friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
 
     def jacobian(self, columns: Array, alpha: Array, beta: Array, n: Array) -> Array:
         """J of Eq. :eq:`eq-3`: relative velocity and spin, Eq. :eq:`eq-2`, per unit of delta_q.
@@ -77,25 +118,38 @@ class ContactGeometry:
 
         Returns
         -------
-        ndarray, shape (n_c, 4, n_v)
-            Rows 0-2: nu_beta - nu_alpha [m], world frame; row 3: n'(omega_beta - omega_alpha)
-            [rad].
+        ndarray, shape (n_c, 4, w)
+            The columns of each contact's ``column``. Rows 0-2: nu_beta - nu_alpha [m], world frame;
+            row 3: n'(omega_beta - omega_alpha) [rad].
         """
-        r = np.array([alpha, beta])
-        if self.moves is not None:
-            return self._of_block(self.moves, columns, r, n)
-        J = np.empty((len(n), 4, self.column_map.n_v))
-        for some in self.blocks:
-            moves = self.column_map.moves[self.links[:, some]]
-            J[some] = self._of_block(moves, columns, r[:, some], n[some])
-        return J
+        points = {"alpha": alpha, "beta": beta}
+        own = columns.T[self._joint].transpose(0, 2, 1)  # (n_c, 6, w)
+        J = np.zeros((len(n), 4, own.shape[2]))
+        for name, sign, moved in self._sides:
+            J += sign * (moved * columns_at(own, points[name], n))  # Eq. (2)
+        if self._sums:  # a joint that mimics another moves with its coordinate
+            summed = np.zeros((len(n), 4, self.column.shape[1]))
+            for c, place, k, share in self._sums:
+                summed[c, :, place] += share * J[c, :, k]
+            J = summed
+        return J + 0.0  # Eq. (3); zero is 0.0, never -0.0
 
-    def _of_block(self, moves: Array, columns: Array, r: Array, n: Array) -> Array:
-        """J of some contacts, of points r on both bodies, (2, k, 3) [m]."""
-        # [nu; n'omega] of alpha's body and of beta's
-        of_alpha, of_beta = moves * columns_at(columns, r, n)
-        f = of_beta - of_alpha  # Eq. (2): nu_beta - nu_alpha and n'(omega_beta - omega_alpha)
-        return self.column_map.of_coordinates(f) + 0.0  # Eq. (3); zero is 0.0, never -0.0
+
+def padded(row: Indices, value: NDArray[Scalar], rows: int, none: float) -> NDArray[Scalar]:
+    """Values by rows, each from the left, in an array filled up with `none`: shape (rows, w).
+
+    Parameters
+    ----------
+    row : ndarray of int, shape (k,)
+        Ascending.
+    value : ndarray, shape (k,)
+    rows : int
+    none : int or float
+    """
+    count = np.bincount(row, minlength=rows)
+    array = np.full((rows, int(count.max(initial=0))), none, value.dtype)
+    array[row, np.arange(len(row)) - (np.cumsum(count) - count)[row]] = value
+    return array
 
 
 def columns_at(columns: Array, r: Array, n: Array) -> Array:
@@ -103,7 +157,7 @@ def columns_at(columns: Array, r: Array, n: Array) -> Array:
 
     Parameters
     ----------
-    columns : ndarray, shape (6, n_x)
+    columns : ndarray, shape (6, n_x), or (..., 6, n_x) of each point
         Velocity of a body's point at the world's origin, then its angular velocity omega, per unit
         of each coordinate [m, rad].
     r, n : ndarray, shapes (..., 3)
@@ -114,14 +168,15 @@ def columns_at(columns: Array, r: Array, n: Array) -> Array:
     ndarray, shape (..., 4, n_x)
         Rows 0-2: nu_origin + omega x r [m]; row 3: n'omega [rad].
     """
-    nu_origin = columns[:3]
-    omega = columns[3:]
-    J = np.empty((*r.shape[:-1], 4, columns.shape[1]))
+    nu_origin = columns[..., :3, :]
+    omega = columns[..., 3:, :]
+    J = np.empty((*r.shape[:-1], 4, columns.shape[-1]))
     r_yzx = r.take(YZX, axis=-1)[..., None]
     r_zxy = r.take(ZXY, axis=-1)[..., None]
-    turning = omega.take(YZX, axis=0) * r_zxy - omega.take(ZXY, axis=0) * r_yzx
+    turning = omega.take(YZX, axis=-2) * r_zxy - omega.take(ZXY, axis=-2) * r_yzx
     np.add(nu_origin, turning, out=J[..., :3, :])
-    J[..., 3, :] = product(n, omega)
+    along = n[..., None] * omega
+    J[..., 3, :] = along[..., 0, :] + along[..., 1, :] + along[..., 2, :]
     return J
 
 

@@ -28,6 +28,15 @@ class ColumnMap(ABC):
         self.owner = owner
         self.n_v = n_v
 
+    @property
+    def shares(self) -> tuple[Indices, Indices, Array]:
+        """Numbers of columns, ascending, and of coordinates that they move with, and how much [-].
+
+        (k,) each. A column mostly moves with one coordinate, as much as that.
+        """
+        n_x = len(self.owner)
+        return np.arange(n_x), self.owner, np.ones(n_x)
+
     @abstractmethod
     def of_coordinates(self, columns: Array) -> Array:
         """Columns per unit of delta_q, shape (..., n_v), from `columns` (..., n_x) [m, rad]."""

@@ -14,7 +14,7 @@ from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.coordinates import joint_key
 from quasistatic_ref.model.joints.joint import Coordinate, Joint
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
+from quasistatic_ref.numbers.arrays import Array, Mask, read_only
 from quasistatic_ref.numbers.ordered import crossed, dot, rotated
 from quasistatic_ref.numbers.pivots import positive_pivots
 
@@ -138,35 +138,6 @@ def rigid_masses(places: JointPlaces, joints: Sequence[Joint]) -> Array:
         model, number = places[joint_key(joint.name)]
         masses.append(model.inertias[number].matrix())
     return np.array(masses).reshape(-1, 6, 6) + 0.0  # never -0.0
-
-
-def whole(M: Array) -> Array:
-    """All of a matrix, shape (n, n), from its diagonal blocks M, (k, n / k, n / k) [any unit].
-
-    An M that is whole is returned as it is.
-    """
-    if M.ndim == 2:
-        return M
-    k, size, _ = M.shape
-    wide = np.zeros((k, size, k, size))
-    wide[np.arange(k), :, np.arange(k)] = M
-    return read_only(wide.reshape(k * size, k * size))
-
-
-def entries_of(M: Array, some: Indices) -> Array:
-    """Rows and columns of a symmetric matrix, shape (k, k) [any unit].
-
-    Parameters
-    ----------
-    M : ndarray, shape (n, n), or (b, n / b, n / b)
-        All of it, or its diagonal blocks [any unit].
-    some : ndarray of int, shape (k,)
-        Which.
-    """
-    if M.ndim == 2:
-        return np.asarray(M[np.ix_(some, some)])
-    block, i = np.divmod(some, M.shape[-1])
-    return np.where(block[:, None] == block, M[block[:, None], i[:, None], i], 0.0)
 
 
 def constant_mass(places: JointPlaces, unactuated: Sequence[Joint]) -> bool:

@@ -25,7 +25,6 @@ from quasistatic_ref.model.mass import (
     constant_mass,
     mass_matrix,
     rigid_masses,
-    whole,
 )
 from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.state import State
@@ -35,9 +34,11 @@ from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import trees_of, world_of
 from quasistatic_ref.numbers.arrays import (
     Array,
+    Indices,
     read_only,
     with_shape,
 )
+from quasistatic_ref.numbers.blocks import nonzeros, whole
 from quasistatic_ref.numbers.pivots import positive_pivots
 
 __all__ = ["Body", "Kinematics", "System"]
@@ -175,6 +176,15 @@ class System(Mechanism):
     def constant_M_u(self) -> Array:
         """M_u, shape (n_u, n_u), where it is constant [kg, kg m, kg m^2]."""
         return whole(self.mass_blocks)
+
+    @cached_property
+    def mass_entries(self) -> tuple[Indices, Indices] | None:
+        """Rows and columns of the entries of M_u that may be nonzero at any q, (k,) each."""
+        masses = (self.mass_blocks if self.constant_mass_matrix else self.constant_M_u) != 0
+        if self.varying_mass is not None:
+            masses.flat[self.varying_mass.entry] = True
+            masses |= masses.T
+        return nonzeros(masses)
 
     def workspace(self) -> Workspace:
         """A new workspace, which no other caller uses."""

@@ -33,10 +33,3 @@ def measured_pairs(pairs: tuple[ContactPair, ...], distances: str) -> tuple[Cont
         return pairs
     pairs_by_coal: ChangedPairs = part("pairs_by_coal")
     return pairs_by_coal(pairs)
-
-
-def check_closed(distances: str) -> None:
-    """Refuse, for ``fast``, distances that are not closed forms: InputError."""
-    if distances != CLOSED:
-        problem = f'must be "{CLOSED}" for fast, which compiles the closed forms; leave fast out'
-        raise InputError(problem, field="distances", value=distances)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.groups import flat_rows
+from quasistatic_ref.certify.groups import coupled_groups, flat_rows
 from quasistatic_ref.contact.all_pairs import AllPairs
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
@@ -29,11 +29,13 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import (
     Array,
     Mask,
+    all_finite,
     checked_array,
     checked_numbers,
     read_only,
     without_warnings,
 )
+from quasistatic_ref.numbers.pivots import positive_definite
 from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.distances import Distances, measured_pairs
 from quasistatic_ref.simulate.finding import Finding
@@ -42,14 +44,16 @@ from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
-from quasistatic_ref.solve.backends import DEFAULT, NONE, Certify, spares
+from quasistatic_ref.solve.backends import DAQP, DEFAULT, NONE, Certify, spares
+from quasistatic_ref.solve.by_group import GroupLayout
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step, solved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import StepData, hessian, seconds
+from quasistatic_ref.step.data import StepData, no_rows, row_layout, seconds
 from quasistatic_ref.step.extension import ExtensionOfQ, StepExtension
+from quasistatic_ref.step.hessian import Hessian, hessian
 from quasistatic_ref.step.solution import StepSolution
 
 GRAVITY = (0.0, 0.0, -9.81)
@@ -193,8 +197,7 @@ class Simulator(Settings, Shown):
     array([0.  , 0.  , 0.05, 0.  , 0.  , 0.  , 1.  ])
     """
 
-    fast: ClassVar[bool] = False
-    replaceable: ClassVar[tuple[str, ...]] = (DEFAULT,)
+    replaceable: ClassVar[tuple[str, ...]] = (DEFAULT, DAQP)
 
     def __init__(
         self,
@@ -244,6 +247,7 @@ class Simulator(Settings, Shown):
         else:
             largest = system.M_u(system.q_start)
         hessian(self.h, self.K_q, largest)
+        self._hessian: Hessian | None = None
 
     def __setattr__(self, name: str, value: object) -> None:
         try:
@@ -261,6 +265,28 @@ class Simulator(Settings, Shown):
     def geometry(self) -> ContactGeometry:
         """The constant part of the contacts' Jacobians: which coordinates move which contact."""
         return ContactGeometry(self.layout, self.system.column_map)
+
+    @cached_property
+    def group_layout(self) -> GroupLayout | None:
+        """The groups of all steps, by what can couple their coordinates; None if not known."""
+        system = self.system
+        entries = system.mass_entries
+        if entries is None:
+            return None
+        contact, k = np.nonzero(self.geometry.column < system.n_v)
+        of_contacts = contact, self.geometry.column[contact, k]
+        i, j = entries
+        of_K, of_K_column = np.nonzero(self.K_q)
+        n_a = system.n_a
+        of_H = np.concatenate([of_K, n_a + i]), np.concatenate([of_K_column, n_a + j])
+        counts = row_layout(self.cone, self.layout.rows.tobytes()).counts
+        every = coupled_groups(of_contacts, of_H, counts, system.n_v)
+        return GroupLayout(every, self.geometry.column, counts, system.n_v, 0, len(of_H[0]))
+
+    def scaled(self, step: StepData) -> ScaledStep:
+        """A step with its program, by the groups of the simulator if it has its structure."""
+        own = step.contacts.column is self.geometry.column and step.extra.empty
+        return ScaledStep(step, layout=self.group_layout if own else None)
 
     def __repr__(self) -> str:
         contacts = counted(sum(pair.n_c for pair in self.pairs), "contact")
@@ -371,17 +397,28 @@ class Simulator(Settings, Shown):
         self, q: ArrayLike | State, q_bar_a: ArrayLike, tau: Array, contacts: Contacts
     ) -> StepData:
         """The problem of one step from its contacts and all generalised forces, (n_v,) [N, N m]."""
-        here = self.system.at(q)
-        n_a = self.system.n_a
-        return StepData(
+        system = self.system
+        here = system.at(q)
+        masses = system.mass_blocks if system.constant_mass_matrix else here.M_u
+        change = here.change_to(q_bar_a)  # q_bar_a(t + h) (-) q_a
+        n_a = system.n_a
+        loads: dict[str, Any] = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": change}
+        numbers = (masses, tau, change, contacts.phi, contacts.n, contacts.own)
+        if not all(all_finite(array.ravel()) for array in numbers):  # refused by their names
+            loads |= {"contacts": replace(contacts), "cone": self.cone}
+            return StepData(h=self.h, K_q=self.K_q, M_u=here.M_u, **loads)
+        last = self._hessian
+        if last is None or not (masses is last.masses or np.array_equal(masses, last.masses)):
+            positive_definite("M_u", masses)
+            self._hessian = last = Hessian(self.h, self.K_q, masses)
+        return StepData.unchecked(
             h=self.h,
             K_q=self.K_q,
-            M_u=here.M_u,
-            tau_a=tau[:n_a],
-            tau_u=tau[n_a:],
-            delta_q_bar_a=here.change_to(q_bar_a),  # q_bar_a(t + h) (-) q_a
+            hessian=last,
             contacts=contacts,
             cone=self.cone,
+            extra=no_rows(system.n_v),
+            **{name: read_only(load + 0.0) for name, load in loads.items()},
         )
 
     def generalised_force(self, q: ArrayLike | State, force: ArrayLike | None) -> Array:
@@ -427,7 +464,7 @@ class Simulator(Settings, Shown):
             coulomb_solution: CoulombSolution = part("coulomb")
             return coulomb_solution(step, solver, self.accuracy)
         try:
-            return self.solved(ScaledStep(step), solver)
+            return self.solved(self.scaled(step), solver)
         except StepNotSolved as failure:
             return self.otherwise_solved(step, failure)
 

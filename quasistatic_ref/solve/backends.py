@@ -2,7 +2,8 @@
 
 A backend is a solver of another project. There are three interfaces to it: through CVXPY under its
 name (``"clarabel"``); through qpsolvers (``"qpsolvers:clarabel"``), which hands over the standard
-form, in an optional part; and, for DAQP alone, its own, in ``optional/fast``. A further one is a
+form, in an optional part; and, for DAQP alone, its own (``"daqp"``), in ``optional/daqp``, so that
+through CVXPY it is called ``"cvxpy:daqp"``. A further one is a
 :class:`~quasistatic_ref.solve.solver.Solver` in a file of its own, which ``solver_for`` chooses.
 """
 
@@ -28,6 +29,9 @@ Options = dict[str, Any]
 OptionSets = tuple[Options, ...]
 QPSOLVERS = "qpsolvers:"
 SolverNames = Callable[[], list[str]]
+CVXPY = "cvxpy:"
+DAQP = "daqp"
+BY_CVXPY = CVXPY + DAQP
 
 RELAXED = (1.0, 1e2, 1e4)
 """Accuracies tried where a backend is given second-order cones, relative to the one of the call.
@@ -288,13 +292,20 @@ def known_to_cvxpy() -> set[str]:
 
 def is_function(name: str) -> bool:
     """Whether a backend's name is that of a function, ``MODULE:FUNCTION``."""
-    return ":" in name and not name.startswith(QPSOLVERS)
+    return ":" in name and not name.startswith((QPSOLVERS, CVXPY))
+
+
+def bare(name: str) -> str:
+    """A backend's name in the table: without the interface by which it is reached."""
+    return name.removeprefix(QPSOLVERS).removeprefix(CVXPY)
 
 
 def installed_backends() -> tuple[str, ...]:
-    """Names of the installed backends: those through CVXPY first, then through qpsolvers."""
-    names = (*installed("cvxpy"), *(QPSOLVERS + name for name in installed("qpsolvers")))
-    return tuple(name for name in names if not BACKENDS[name.removeprefix(QPSOLVERS)].no_steps)
+    """Names of the installed backends: through CVXPY and DAQP's own first, then qpsolvers'."""
+    by_cvxpy = (BY_CVXPY if name == DAQP else name for name in installed("cvxpy"))
+    native = (DAQP,) if is_there("daqp_solver") and find_spec(DAQP) else ()
+    names = (*by_cvxpy, *native, *(QPSOLVERS + name for name in installed("qpsolvers")))
+    return tuple(name for name in names if not BACKENDS[bare(name)].no_steps)
 
 
 def backend_names() -> tuple[str, ...]:
@@ -303,7 +314,7 @@ def backend_names() -> tuple[str, ...]:
 
 
 def backend(name: str) -> Backend:
-    """The table's entry for a name with or without ``qpsolvers:``.
+    """The table's entry for a name, with or without the interface.
 
     A solver that is not in the table, but that CVXPY or qpsolvers has installed, is called with its
     own options; so is a function, ``MODULE:FUNCTION``.
@@ -315,12 +326,16 @@ def backend(name: str) -> Backend:
     """
     if name.startswith(QPSOLVERS):
         part("qpsolvers_solver", name)  # or its sentence
+    elif name == DAQP:
+        part("daqp_solver")
+        if find_spec(DAQP):
+            return BACKENDS[DAQP]
     elif is_function(name):
         return Backend(name, "a function", lambda _: ({},), cvxpy=False)
     elif name in REQUIRED and find_spec(name):
         return BACKENDS[name]  # CVXPY is not asked: its import takes longer than a short run
     known = backend_names()
-    entry = BACKENDS.get(name.removeprefix(QPSOLVERS))
+    entry = BACKENDS.get(bare(name))
     if entry is None and name in others_installed():
         return Backend(name, "not in this table", lambda _: ({},))
     if entry is not None and entry.no_steps:
@@ -377,9 +392,9 @@ def spares(name: str, cone_name: str, infeasible: bool) -> list[str]:
         Whether it said that there is no solution: a proof of that is then sought first.
     """
     curved = not checked_cone(cone_name).polyhedral
-    others = [
-        other for other in REQUIRED if other != name and (BACKENDS[other].cones or not curved)
-    ]
+    able = [other for other in REQUIRED if BACKENDS[other].cones or not curved]
+    there = [BY_CVXPY if other == DAQP and not is_there("daqp_solver") else other for other in able]
+    others = [other for other in there if other != name]
     if curved:
         return others
     return [NONE, *others] if infeasible else [*others, NONE]

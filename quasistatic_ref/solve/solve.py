@@ -22,7 +22,6 @@ from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.norm import check_length, correct_digits
 from quasistatic_ref.certify.optimum import ExactOptimum, optimum_by_groups
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Late
 from quasistatic_ref.numbers.arrays import Array, all_finite, positive_number, without_warnings
 from quasistatic_ref.numbers.precision import check_arithmetic
@@ -30,16 +29,16 @@ from quasistatic_ref.parts import part
 from quasistatic_ref.solve.backends import NONE, Certify, check_certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solver import FREE, Reply, Solver
-from quasistatic_ref.solve.units import ScaledStep, in_natural, in_si, natural_form, out_of_range
+from quasistatic_ref.solve.units import ScaledStep, in_natural, in_si, out_of_range
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.extension import StepExtension
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
-from quasistatic_ref.step.standard_form import StandardForm, Units, standard_form
+from quasistatic_ref.step.standard_form import Units
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
 
 ExtendedStep = Callable[
-    [StepData, StepExtension, str | Callable[..., Any] | Solver | None, bool, float, Certify],
+    [StepData, StepExtension, str | Callable[..., Any] | Solver | None, float, Certify],
     StepSolution,
 ]
 """The arguments of :func:`solve_step` -> the solution of a step with what a user adds."""
@@ -55,7 +54,6 @@ def solve_step(
     step: StepData,
     solver: str | Callable[..., Any] | Solver | None = None,
     *,
-    fast: bool = False,
     accuracy: float = ACCURACY,
     certify: Certify = "full",
     extension: StepExtension | None = None,
@@ -68,15 +66,12 @@ def solve_step(
         SI units.
     solver : str, callable or Solver, optional
         A name from :func:`~quasistatic_ref.solve.backends.backend_names`, by default
-        Clarabel's, with `fast` DAQP's; ``"none"``, with ``certify="full"`` only, is the exact
+        Clarabel's; ``"none"``, with ``certify="full"`` only, is the exact
         method from a cold start. Any other solver that CVXPY has installed, or qpsolvers behind
         ``qpsolvers:``. A function (P, q, G, h) -> (x, z, status). Or what
         :func:`~quasistatic_ref.solve.choice.solver_for` makes of these: an object that holds a
         compiled problem and is kept between steps of one kind. What is certified does not depend
         on it.
-    fast : bool
-        As for :func:`~quasistatic_ref.solve.choice.solver_for`; not with a Solver, which is made
-        fast or not.
     accuracy : float
         Of the backend's answer, in natural units [-].
     certify : str
@@ -109,7 +104,7 @@ def solve_step(
     BackendError
         If the backend is unknown or not installed, or does not support `certify` or the cone.
     InputError
-        If a solver object does not fit the step or is given with `fast`, if `certify` is none of
+        If a solver object does not fit the step, if `certify` is none of
         these words, if `accuracy` is not greater than 0, or, with ``"full"`` and ``"residual"``, if
         nothing can be proved in this thread: see :mod:`~quasistatic_ref.numbers.precision`.
 
@@ -121,18 +116,15 @@ def solve_step(
     """
     check_step(step)
     accuracy = positive_number(accuracy, "accuracy")
-    if isinstance(solver, Solver) and fast:
-        problem = "has no effect on an existing solver; pass it to solver_for"
-        raise InputError(problem, field="fast", value=fast)
     name = solver.name if isinstance(solver, Solver) else solver
     check_certify(name if isinstance(name, str) else None, certify)
     if extension is not None:
         extended_step: ExtendedStep = part("extended_step")
-        return extended_step(step, extension, solver, fast, accuracy, certify)
+        return extended_step(step, extension, solver, accuracy, certify)
     if isinstance(solver, Solver):
         solver.check(step)
     else:
-        solver = solver_for(step, solver, fast)
+        solver = solver_for(step, solver)
     return without_warnings(solved, ScaledStep(step), solver, accuracy, certify)
 
 
@@ -343,19 +335,6 @@ def judged(scaled: ScaledStep, solver: Solver, reply: Reply, certify: Certify) -
     return StepSolution(delta_q, lam, step, certificate, statistics)
 
 
-class _ByGroups(ScaledStep):
-    """A step whose standard form is built group by group, in natural units."""
-
-    @cached_property
-    def natural_by_group(self) -> list[StandardForm]:
-        """The standard form of each group in the natural units of the step."""
-        units = self.units
-        return [
-            natural_form(standard_form(part), units._replace(coordinate=units.coordinate[of_step]))
-            for (of_step, *_), part in self.groups
-        ]
-
-
 class ExactCertificate(Late, Certificate):
     """The certificate of an exact optimum; its other fields are computed when they are read.
 
@@ -494,5 +473,5 @@ def answer_residuals(step: StepData, units: Units, delta_q: Array, lam: Array) -
     delta_q, lam : ndarray, shapes (n_v,) and (m,)
         [m, rad], [N s].
     """
-    scaled = _ByGroups(step, units)
+    scaled = ScaledStep(step, units)
     return dict(vars(scaled.residuals(*in_natural(delta_q, lam, units))))

@@ -18,10 +18,10 @@ from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.numbers.arrays import Array, Mask, all_finite
 from quasistatic_ref.solve.backends import (
     BACKENDS,
-    QPSOLVERS,
     UNSAFE,
     Options,
     backend,
+    bare,
     greeting_silenced,
 )
 from quasistatic_ref.solve.units import ScaledStep
@@ -124,8 +124,8 @@ class Solver(ABC):
         self.template = template
         self.name = name
         self.proofs = Proofs()
-        self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
-        if name.removeprefix(QPSOLVERS) == "highs":
+        self.unsafe = bare(name) in UNSAFE
+        if bare(name) == "highs":
             greeting_silenced()
         self._option_sets: dict[float, list[tuple[float, Options]]] = {}
 
@@ -195,7 +195,7 @@ class BackendSolver(Solver):
     def option_sets(self, accuracy: float) -> list[tuple[float, Options]]:
         """Accuracies in natural units [-] with options, in the order in which they are tried."""
         if accuracy not in self._option_sets:
-            entry = BACKENDS.get(self.name.removeprefix(QPSOLVERS)) or backend(self.name)
+            entry = BACKENDS.get(bare(self.name)) or backend(self.name)
             curved = not cone(self.template.cone).polyhedral
             self._option_sets[accuracy] = entry.attempts(accuracy, curved)
         return self._option_sets[accuracy]
@@ -209,8 +209,8 @@ class BackendSolver(Solver):
             If there is none; or, before any call, if the backend may not return from such rows.
         """
         if not scaled.step.m:
-            form = scaled.natural
-            x = np.linalg.solve(form.H, form.g).astype(np.float64)
+            programs = scaled.programs
+            x = programs.joined([form.free() for form in programs.forms])
             return Reply(x, np.zeros(0), True, FREE, accuracy=accuracy)
         if self.unsafe and not scaled.row_ratio <= ALIKE:
             status = f"not called: its rows differ by {scaled.row_ratio:.0e} in natural units"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from time import perf_counter
 from typing import Any, Protocol
 
@@ -21,6 +22,7 @@ from quasistatic_ref.solve.backends import (
     QPSOLVERS,
     Options,
     backend,
+    bare,
     check_takes_cones,
     greeting_silenced,
     is_function,
@@ -230,8 +232,8 @@ class StepProblem:
         """
         check_kind(solver, str, "solver", "the name of a backend")
         accuracy = positive_number(accuracy, "accuracy")
-        name = solver.lower()
-        if name == NONE or name.startswith(QPSOLVERS) or is_function(name):
+        name = bare(solver.lower())
+        if solver.startswith(QPSOLVERS) or name == NONE or is_function(name):
             raise BackendError("is not called through CVXPY", field="backend", value=solver)
         if self.problem is not self._posed:
             words = "is another problem than that of this step; call its own solve()"
@@ -385,15 +387,19 @@ class CvxpySolver(BackendSolver):
 
     def __init__(self, template: StepData, name: str = DEFAULT) -> None:
         super().__init__(template, name)
-        self.problem = StepProblem(template)
         self.units = page_units(si_units(template.n_v), template.h)
+
+    @cached_property
+    def problem(self) -> StepProblem:
+        """The step's problem, which is compiled by the first answer."""
+        return StepProblem(self.template)
 
     def answer(self, scaled: ScaledStep, accuracy: float) -> Reply:
         """The backend's answer, unless CVXPY would compile the step for minutes: StepNotSolved."""
         if (n_c := scaled.step.contacts.n_c) > MOST_CONTACTS:
             status = (
                 f"not called: CVXPY takes too long to compile {n_c} contacts, more than "
-                f"{MOST_CONTACTS}; with fast = true it is not used"
+                f"{MOST_CONTACTS}; the backends daqp and none do without CVXPY"
             )
             raise StepNotSolved(self.name, status, scaled.step, accuracy)
         return super().answer(scaled, accuracy)
@@ -409,7 +415,7 @@ class CvxpySolver(BackendSolver):
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY
         raises TypeError on a second warm start anyway.)
         """
-        reply = cvxpy_reply(self.problem, self.name, options)
+        reply = cvxpy_reply(self.problem, bare(self.name), options)
         if reply.x is not None and reply.lam is not None:
             reply.x, reply.lam = in_si(reply.x, reply.lam, self.units)
         return reply

@@ -17,17 +17,20 @@ from functools import cached_property
 
 import numpy as np
 
-from quasistatic_ref.certify.groups import Group, group_steps
+from quasistatic_ref.certify.groups import Group, group_step
 from quasistatic_ref.certify.norm import energy_norm, joined, single_lengths
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array, Mask, all_finite
+from quasistatic_ref.solve.by_group import GroupLayout, Programs, coordinate_units, layout_of
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import (
     StandardForm,
     Units,
     ends_within,
+    linear_term,
+    own_inequalities,
     row_constants,
     standard_form,
 )
@@ -38,35 +41,24 @@ SMALLEST = 2.0**-960
 by the size, times such a unit, is a float64."""
 
 
-def coordinate_units(diagonal: Array) -> Array:
-    """Diagonal of S, shape (n_v,) [m or rad, per (N m s)^0.5], from the `diagonal` of H."""
-    return powers_of_two(1 / np.sqrt(diagonal))
-
-
-def powers_of_two(x: Array | float) -> Array:
-    """The power of two next to each of positive numbers, in their shape."""
-    return np.exp2(np.round(np.log2(x)))
-
-
-def squared_lengths(A: Array, coordinate: Array) -> Array:
-    """Squared lengths of the rows of A S that are not zero [m^2/(N m s)], ascending: (k,), k <= m.
+def squared_lengths(A: Array, unit: Array) -> Array:
+    """Squared lengths of the rows of A S, shape (m,) [m^2/(N m s)], of any columns of A.
 
     Parameters
     ----------
-    A : ndarray, shape (m, n_v)
+    A : ndarray, shape (m, w)
         [m] per unit of delta_q.
-    coordinate : ndarray, shape (n_v,)
-        Diagonal of S [m or rad, per (N m s)^0.5].
+    unit : ndarray, shape (w,) or (m, w)
+        Of these columns, the diagonal of S [m or rad, per (N m s)^0.5].
     """
-    # Squares and sums are rounded, which is enough to choose a power of two.
-    squares: Array = np.square(A).dot(np.square(coordinate))
-    return np.sort(squares[squares != 0])  # NaN comes last
+    if not A.shape[1]:
+        return np.zeros(len(A))
+    # Added in one order, so that columns of zeros change nothing.
+    return np.asarray(np.add.accumulate(np.square(A * unit), axis=1)[:, -1])
 
 
 def units_of(form: StandardForm) -> Units:
-    """Natural units of a step from its standard form; not finite where its numbers are not.
-
-    In C: natural.c.
+    """Natural units of any program; not finite where its numbers are not.
 
     Raises
     ------
@@ -75,9 +67,25 @@ def units_of(form: StandardForm) -> Units:
     """
     coordinate = coordinate_units(np.diag(form.H))
     squares = squared_lengths(form.A, coordinate)
-    free_length = energy_norm(form.H).of_impulse(form.g)  # ||H^-1 g||_H
-    length = _power_of_two(_median_length(squares))
-    push_out = float(form.b.max(initial=0.0)) / length  # from penetration
+    return natural_units(coordinate, squares, energy_norm(form.H).of_impulse(form.g), form.b)
+
+
+def natural_units(coordinate: Array, squares: Array, free_length: float, b: Array) -> Units:
+    """Natural units of a step; not finite where its numbers are not.
+
+    Parameters
+    ----------
+    coordinate : ndarray, shape (n_v,)
+        Diagonal of S [m or rad, per (N m s)^0.5].
+    squares : ndarray, shape (m,)
+        As of :func:`squared_lengths`.
+    free_length : float
+        ||H^-1 g||_H [(N m s)^0.5].
+    b : ndarray, shape (m,)
+        [m]
+    """
+    length = _power_of_two(_median_length(squares[squares != 0]))
+    push_out = float(b.max(initial=0.0)) / length  # from penetration
     size = max(free_length, push_out)
     softest = float(coordinate.max(initial=0.0))
     if size == 0:  # no load, no penetration: the optimum is zero
@@ -115,9 +123,13 @@ def in_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
 
 
 def _median_length(squares: Array) -> float:
-    """The median of lengths, from their squares in ascending order; 1 if there are none."""
+    """The median of lengths, from their squares; 1 if there are none."""
     n = len(squares)
-    return (math.sqrt(squares[(n - 1) // 2]) + math.sqrt(squares[n // 2])) / 2 if n else 1.0
+    if not n:
+        return 1.0
+    middle = [(n - 1) // 2, n // 2]
+    low, high = np.partition(squares, middle)[middle].tolist()
+    return (math.sqrt(low) + math.sqrt(high)) / 2
 
 
 def _power_of_two(x: float) -> float:
@@ -127,34 +139,55 @@ def _power_of_two(x: float) -> float:
     return 2.0**exponent if exponent < 1024 else math.inf
 
 
-def of_group(form: StandardForm, group: Group) -> StandardForm:
-    """The matrices of one group of a program."""
-    c = group.coordinates
-    if len(c) == len(form.g) and len(group.rows) == len(form.b):
-        return form
-    block = form.H[np.ix_(c, c)]
-    return StandardForm(block, form.g[c], form.A[np.ix_(group.rows, c)], form.b[group.rows])
-
-
 class ScaledStep:
-    """A step with its program, in SI units and in natural units, in which it is judged.
+    """A step with its program, by groups, in SI units and in natural units, in which it is judged.
 
     Parameters
     ----------
     step : StepData
     units : Units, optional
-        Its natural units, where they are known, or other units that do their work.
+        Its natural units, where they are known.
+    layout : GroupLayout, optional
+        Of steps of its structure, where that is known; by default by the zeros of its numbers.
     """
 
-    def __init__(self, step: StepData, units: Units | None = None) -> None:
+    def __init__(
+        self, step: StepData, units: Units | None = None, layout: GroupLayout | None = None
+    ) -> None:
         self.step = step
         if units is not None:
             self.units = units
+        if layout is not None:
+            self.layout = layout
+
+    @cached_property
+    def layout(self) -> GroupLayout:
+        """The groups of a backend's program."""
+        return layout_of(self.step)
 
     @cached_property
     def form(self) -> StandardForm:
-        """The standard form of the step in SI units."""
+        """The standard form of the step in SI units: whole matrices."""
         return standard_form(self.step)
+
+    @cached_property
+    def _own_inequalities(self) -> tuple[Array, Array]:
+        """A of the contacts by their own columns, (m_c, w), and b of all rows, (m,) [m]."""
+        return own_inequalities(self.step)
+
+    @cached_property
+    def _g(self) -> Array:
+        """The linear term of the step, (n_v,) [N s, N m s]."""
+        return linear_term(self.step)
+
+    @cached_property
+    def squared_lengths(self) -> Array:
+        """Squared lengths of the rows of A S, shape (m,) [m^2/(N m s)]."""
+        S = self.layout.natural_hessian_of(self.step).unit
+        A, _ = self._own_inequalities
+        squares = squared_lengths(A, np.append(S, 0.0)[self.layout.column])
+        extra = self.step.extra
+        return np.append(squares, squared_lengths(extra.A, S)) if extra.names else squares
 
     @cached_property
     def units(self) -> Units:
@@ -165,29 +198,50 @@ class ScaledStep:
         StepDataError
             If products of its numbers leave the range of float64.
         """
-        units = units_of(self.form)
+        natural = self.layout.natural_hessian_of(self.step)
+        _, b = self._own_inequalities
+        free_length = natural.free_length(self._g)
+        units = natural_units(natural.unit, self.squared_lengths, free_length, b)
         if not (0 < units.length < math.inf and 0 < units.size < math.inf):
             raise out_of_range()
         return units
 
     def check_range(self) -> None:
         """Refuse a step that its natural units take out of the range of float64: StepDataError."""
-        _ = self.natural
+        if not self.programs.finite:
+            raise out_of_range()
 
     @cached_property
     def natural(self) -> StandardForm:
-        """The standard form of the step in natural units."""
+        """The standard form of the step in natural units: whole matrices."""
         return natural_form(self.form, self.units)
+
+    @cached_property
+    def programs(self) -> Programs:
+        """The programs of the layout's groups, in natural units."""
+        return self._programs(self.layout)
+
+    def _programs(self, layout: GroupLayout) -> Programs:
+        blocks = layout.natural_hessian_of(self.step).blocks
+        return layout.programs(self.step, *self._own_inequalities, self._g, self.units, blocks)
+
+    @cached_property
+    def _finer(self) -> GroupLayout:
+        """The layout of the groups that the step's numbers have: a structure's, but for zeros."""
+        step = self.step
+        whole = len(step.hessian.entries[0]) == self.layout.entries and step.contacts.moved_by_all
+        return self.layout if whole and step.extra.empty else layout_of(step)
 
     @cached_property
     def groups(self) -> list[tuple[Group, StepData]]:
         """The groups of the step, each as a step of its own in SI units."""
-        return group_steps(self.step)
+        return [(group, group_step(self.step, group)) for group in self._finer.groups]
 
     @cached_property
     def natural_by_group(self) -> list[StandardForm]:
         """The standard form of each group in the natural units of the step."""
-        return [of_group(self.natural, group) for group, _ in self.groups]
+        finer = self._finer
+        return (self.programs if finer is self.layout else self._programs(finer)).forms
 
     @cached_property
     def lengths(self) -> list[list[float]]:
@@ -218,8 +272,8 @@ class ScaledStep:
     @property
     def row_ratio(self) -> float:
         """Length of the longest row over that of the shortest, rows of zeros left out [-]."""
-        squares = squared_lengths(self.form.A, self.units.coordinate)
-        return math.sqrt(squares[-1] / squares[0]) if squares.size else 1.0
+        squares = self.squared_lengths[self.squared_lengths != 0]
+        return math.sqrt(squares.max() / squares.min()) if squares.size else 1.0
 
     def residuals(self, x: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at x (n_v,), lam (m,) in natural units [-].

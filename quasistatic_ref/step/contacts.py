@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from functools import cache, cached_property
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,12 +18,12 @@ from quasistatic_ref.numbers.arrays import (
     Indices,
     Mask,
     check_and_freeze,
+    checked_array,
     checked_names,
     checked_numbers,
     column_count,
     read_only,
 )
-from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.step.cones import has_torsion
 from quasistatic_ref.tolerances import ORTHONORMAL
 
@@ -31,9 +31,12 @@ IDENTITY = np.eye(3)
 ROWS = {4, 6}
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class Contacts(Plain, Shown):
     """The contact points of one step.
+
+    J is kept by each contact's own columns, since few coordinates move a contact. It is formed when
+    it is read.
 
     Parameters
     ----------
@@ -55,6 +58,15 @@ class Contacts(Plain, Shown):
     rows : ndarray of int, shape (n_c,)
         6, or 4 for a contact whose mu_omega is not used. With the paper's cone this is the number
         of the contact's rows; with another cone it only says whether mu_omega is used.
+
+    Attributes
+    ----------
+    own : ndarray, shape (n_c, 4, w)
+        The columns of J that can differ from zero [m, rad]: of a J that was handed over, all.
+    column : ndarray of int, shape (n_c, w)
+        Which these are; n_v where a contact has fewer.
+    n_v : int
+        Number of columns of J.
 
     Raises
     ------
@@ -78,43 +90,66 @@ class Contacts(Plain, Shown):
     mu_omega: Array
     rows: Indices
 
-    if TYPE_CHECKING:  # what is made of lists, too
+    if TYPE_CHECKING:
+        own: Array
+        column: Indices
+        n_v: int
 
-        def __init__(
-            self,
-            name: Sequence[str],
-            phi: ArrayLike,
-            n: ArrayLike,
-            d1: ArrayLike,
-            d2: ArrayLike,
-            J: ArrayLike,
-            mu_v: ArrayLike,
-            mu_omega: ArrayLike,
-            rows: ArrayLike,
-        ) -> None: ...
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "name", checked_names(self.name, "contacts.name"))
-        n_c = len(self.name)
+    def __init__(
+        self,
+        name: Sequence[str],
+        phi: ArrayLike,
+        n: ArrayLike,
+        d1: ArrayLike,
+        d2: ArrayLike,
+        J: ArrayLike,
+        mu_v: ArrayLike,
+        mu_omega: ArrayLike,
+        rows: ArrayLike,
+    ) -> None:
+        names = checked_names(name, "contacts.name")
+        n_c = len(names)
+        given = {"phi": phi, "n": n, "d1": d1, "d2": d2, "mu_v": mu_v, "mu_omega": mu_omega}
+        self.__dict__.update(given, name=names, rows=rows)
         scalars = dict.fromkeys(("phi", "mu_v", "mu_omega"), (n_c,))
         vectors = dict.fromkeys(("n", "d1", "d2"), (n_c, 3))
         check_and_freeze(self, {**scalars, **vectors}, "contacts.")
         self._check_rows(n_c)
         self._check_friction()
         self._check_frames(n_c)
-        n_v = column_count(self.J, "contacts.J", 3)
-        check_and_freeze(self, {"J": (n_c, 4, n_v)}, "contacts.")
+        shape = n_c, 4, column_count(J, "contacts.J", 3)
+        self.__dict__.update(all_columns(checked_array(J, "contacts.J", shape)))
 
-    @cached_property
-    def n_v(self) -> int:
-        """Number of columns of J."""
-        return int(self.J.shape[-1])
+    if not TYPE_CHECKING:  # a field as the others, but formed when it is read
+
+        @cached_property
+        def J(self) -> Array:
+            """J of Eq. :eq:`eq-3`, shape (n_c, 4, n_v) [m, rad]."""
+            return read_only(spread(self.own, self.column, self.n_v))
+
+    @classmethod
+    @cache
+    def kept(cls) -> tuple[str, ...]:
+        """Names of the fields that copies and pickles keep: own columns in the place of J."""
+        every = (name for name in super().kept() if name != "J")
+        return *every, "own", "column", "n_v"
+
+    def with_fields(self, **changes: Any) -> Self:
+        """A copy with some valid fields replaced, without running the checks."""
+        if "J" in changes:
+            changes |= all_columns(changes.pop("J"))
+        return self.unchecked(**{name: getattr(self, name) for name in self.kept()} | changes)
 
     @property
     def moved(self) -> tuple[Indices, Indices]:
         """Indices of the contacts and coordinates, (k,) each, for which J is not zero."""
-        contact, coordinate = np.nonzero(self.J.any(axis=1))
-        return contact, coordinate
+        contact, k = np.nonzero(self.own.any(axis=1) & (self.column < self.n_v))
+        return contact, self.column[contact, k]
+
+    @property
+    def moved_by_all(self) -> bool:
+        """Whether each coordinate that can move a contact does."""
+        return bool((self.own.any(axis=1) | (self.column == self.n_v)).all())
 
     def raised(self, s: Array) -> Contacts:
         """These contacts with gaps phi + s, where s has shape (n_c,) [m]."""
@@ -122,22 +157,39 @@ class Contacts(Plain, Shown):
 
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
-        return product(self.J, delta_q) + 0.0  # in one order, whatever columns of J are kept
+        moved = np.append(delta_q, 0.0)[self.column][:, None]
+        if not moved.size:
+            return np.zeros((self.n_c, 4))
+        # In one order, whatever columns of J are kept.
+        return np.asarray(np.add.accumulate(self.own * moved, axis=-1)[..., -1]) + 0.0
 
     def some(self, contacts: Indices, coordinates: Indices) -> Contacts:
         """Some of the contacts, (k,), with the columns of some coordinates, (n,), of J."""
-        J = read_only(self.columns(contacts, coordinates))
-        return Contacts.unchecked(**self.without_J(contacts), J=J)
-
-    def without_J(self, contacts: Indices) -> dict[str, Any]:
-        """The other fields of some of the contacts, (k,), by their names."""
+        n = len(coordinates)
+        column = self.column[contacts]
+        if n < self.n_v:
+            column = self._places(coordinates)[column]
         keys = ("phi", "n", "d1", "d2", "mu_v", "mu_omega", "rows")
         fields = {key: read_only(getattr(self, key)[contacts]) for key in keys}
-        return {"name": tuple(self.name[j] for j in contacts.tolist()), **fields}
+        return Contacts.unchecked(
+            name=tuple([self.name[j] for j in contacts.tolist()]),
+            **fields,
+            own=read_only(self.own[contacts]),
+            column=read_only(column),
+            n_v=n,
+        )
 
     def columns(self, contacts: Indices, coordinates: Indices) -> Array:
         """J of some contacts, (k,), and some coordinates, (n,): shape (k, 4, n)."""
-        return self.J[contacts[:, None, None], np.arange(4)[:, None], coordinates]
+        column = self._places(coordinates)[self.column[contacts]]
+        return spread(self.own[contacts], column, len(coordinates))
+
+    def _places(self, coordinates: Indices) -> Indices:
+        """Where each coordinate, and none, stands among some, (n,): shape (n_v + 1,)."""
+        n = len(coordinates)
+        place = np.full(self.n_v + 1, n)
+        place[coordinates] = np.arange(n)
+        return place
 
     @cached_property
     def n_c(self) -> int:
@@ -188,3 +240,27 @@ def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:
     """(mu_v, mu_v, mu_omega), shape (n_c, 3) [-, -, m], of fields of contacts, each (n_c,)."""
     mu = np.array([mu_v, mu_v, mu_omega * has_torsion(rows)])
     return read_only(np.ascontiguousarray(mu.T))
+
+
+def all_columns(J: Array) -> dict[str, Any]:
+    """What :class:`Contacts` keep of a whole J, shape (n_c, 4, n_v) [m, rad]: all its columns."""
+    n_c, _, n_v = J.shape
+    every = np.broadcast_to(np.arange(n_v), (n_c, n_v))
+    return {"J": J, "own": J, "column": every, "n_v": n_v}
+
+
+def spread(own: Array, column: Indices, n: int) -> Array:
+    """A few columns of each contact among n columns, zero elsewhere, shape (k, rows, n).
+
+    Parameters
+    ----------
+    own : ndarray, shape (k, rows, w)
+        [m, rad].
+    column : ndarray of int, shape (k, w)
+        Which columns these are; n stands for none.
+    n : int
+    """
+    k, rows, _ = own.shape
+    every = np.zeros((k, n + 1, rows))
+    every[np.arange(k)[:, None], column] = own.transpose(0, 2, 1)
+    return every[:, :n].transpose(0, 2, 1).copy()

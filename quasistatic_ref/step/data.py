@@ -10,8 +10,8 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from functools import cache, cached_property, lru_cache
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,6 +24,7 @@ from quasistatic_ref.numbers.arrays import (
     Indices,
     Mask,
     check_and_freeze,
+    checked_array,
     checked_names,
     checked_numbers,
     column_count,
@@ -33,6 +34,7 @@ from quasistatic_ref.numbers.pivots import positive_definite, positive_sum, symm
 from quasistatic_ref.step.cones import PYRAMID, checked_cone
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.hessian import Hessian
 
 __all__ = ["Contacts", "Extra", "StepData"]
 
@@ -181,10 +183,15 @@ class StepData(Plain, HasPage):
     StepDataError
         If a shape is wrong, a number is not finite, or H is not positive definite.
 
+    Attributes
+    ----------
+    hessian : Hessian
+        H without a user's cost, which steps of one run share; M_u is formed of it when it is read.
+
     Notes
     -----
-    Each field is checked, and copied read-only; not those of the steps of a FastSimulator, see
-    :mod:`~quasistatic_ref.optional.fast.steps`.
+    Each field is checked, and copied read-only. What a simulator has formed is right by
+    construction, and only looked at for numbers that are not finite.
 
     Examples
     --------
@@ -202,6 +209,8 @@ class StepData(Plain, HasPage):
     contacts: Contacts
     cone: str
     extra: Extra
+    if TYPE_CHECKING:
+        hessian: Hessian
 
     def __init__(
         self,
@@ -228,26 +237,47 @@ class StepData(Plain, HasPage):
             if columns != n_v:
                 problem = f"must have n_a + n_u = {n_v} columns"
                 raise StepDataError(problem, field=key, value=columns)
+        h = seconds(h)
+        K_q = checked_array(K_q, "K_q", (n_a, n_a))
+        M_u = checked_array(M_u, "M_u", (n_u, n_u))
         fields = {
             "contacts": contacts,
             "cone": cone,
             "extra": extra,
-            "h": seconds(h),
-            "K_q": K_q,
-            "M_u": M_u,
+            "h": h,
             "tau_a": tau_a,
             "tau_u": tau_u,
             "delta_q_bar_a": delta_q_bar_a,
         }
-        for key, value in fields.items():
-            object.__setattr__(self, key, value)
-        check_and_freeze(self, {"K_q": (n_a, n_a), "M_u": (n_u, n_u)})
+        self.__dict__.update(fields)
         check_and_freeze(self, {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)})
-        for key in ("K_q", "M_u"):
-            object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
+        K_q = positive_definite("K_q", K_q)
+        hessian = Hessian(h, K_q, positive_definite("M_u", M_u))
+        self.__dict__.update(K_q=K_q, hessian=hessian)
         if extra.cost is not None and not self._definite_with(extra.cost[0]):
             problem = "must leave the H of the step positive definite: a cost must be convex"
             raise StepDataError(problem, field="extra.H", value=extra.cost[0].tolist())
+
+    if not TYPE_CHECKING:  # a field as the others, but formed when it is read
+
+        @property
+        def M_u(self) -> Array:
+            """The un-actuated block of the mass matrix, shape (n_u, n_u) [kg, kg m, kg m^2]."""
+            return self.hessian.M_u
+
+    @classmethod
+    @cache
+    def kept(cls) -> tuple[str, ...]:
+        """Names of the fields that copies and pickles keep: H's parts in the place of M_u."""
+        return *(name for name in super().kept() if name != "M_u"), "hessian"
+
+    def with_fields(self, **changes: Any) -> Self:
+        """A copy with some valid fields replaced, without running the checks."""
+        if changes.keys() & {"h", "K_q", "M_u"}:
+            masses = changes.pop("M_u", self.hessian.masses)
+            h, K_q = changes.get("h", self.h), changes.get("K_q", self.K_q)
+            changes["hessian"] = Hessian(h, K_q, masses)
+        return self.unchecked(**{name: getattr(self, name) for name in self.kept()} | changes)
 
     def _definite_with(self, of_cost: Array) -> bool:
         """Whether H plus the H of a cost (n_v, n_v) is positive definite, decided exactly.
@@ -264,23 +294,20 @@ class StepData(Plain, HasPage):
         terms = [(part * Fraction(self.h), K_q), (whole, M_u), (part, of_cost)]
         return positive_sum(self.H, terms)
 
-    def masses(self, some: Indices) -> Array:
-        """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
-        return self.M_u[np.ix_(some, some)]
-
     @property
     def coupled_entries(self) -> tuple[Indices, Indices]:
-        """Rows and columns, (k,) each, of the entries of H that may be nonzero."""
-        i, j = np.nonzero(self.coupled())
+        """Rows and columns, (k,) each, of the entries of H that are not zero."""
+        if self.extra.cost is None:
+            return self.hessian.entries
+        of_cost = np.nonzero(self.extra.cost[0])
+        i, j = (np.concatenate(both) for both in zip(self.hessian.entries, of_cost, strict=True))
         return i, j
 
     def coupled(self) -> Mask:
-        """A mask of the entries of H that may be nonzero, shape (n_v, n_v)."""
+        """A mask of the entries of H that are not zero, shape (n_v, n_v)."""
         coupled = np.zeros((self.n_v, self.n_v), dtype=bool)
-        coupled[: self.n_a, : self.n_a] = self.K_q != 0
-        coupled[self.n_a :, self.n_a :] = self.M_u != 0
-        cost = self.extra.cost
-        return coupled if cost is None else coupled | (cost[0] != 0)
+        coupled[self.coupled_entries] = True
+        return coupled
 
     @cached_property
     def n_a(self) -> int:
@@ -325,7 +352,7 @@ class StepData(Plain, HasPage):
     @cached_property
     def H(self) -> Array:
         """H of Eq. :eq:`eq-13` and of a user's cost, shape (n_v, n_v)."""
-        H = hessian(self.h, self.K_q, self.M_u)
+        H = self.hessian.matrix
         cost = self.extra.cost
         return H if cost is None else read_only(H + cost[0])
 
@@ -362,23 +389,6 @@ KIND: dict[str, Callable[[StepData], ArrayLike]] = {
 def differences(template: StepData, step: StepData, names: Iterable[str] = KIND) -> list[str]:
     """Those of `names` in which two steps differ."""
     return [n for n in names if not np.array_equal(KIND[n](template), KIND[n](step))]
-
-
-def hessian(h: float, K_q: Array, M_u: Array) -> Array:
-    """H of Eq. :eq:`eq-13`, shape (n_v, n_v), from the fields of a step [s], [N/m] and [kg].
-
-    StepDataError if an entry leaves the range of float64.
-    """
-    n_a = len(K_q)
-    n_v = n_a + len(M_u)
-    H = np.zeros((n_v, n_v))
-    with np.errstate(over="ignore"):
-        H[:n_a, :n_a] = h * K_q
-        H[n_a:, n_a:] = M_u / h
-    if not np.isfinite(H).all():
-        problem = "takes h K_q or M_u / h out of the range of float64"
-        raise StepDataError(problem, field="h", value=h)
-    return read_only(H)
 
 
 def seconds(h: object) -> float:

@@ -45,6 +45,10 @@ class StandardForm(NamedTuple):
     A: Array
     b: Array
 
+    def free(self) -> Array:
+        """The minimiser without rows, H^-1 g, shape (n_v,)."""
+        return np.asarray(np.linalg.solve(self.H, self.g), dtype=np.float64)
+
 
 def standard_form(step: StepData) -> StandardForm:
     """H, g of Eq. :eq:`eq-13` and A, b of Eq. :eq:`eq-8`, stacked over the contacts.
@@ -80,6 +84,14 @@ def inequalities(step: StepData) -> tuple[Array, Array]:
     return A, b
 
 
+def own_inequalities(step: StepData) -> tuple[Array, Array]:
+    """A of the contacts by their own columns, (m_c, w), and b of all rows, (m,): Eq. :eq:`eq-8`."""
+    mask = step.mask
+    A = friction_rows(step.contacts, step.cone, step.contacts.own)[mask]
+    b = -row_constants(step.contacts, step.cone)[mask]
+    return A, np.concatenate([b, step.extra.b]) if step.extra.names else b
+
+
 def linear_term(step: StepData) -> Array:
     """The linear term g of Eq. :eq:`eq-13` and of a user's cost, (n_v,) [N s, N m s]."""
     tau_k = product(step.K_q, step.delta_q_bar_a)  # Eq. (1)
@@ -109,7 +121,7 @@ def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, A
     return J_n, J_1, J_2, J[:, 3]
 
 
-def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
+def friction_rows(contacts: Contacts, name: str = PYRAMID, J: Array | None = None) -> Array:
     """The rows [J'(n~ + d~_i)]' of Eq. :eq:`eq-4`: for each contact all rows of the cone.
 
     Parameters
@@ -117,14 +129,16 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
     contacts : Contacts
     name : str
         The cone. A curved one has no inequality rows: J_n, J_1, J_2 and J_w.
+    J : ndarray, shape (n_c, 4, w), optional
+        Any columns of J; by default all.
 
     Returns
     -------
-    ndarray, shape (n_c, R, n_v)
+    ndarray, shape (n_c, R, w)
         [m] per unit of delta_q. A contact uses those of ``StepData.mask``: with the paper's
         cone six, or the first four.
     """
-    J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
+    J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J if J is None else J)
     friction_cone = cone(name)
     mu_v, _, mu_omega = friction_cone.row_coefficients(contacts.mu).T[:, :, None]
     rows = friction_cone.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)
@@ -211,7 +225,8 @@ def ends_within(step: StepData, units: Units, far: float = FAR) -> tuple[Array, 
     phi = step.contacts.phi / (rho * ell)
     b = step.extra.b / (rho * ell)
     if far < math.inf:
-        phi = np.minimum(phi, far * _lengths(step.contacts.J * (S / ell)))
+        unit = (np.append(S, 0.0) / ell)[step.contacts.column]
+        phi = np.minimum(phi, far * _lengths(step.contacts.own * unit[:, None]))
         b = np.maximum(b, -far * _lengths(step.extra.A[:, None] * (S / ell)))
     return phi, b
 

@@ -1,12 +1,29 @@
-"""Tangents are a fixed function of the normal, and J is formed in blocks."""
+"""Tangents are a fixed function of the normal, and J is formed by each contact's own columns."""
 
+import itertools
+
+import mujoco
 import numpy as np
+import pytest
 
-from quasistatic_ref import load_scenario
-from quasistatic_ref.contact import jacobian
-from quasistatic_ref.contact.jacobian import tangents
+import quasistatic_ref as qr
+from quasistatic_ref.contact.jacobian import ContactGeometry, columns_at, tangents
+from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.step.contacts import spread
 from tests.closeness import assert_within
+from tests.files.urdf.urdf_texts import inertial, joint, link, mimic, robot
+
+WHEELS = robot(
+    *(link(name, "", inertial("1", ("0.1",) * 3)) for name in ("axle", "wheel", "near", "far")),
+    joint("turn", "axle", "wheel", "continuous", "0 0 1"),
+    joint("open", "axle", "near", "prismatic", "1 0 0"),
+    joint("shut", "axle", "far", "prismatic", "-1 0 0", mimic("open")),
+)
+TIED = """<mujoco><worldbody><body name="a"><joint name="one" type="slide" axis="1 0 0"/>
+<geom size=".1"/><body name="b"><joint name="two" axis="0 1 0"/><geom size=".1" pos="1 0 0"/></body>
+</body><body name="c" pos="3 0 0"><freejoint/><geom size=".1"/></body></worldbody>
+<equality><joint joint1="two" joint2="one" polycoef="0 .5 0 0 0"/></equality></mujoco>"""
 
 
 def test_d1_is_the_projection_of_the_world_axis_farthest_from_n_and_d2_is_n_x_d1(rng):
@@ -22,14 +39,33 @@ def test_d1_is_the_projection_of_the_world_axis_farthest_from_n_and_d2_is_n_x_d1
         assert not np.signbit(found[found == 0]).any()
 
 
-def test_J_of_many_contacts_is_formed_block_by_block_with_the_same_bits(monkeypatch):
-    scenario = load_scenario("stack")
-    simulator = scenario.simulator()
-    kinematics = scenario.system.kinematics(scenario.system.q_start)
-    points = simulator.closest_points(kinematics)
-    whole = simulator.geometry
-    assert len(whole.blocks) == 1
-    monkeypatch.setattr(jacobian, "BLOCK", 200)
-    few = jacobian.ContactGeometry(whole.layout, whole.column_map)
-    assert len(few.blocks) > 1
-    assert bits(few.contacts(points, kinematics)) == bits(whole.contacts(points, kinematics))
+def system_of(kind):
+    """A system with several bodies."""
+    if kind == "mimic":  # before the joint that it mimics in the paper's order, or after it
+        wheels = [qr.Body(f"w{i}", WHEELS, "planar", own) for i, own in enumerate(((), ("open",)))]
+        return qr.System(wheels)
+    if kind == "tied":
+        return qr.mujoco_scenario(mujoco.MjModel.from_xml_string(TIED)).system
+    return qr.load_scenario(kind).system
+
+
+@pytest.mark.parametrize("kind", ["bunny_grasp", "stack", "mimic", "tied"])
+def test_own_columns_are_those_that_can_move_a_contact_and_have_the_bits_of_all(kind, rng):
+    system = system_of(kind)
+    q = system.integrate(system.q_start, 0.1 * rng.normal(size=system.n_v))
+    kinematics = system.kinematics(q)
+    column_map = kinematics.column_map
+    alpha, beta = np.array([*itertools.permutations(range(len(system.links)), 2)]).T
+    n_c = len(alpha)
+    zeros = np.zeros(n_c)
+    layout = ContactLayout(("p",) * n_c, alpha, beta, zeros, zeros, np.full(n_c, 6))
+    geometry = ContactGeometry(layout, column_map)
+    r = rng.normal(size=(2, n_c, 3))
+    n = rng.normal(size=(n_c, 3))
+    J = spread(geometry.jacobian(kinematics.columns, *r, n), geometry.column, system.n_v)
+    moves = column_map.moves[np.stack([alpha, beta])]
+    of_alpha, of_beta = moves * columns_at(kinematics.columns, r, n)
+    assert bits(J) == bits(column_map.of_coordinates(of_beta - of_alpha) + 0.0)
+    can_move = column_map.of_coordinates(moves.max(axis=0))[:, 0] != 0
+    for own, can in zip(geometry.column, can_move, strict=True):
+        assert own[own < system.n_v].tolist() == np.flatnonzero(can).tolist()

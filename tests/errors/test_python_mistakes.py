@@ -37,13 +37,13 @@ def simulator(**more):
 
 SCENARIO = qr.load_scenario("sphere_spin")
 SIMULATOR = simulator()
-FAST = qr.FastSimulator(SIMULATOR)
+FAST = simulator(backend="daqp")
 STEP = SIMULATOR.step(Q, Q_A).step
 FORM = qr.standard_form(STEP)
 
 
 def step(q=Q, q_bar_a=Q_A, **more):
-    """At both speeds, which must say the same."""
+    """By two backends, which must say the same."""
     said = []
     for one in (SIMULATOR, FAST):
         with pytest.raises(QuasistaticError) as refused:

@@ -104,7 +104,7 @@ def word(found, right):
 def proofs():
     """Calls that claim something of the step."""
     said = solve_step(STEP, NONE)
-    kept = solver_for(STEP, "daqp", fast=True)
+    kept = solver_for(STEP, "daqp")
     claims = said.certificate
     return [
         partial(solve_step, STEP, NONE),
@@ -135,7 +135,7 @@ def reply_and_leave(reply, name, *given):
 
 @pytest.mark.parametrize("name", MODES)
 def test_after_a_backend_that_leaves_a_mode_nothing_is_claimed(name):
-    solver = solver_for(STEP, "daqp", fast=True)
+    solver = solver_for(STEP, "daqp")
     solver.reply = partial(reply_and_leave, solver.reply, name)
     words = Counter()
     for certify in ("full", "residual", "off"):

@@ -74,7 +74,7 @@ def test_no_file_names_another_part_or_asks_for_a_kind():
     ("name", "source"),
     [
         ("cli/run.py", "x = 'quasistatic_ref.lab.commands'"),
-        ("cli/run.py", "x = 'quasistatic_ref.optional.fast'"),
+        ("cli/run.py", "x = 'quasistatic_ref.optional.daqp'"),
         ("solve/a.py", "isinstance(cone, CurvedCone)"),
         ("simulate/a.py", "joint.kind == 'planar'"),
     ],

@@ -15,7 +15,6 @@ from quasistatic_ref.lab.scenes.systems import (
     world_plane,
 )
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -103,6 +102,6 @@ def pushed_block(cone: str = ELLIPSOID) -> PushedBlock:
     ]
     simulator = Simulator(
         system, pairs, h=H, K_q=STIFFNESS * np.eye(2), gravity=(0.0, 0.0, -GRAVITY),
-        cone=cone,
+        cone=cone, backend="daqp" if cone == "pyramid" else None,
     )  # fmt: skip
-    return PushedBlock(FastSimulator(simulator), system.q_start)
+    return PushedBlock(simulator, system.q_start)

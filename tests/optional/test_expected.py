@@ -19,10 +19,10 @@ from quasistatic_ref.numbers.compiled import CompiledMethod
 from quasistatic_ref.optional.compiled import leaves
 from quasistatic_ref.optional.coulomb import fixed_point
 from quasistatic_ref.optional.curved import by_coal, clouds_by_coal, rims, ways_out
+from quasistatic_ref.optional.daqp import default, solver
 from quasistatic_ref.optional.doctor import checks, names, observer
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 from quasistatic_ref.optional.extensions import by_function, extended, of_scenario
-from quasistatic_ref.optional.fast import simulator, solver
 from quasistatic_ref.optional.forces import forces
 from quasistatic_ref.optional.models import described
 from quasistatic_ref.optional.qpsolvers import through_qpsolvers
@@ -35,7 +35,7 @@ from quasistatic_ref.simulate.recorder import WatchingDoctor
 from quasistatic_ref.simulate.simulator import CoulombSolution, ExtendedSolution, SceneFindings
 from quasistatic_ref.simulate.trajectory import Table, TimeFindings
 from quasistatic_ref.solve.backends import SolverNames
-from quasistatic_ref.solve.choice import FastSolver, FunctionSolver, NamedSolver
+from quasistatic_ref.solve.choice import FunctionSolver, NamedSolver
 from quasistatic_ref.solve.solve import ExtendedStep
 from quasistatic_ref.step.cones import FrictionCone
 from quasistatic_ref.step.extension import Posed
@@ -64,9 +64,8 @@ class Expected:
     function_solver: FunctionSolver = by_function.FunctionSolver
     qpsolvers_solver: NamedSolver = through_qpsolvers.QpsolversSolver
     qpsolvers_names: SolverNames = through_qpsolvers.available_solvers
-    fast_solver: FastSolver = solver.fast_solver
-    fast_simulator: scenario.FastSimulator = simulator.FastSimulator
-    fast_backend: scenario.FastBackend = simulator.default_backend
+    daqp_solver: NamedSolver = solver.DaqpSolver
+    fast_backend: scenario.FastBackend = default.default_backend
     doctor: WatchingDoctor = observer.Doctor
     scene_findings: SceneFindings = checks.scene_findings
     time_findings: TimeFindings = checks.time_findings

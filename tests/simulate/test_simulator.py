@@ -44,7 +44,7 @@ def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(run):
     assert_same(run(table, steps, record="light")["q_bar_a"], table)
 
 
-@pytest.mark.parametrize("fast", [False, pytest.param(True, marks=pytest.mark.extra("fast"))])
+@pytest.mark.parametrize("fast", [False, True])
 def test_the_parts_of_a_run_add_up_to_its_wall_time(fast):
     scenario = load_scenario("sphere_spin", steps=20, fast=fast)
     simulator = scenario.simulator()

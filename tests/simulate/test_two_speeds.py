@@ -1,4 +1,4 @@
-"""The plain path and `fast` take the same steps, and the plain path uses nothing of `fast`."""
+"""Clarabel and DAQP, kept between steps, take the same steps; the default uses nothing of it."""
 
 import pytest
 
@@ -12,7 +12,6 @@ STEPS = {"bunny_grasp": 60}  # its gripper has closed after 50; of the others 6 
 SAME = ("q", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "H", "g", "A", "b")
 
 
-@pytest.mark.extra("fast")
 @pytest.mark.parametrize("name", SCENARIOS_TO_RUN)
 def test_certified_runs_have_the_same_bits_at_both_speeds(name):
     steps = STEPS.get(name, 6)
@@ -30,10 +29,10 @@ print(*(name for name in sys.modules if name.startswith("quasistatic_ref.optiona
 """
 
 
-def test_the_plain_path_asks_for_nothing_of_fast():
+def test_the_default_asks_for_nothing_of_daqp():
     imported = python("-c", PLAIN).stdout.split()
     assert any(name.startswith("quasistatic_ref.optional.doctor") for name in imported)
-    assert not any(name.startswith("quasistatic_ref.optional.fast") for name in imported)
+    assert not any(name.startswith("quasistatic_ref.optional.daqp") for name in imported)
 
 
 FAST = """
@@ -45,7 +44,6 @@ print(*(name for name in sys.argv[2:] if name in sys.modules))
 LARGE = ("cvxpy", "jax", "matplotlib", "pandas", "trimesh")
 
 
-@pytest.mark.extra("fast")
 @pytest.mark.parametrize(
     ("name", "unused"),
     [("bunny_grasp", LARGE), ("stack", (*LARGE, "scipy")), ("door", (*LARGE, "scipy"))],

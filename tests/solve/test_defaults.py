@@ -4,18 +4,17 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extension, FastSimulator, Simulator, load_scenario, solve_step
+from quasistatic_ref import Extension, Simulator, load_scenario, solve_step
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.lab.bench.scenes import boxes
-from quasistatic_ref.optional.fast import simulator as of_fast
-from quasistatic_ref.optional.fast.program import Workspaces
-from quasistatic_ref.optional.fast.simulator import default_backend
+from quasistatic_ref.optional.daqp import default
+from quasistatic_ref.optional.daqp.default import default_backend
+from quasistatic_ref.optional.daqp.solver import Workspaces
 from quasistatic_ref.simulate.law import CONVEX, COULOMB
 from quasistatic_ref.solve.solver import Reply
 from tests.helpers import error
 from tests.tolerances import OPTIMUM
 
-pytestmark = pytest.mark.extra("fast")
 FAILED = Reply(None, None, False, "at a loss")
 UNCLAIMED = Reply(np.zeros(6), np.zeros(6), False, "iteration limit")
 
@@ -36,10 +35,10 @@ def test_bodies_that_cannot_touch_count_one_by_one(monkeypatch):
     """3 boxes with 4 contacts each: the dense J of each has 4 * 4 * 6 entries."""
     simulator = boxes(3).simulator("off", True)
     scene = simulator.system, simulator.pairs, "pyramid"
-    monkeypatch.setattr(of_fast, "DENSE_BELOW", 4 * 4 * 6 + 1)
+    monkeypatch.setattr(default, "DENSE_BELOW", 4 * 4 * 6 + 1)
     assert default_backend(*scene, CONVEX) == "daqp"
     assert default_backend(*scene, COULOMB) == "clarabel"
-    monkeypatch.setattr(of_fast, "DENSE_BELOW", 4 * 4 * 6)
+    monkeypatch.setattr(default, "DENSE_BELOW", 4 * 4 * 6)
     assert default_backend(*scene, CONVEX) == "clarabel"
     assert default_backend(simulator.system, (), "pyramid", CONVEX) == "daqp"
 
@@ -74,9 +73,7 @@ def test_a_failure_of_a_backend_that_is_named_is_that_backend_s(monkeypatch):
 
 def test_a_simulator_that_names_no_backend_takes_curved_extensions():
     scenario = load_scenario("sphere_spin")
-    plain = Simulator(scenario.system, scenario.pairs, h=scenario.h, K_q=scenario.K_q)
-    simulator = FastSimulator(plain)
-    assert simulator.backend == "daqp"  # which takes rows only
+    simulator = Simulator(scenario.system, scenario.pairs, h=scenario.h, K_q=scenario.K_q)
     of_file = load_scenario("sphere_spin", fast=True).simulator()
     for one in (simulator, of_file):
         one.extension = lambda q: Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])

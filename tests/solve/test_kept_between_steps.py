@@ -25,8 +25,8 @@ def test_only_backends_that_may_not_return_are_kept_from_unlike_rows():
     step = pushed_point()
     unlike = step.replace(extra=Extra(("far",), [[1e4, 0.0, 0.0]], [-1.0]))
     for name, refused in (("highs", True), ("daqp", False)):
-        assert solver_for(unlike, name, not refused).unsafe == refused
-        solver_for(step, name, not refused).answer(ScaledStep(step), 1e-9)
+        assert solver_for(unlike, name).unsafe == refused
+        solver_for(step, name).answer(ScaledStep(step), 1e-9)
     with pytest.raises(StepNotSolved, match="not called: its rows differ by"):
         solver_for(unlike, "highs").answer(ScaledStep(unlike), 1e-9)
 

@@ -15,11 +15,10 @@ from quasistatic_ref import (
     load_scenario,
     solve_step,
 )
-from quasistatic_ref.optional.fast.program import Workspaces
-from quasistatic_ref.optional.fast.solver import FastSolver
+from quasistatic_ref.optional.daqp.solver import DaqpSolver, Workspaces
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.solve import step_problem
-from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backends
+from quasistatic_ref.solve.backends import BACKENDS, installed_backends
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solver import NoSolver
 from quasistatic_ref.solve.step_problem import CvxpySolver
@@ -34,24 +33,22 @@ from tests.helpers import (
 )
 from tests.tolerances import OPTIMUM
 
+BY_QPSOLVERS = [name for name in installed_backends() if name.startswith("qpsolvers:")]
+BY_CVXPY = [name for name in installed_backends() if name not in {"daqp", *BY_QPSOLVERS}]
 EVERY = [
-    *((CvxpySolver, name, "cvxpy") for name in installed("cvxpy") if not BACKENDS[name].no_steps),
-    *((QpsolversSolver, name, "qpsolvers") for name in installed_backends() if ":" in name),
-    (FastSolver, "daqp", "native"),
+    *((CvxpySolver, name, "cvxpy") for name in BY_CVXPY),
+    *((QpsolversSolver, name, "qpsolvers") for name in BY_QPSOLVERS),
+    (DaqpSolver, "daqp", "native"),
     (NoSolver, "none", "none"),
 ]
-NEEDS = {FastSolver: [pytest.mark.extra("fast")]}
-every_solver = pytest.mark.parametrize(
-    ("kind", "name", "interface"),
-    [pytest.param(*one, marks=NEEDS.get(one[0], [])) for one in EVERY],
-)
+every_solver = pytest.mark.parametrize(("kind", "name", "interface"), EVERY)
 
 
 @every_solver
 def test_the_result_names_the_backend_and_the_interface_that_were_asked(
     kind, name, interface, step
 ):
-    solver = solver_for(step, name, fast=kind is FastSolver)
+    solver = solver_for(step, name)
     assert type(solver) is kind
     assert (solver.name, solver.interface) == (name, interface)
     solution = solve_step(step, solver)
@@ -59,14 +56,8 @@ def test_the_result_names_the_backend_and_the_interface_that_were_asked(
     assert (solution.backend, said.backend, said.interface) == (name, name, interface)
     if name in REQUIRED:
         assert said.status == "optimal"
-    if kind is not FastSolver:  # a name alone never means another interface
-        said = solve_step(step, name).statistics
-        assert (said.backend, said.interface) == (name, interface)
-
-
-def test_a_solver_object_is_fast_or_not_already(step):
-    with pytest.raises(InputError, match="fast: has no effect on an existing solver"):
-        solve_step(step, solver_for(step), fast=True)
+    said = solve_step(step, name).statistics
+    assert (said.backend, said.interface) == (name, interface)
 
 
 def with_mu(step, **mu):
@@ -74,28 +65,24 @@ def with_mu(step, **mu):
 
 
 OTHERS = {
-    "n_a": (lambda s, rng: random_step(rng, n_a=2), "CF"),
-    "n_u": (lambda s, rng: random_step(rng, n_u=5), "CF"),
-    "cone": (lambda s, rng: s.replace(cone="facets-8"), "CFQ"),
-    "contacts.rows": (lambda s, rng: random_step(rng, rows=(4, 6, 6)), "CF"),
+    "n_a": (lambda s, rng: random_step(rng, n_a=2), "CD"),
+    "n_u": (lambda s, rng: random_step(rng, n_u=5), "CD"),
+    "cone": (lambda s, rng: s.replace(cone="facets-8"), "CDQ"),
+    "contacts.rows": (lambda s, rng: random_step(rng, rows=(4, 6, 6)), "CD"),
     "extra": (
-        lambda s, rng: s.replace(extra=Extra(("a",), np.ones((1, 7)), [-1.0])), "CF",
+        lambda s, rng: s.replace(extra=Extra(("a",), np.ones((1, 7)), [-1.0])), "CD",
     ),
     "h": (lambda s, rng: s.replace(h=2 * s.h), "C"),
     "contacts.mu_v": (lambda s, rng: with_mu(s, mu_v=0.5 * s.contacts.mu_v), "C"),
     "contacts.mu_omega": (lambda s, rng: with_mu(s, mu_omega=0.5 * s.contacts.mu_omega), "C"),
 }  # fmt: skip
-"""Steps of another kind, and who cannot take them: (C)vxpy, (F)ast, (Q)psolvers."""
+"""Steps of another kind, and who cannot take them: (C)vxpy, (D)aqp, (Q)psolvers."""
 
 
-@pytest.mark.parametrize(
-    ("fast", "name"), [(False, "piqp"), (False, "qpsolvers:piqp"), (True, "daqp")]
-)
+@pytest.mark.parametrize("name", ["piqp", "qpsolvers:piqp", "daqp"])
 @pytest.mark.parametrize("what", OTHERS)
-def test_a_solver_refuses_a_step_that_does_not_fit_and_says_what_differs(
-    what, fast, name, step, rng
-):
-    solver = solver_for(step, name, fast)
+def test_a_solver_refuses_a_step_that_does_not_fit_and_says_what_differs(what, name, step, rng):
+    solver = solver_for(step, name)
     other, who = OTHERS[what]
     other = other(step, rng)
     assert solver.fits(step)
@@ -117,9 +104,9 @@ def test_a_solver_refuses_a_step_that_does_not_fit_and_says_what_differs(
 
 def test_rows_of_an_extension_count_as_rows_of_the_step(step):
     floor = Extension(lambda s: [s.delta_q >= -1.0])
-    for fast in (False, True):
+    for name in ("osqp", "daqp"):
         with pytest.raises(InputError, match="in extra; make"):
-            solve_step(step, solver_for(step, "daqp", fast), extension=floor)
+            solve_step(step, solver_for(step, name), extension=floor)
 
 
 def test_no_solver_gives_no_answer_of_its_own(step):
@@ -133,7 +120,7 @@ def test_no_solver_gives_no_answer_of_its_own(step):
     ("fast", "interface"),
     [
         (False, "cvxpy"),
-        pytest.param(True, "native", marks=NEEDS[FastSolver]),
+        (True, "native"),
     ],
 )
 def test_a_simulator_keeps_its_solver_while_steps_fit(fast, interface):
@@ -156,12 +143,12 @@ def test_a_simulator_keeps_its_solver_while_steps_fit(fast, interface):
     [
         (CvxpySolver, "osqp", "cvxpy"),
         (QpsolversSolver, "qpsolvers:piqp", "qpsolvers"),
-        pytest.param(FastSolver, "daqp", "native", marks=NEEDS[FastSolver]),
+        (DaqpSolver, "daqp", "native"),
         (NoSolver, "none", "none"),
     ],
 )
 def test_a_solver_that_was_pickled_or_copied_starts_afresh(kind, name, interface, step):
-    solver = solver_for(step, name, fast=kind is FastSolver)
+    solver = solver_for(step, name)
     expected = solve_step(step, solver)
     for again in (pickle.loads(pickle.dumps(solver)), copy.copy(solver)):
         assert type(again) is kind
@@ -173,7 +160,7 @@ def test_a_solver_that_was_pickled_or_copied_starts_afresh(kind, name, interface
 
 
 def test_a_backend_that_raises_is_set_up_again_for_the_next_step(step, monkeypatch):
-    solver = FastSolver(step)
+    solver = DaqpSolver(step)
     honest = Workspaces.reply
 
     def broken(*_):
@@ -192,12 +179,10 @@ def test_a_backend_of_studies_only_is_no_backend_of_steps():
     for name in ("qpalm", "qpsolvers:qpalm", "quadprog", "qpsolvers:quadprog"):
         assert name not in installed_backends()
         why = BACKENDS[name.removeprefix("qpsolvers:")].no_steps
-        for fast in (False, True):
-            with pytest.raises(BackendError, match=f"is not a backend of steps: {why}; studies"):
-                solver_for(point_on_floor(), name, fast)
+        with pytest.raises(BackendError, match=f"is not a backend of steps: {why}; studies"):
+            solver_for(point_on_floor(), name)
 
 
-@pytest.mark.extra("fast")
 def test_a_step_that_cvxpy_would_compile_for_minutes_is_proved_without_its_answer(
     step, monkeypatch
 ):
@@ -209,6 +194,6 @@ def test_a_step_that_cvxpy_would_compile_for_minutes_is_proved_without_its_answe
     assert proved.statistics.status.startswith("failed: not called: CVXPY takes too long")
     assert proved.certificate.kind == "exact"
     assert proved.delta_q.tobytes() == asked.delta_q.tobytes()
-    with pytest.raises(StepNotSolved, match=r"3 contacts, more than 2; with fast = true"):
+    with pytest.raises(StepNotSolved, match=r"3 contacts, more than 2; the backends daqp and none"):
         solve_step(step, certify="off")
-    assert solve_step(step, fast=True, certify="off").statistics.status == "optimal"
+    assert solve_step(step, "daqp", certify="off").statistics.status == "optimal"

@@ -46,7 +46,6 @@ from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import part
-from quasistatic_ref.simulate.distances import check_closed
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import Record
 from quasistatic_ref.simulate.observer import Observer
@@ -68,7 +67,6 @@ ExtendedBodies = Callable[
 ]
 """A system, its pairs, its bodies' entries, h [s], K_q (n_a, n_a) and gravity (3,) [m/s^2] -> the
 pairs with those of supports, and what else is added to each step."""
-FastSimulator = Callable[[Simulator], Simulator]
 FastBackend = Callable[[System, Sequence[ContactPair], str, str], str]
 """A system, its pairs, cone and law -> the backend of ``fast`` where none is named."""
 
@@ -88,7 +86,7 @@ class Scenario(Settings, Plain, Shown):
     record : str
         What its trajectory holds.
     fast : bool
-        Whether a :class:`~quasistatic_ref.optional.fast.simulator.FastSimulator` takes its steps.
+        Whether DAQP, by its own interface, is its backend where none is named.
     bodies : mapping of str to Body
         Those of its system, by their names.
     ignored_findings : tuple of str
@@ -119,11 +117,7 @@ class Scenario(Settings, Plain, Shown):
         """A new simulator of this scenario, with the user's own constraints and costs, if any."""
         if self.of_bodies is not None:
             extension = self.of_bodies.beside(extension)
-        simulator = Simulator(**self.settings(), extension=extension)
-        if not self.fast:
-            return simulator
-        fast_simulator: FastSimulator = part("fast_simulator")
-        return fast_simulator(simulator)
+        return Simulator(**self.settings(), extension=extension)
 
     @property
     def target(self) -> Target:
@@ -275,8 +269,6 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     named = cone(read("cone")).name
     law = read("law")
     distances = read("distances")
-    if run["fast"]:
-        check_closed(distances)
 
     tables = read("bodies")
     if (count := len(tables.names_left())) > MOST_BODIES:

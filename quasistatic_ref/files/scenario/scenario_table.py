@@ -69,11 +69,12 @@ TABLES = Tables({
         "distances": Field(
             "text",
             "closed forms, or coal's distances of points of clouds to boxes, spheres, capsules and "
-            "half-spaces; fast takes closed forms alone",
+            "half-spaces",
             default=Settings.distances, choices=DISTANCES,
         ),
         "fast": Field(
-            "boolean", "whether to take the same steps sooner, to the same certified bits",
+            "boolean", "whether the backend is daqp where none is named: the same certified bits, "
+            "sooner",
             default=False,
         ),
         "record": Field(

@@ -13,10 +13,9 @@ from quasistatic_ref.files.scenario.scenario import load_scenario
 from quasistatic_ref.lab.scenes.systems import on_link
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PlacedShape
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.backends import Certify
+from quasistatic_ref.solve.backends import DAQP, Certify
 
 GRAVITY = 9.81
 """[m/s^2]"""
@@ -122,8 +121,8 @@ def boxes(count: int) -> Scene:
     force = np.tile(push, count)
 
     def simulator(certify: Certify, fast: bool) -> Simulator:
-        plain = Simulator(system, pairs, h=H, certify=certify)
-        return FastSimulator(plain) if fast else plain
+        backend = DAQP if fast else None
+        return Simulator(system, pairs, h=H, certify=certify, backend=backend)
 
     def model() -> tuple[Any, Any]:
         bodies = "".join(

@@ -12,7 +12,7 @@ from quasistatic_ref.lab.reality.push import FINGER, Pushed
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution
 from quasistatic_ref.simulate.law import COULOMB
-from quasistatic_ref.solve.backends import Certify
+from quasistatic_ref.solve.backends import DAQP, Certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
@@ -94,7 +94,7 @@ def prediction(of: Pushed, pose: Array, path: Array, certify: Certify = "full") 
 def solver_for_step(step: StepData, solver: Solver | None) -> Solver:
     """A solver for the step: the solver of the step before if it fits."""
     if solver is None or not solver.fits(step):
-        return solver_for(step, fast=True)
+        return solver_for(step, DAQP)
     return solver
 
 

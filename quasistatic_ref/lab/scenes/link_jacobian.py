@@ -6,6 +6,7 @@ from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.step.contacts import spread
 
 
 def contact_jacobian(
@@ -29,4 +30,5 @@ def contact_jacobian(
     nothing = np.zeros(len(n))
     layout = ContactLayout((), link_alpha, link_beta, nothing, nothing, link_alpha)
     geometry = ContactGeometry(layout, kinematics.column_map)
-    return geometry.jacobian(kinematics.columns, alpha, beta, n)
+    own = geometry.jacobian(kinematics.columns, alpha, beta, n)
+    return spread(own, geometry.column, geometry.n_v)

@@ -7,9 +7,9 @@ from quasistatic_ref.lab.scenes.systems import on_link, world_plane
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.shapes.placed_shape import PointCloud, Shape, Sphere
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.backends import DAQP
 
 RADIUS, MASS, MU_V, MU_OMEGA, H = 0.05, 0.3, 0.4, 0.01, 0.01
 """Of the ball [m] and [kg], of all contacts [-] and [m], and of a step [s]."""
@@ -28,8 +28,7 @@ def body_at_rest(shape: Shape, height: float) -> tuple[Simulator, Array]:
     system = System([Body.of_shape("ball", Sphere(RADIUS), MASS, xyz=(0, 0, height))])
     placed = on_link(system, "ball", shape)
     pair = ContactPair("floor", world_plane(), placed, MU_V, MU_OMEGA, 6, 1)
-    simulator = Simulator(system, [pair], h=H)
-    return FastSimulator(simulator), system.q_start
+    return Simulator(system, [pair], h=H, backend=DAQP), system.q_start
 
 
 def points(*places: tuple[float, float, float]) -> PointCloud:

@@ -129,7 +129,6 @@ def coulomb_step(
     step: StepData,
     solver: str | Solver | None = None,
     *,
-    fast: bool = False,
     accuracy: float = ACCURACY,
     start: ArrayLike | None = None,
     most: int = MOST,
@@ -140,7 +139,7 @@ def coulomb_step(
     ----------
     step : StepData
         SI units.
-    solver, fast, accuracy
+    solver, accuracy
         As of :func:`~quasistatic_ref.solve.solve.solve_step`; each iterate is certified.
     start : array_like, shape (n_c,), optional
         The first s [m], >= 0; by default 0, with which the first iterate is the convex step. There
@@ -175,7 +174,7 @@ def coulomb_step(
     if most < 1:
         raise InputError("must be at least 1", field="most", value=most)
     if not isinstance(solver, Solver):
-        solver = solver_for(step, solver, fast)
+        solver = solver_for(step, solver)
     end, count = fixed_point(
         lambda s: iterate(step, s, lambda raised: solve_step(raised, solver, accuracy=accuracy)),
         s,

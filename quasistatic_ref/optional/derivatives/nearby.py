@@ -13,7 +13,7 @@ from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.numbers.ordered import crossed
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, checked_force
-from quasistatic_ref.solve.backends import NONE
+from quasistatic_ref.solve.backends import DAQP, NONE
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step, solved
 from quasistatic_ref.solve.units import ScaledStep
@@ -88,7 +88,7 @@ class Nearby:
         self._given = np.array(q_bar_a, np.float64), checked_force(system, force)
         self._step = step = self.result.step.replace()
         self._solver = solver_for(step, NONE)
-        self._quickly = simulator.fast and simulator.certify == "full"
+        self._quickly = simulator.backend == DAQP and simulator.certify == "full"
         self._rows = flat_rows(step, self.result.solution.certificate.active)
         self._origin = system.at(system.neutral())
         self._end = self._origin.plus(self.result.solution.delta_q)

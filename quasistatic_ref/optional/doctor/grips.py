@@ -1,10 +1,12 @@
 """Grips: what is held from opposite sides by what is driven, and what its contacts lack."""
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.blocks import entries_of
 from quasistatic_ref.optional.doctor.bodies import COUNTS, Body, Missing
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.scenes import Scene
@@ -77,7 +79,7 @@ def _agreement(run: Run, body: Body, k: int, on: Mask, lacks: Missing) -> float:
     rows = np.concatenate([J[on] for J in J_t])[:, body.coordinates]
     seen = np.concatenate([*run.slips[k, on, :2].T, run.noted("moved")[k, on, 3]])
     v = np.linalg.lstsq(rows, seen, rcond=1e-9)[0]
-    M = body.inertia(run.at(k).step.masses, run.system.n_a)
+    M = body.inertia(partial(entries_of, run.at(k).step.hessian.masses), run.system.n_a)
     starts = np.linalg.solve(M, -lacks.r)
     sizes = float(np.sqrt((starts @ M @ starts) * (v @ M @ v)))
     return float(starts @ M @ v) / sizes if sizes > 0 else 0.0

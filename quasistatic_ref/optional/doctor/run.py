@@ -27,6 +27,7 @@ from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.recorder import POINTS
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.solve.backends import DAQP
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
@@ -263,7 +264,8 @@ class Run(Start):
 
     def solved(self, step: StepData) -> StepSolution:
         """The solution of a step, unproved; QuasistaticError if no backend has an answer."""
-        return solve_step(step, fast=self.simulator.fast, certify="off")
+        backend = DAQP if self.simulator.backend == DAQP else None
+        return solve_step(step, backend, certify="off")
 
 
 class RunStep:

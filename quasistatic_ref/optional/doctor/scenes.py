@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.certify.groups import Group, parted
+from quasistatic_ref.numbers.blocks import entries_of
 from quasistatic_ref.optional.doctor.programs import Alike
 from quasistatic_ref.optional.doctor.slow import SLOWLY, STRAIGHT, Slow
 from quasistatic_ref.parts import part
@@ -124,7 +125,7 @@ class Scene:
                 u
             ],
             K_q=step.K_q[v[:, :n_a, None], v[:, None, :n_a]],
-            M_u=np.array([step.masses(of - step.n_a) for of in u]),
+            M_u=np.array([entries_of(step.hessian.masses, of - step.n_a) for of in u]),
             load=load[v],
             phi=contacts.phi[c],
             sizes=run.sizes[near[c]],

@@ -14,8 +14,8 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError, ModelError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.mass import entries_of
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+from quasistatic_ref.numbers.blocks import entries_of
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator

@@ -46,7 +46,6 @@ def extended_step(
     step: StepData,
     extension: StepExtension,
     solver: str | Callable[..., Any] | Solver | None,
-    fast: bool,
     accuracy: float,
     certify: Certify,
 ) -> StepSolution:
@@ -54,7 +53,7 @@ def extended_step(
 
     Parameters
     ----------
-    step, extension, solver, fast, accuracy, certify
+    step, extension, solver, accuracy, certify
         As of `solve_step`; accuracy in natural units [-].
 
     Raises
@@ -65,7 +64,7 @@ def extended_step(
     own = checked_extension(extension)
     step, whole = posed(step, own)
     if whole:
-        return solve_step(step, solver, fast=fast, accuracy=accuracy, certify=certify)
+        return solve_step(step, solver, accuracy=accuracy, certify=certify)
     if isinstance(solver, Solver) or callable(solver):
         words = f"{solver.name}, {solver.interface}" if isinstance(solver, Solver) else "function"
         problem = "takes linear constraints and quadratic costs only; for other costs or a "

@@ -12,7 +12,7 @@ from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.guests.fates import kind_of
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural
 from quasistatic_ref.optional.guests.tolerances import FULL_RANK
-from quasistatic_ref.solve.units import coordinate_units
+from quasistatic_ref.solve.by_group import coordinate_units
 from quasistatic_ref.step.data import Extra
 
 HELD = "left out, in part or whole: joints or other equalities hold already what it holds"

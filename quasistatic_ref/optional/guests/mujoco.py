@@ -22,7 +22,7 @@ from quasistatic_ref.optional.guests.loads import Spring, diagonal_of_H, loads
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural, moved, mujoco_state
 from quasistatic_ref.optional.guests.tolerances import DEEP, FULL_RANK
 from quasistatic_ref.parts import needing
-from quasistatic_ref.solve.units import coordinate_units
+from quasistatic_ref.solve.by_group import coordinate_units
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Extra, StepData, seconds
 

@@ -14,7 +14,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import InputError, ModelError, ScenarioError, check_kind
 from quasistatic_ref.files.scenario.checks import run_fields
 from quasistatic_ref.files.scenario.overrides import Changes, about_changes, apply_settings
-from quasistatic_ref.files.scenario.scenario import FastBackend, FastSimulator, Scenario
+from quasistatic_ref.files.scenario.scenario import FastBackend, Scenario
 from quasistatic_ref.files.scenario.scenario_table import TOP, fields_of
 from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.formats.quoting import suggestion
@@ -75,11 +75,7 @@ class MujocoScenario(Scenario):
             raise InputError("is not taken by a MuJoCo scene", field="extension")
         system = self.drive.system
         rows = system.extension if system.rows.names or len(system.rises) else None
-        simulator = MujocoSimulator(**self.settings(), extension=rows)
-        if not self.fast:
-            return simulator
-        fast_simulator: FastSimulator = part("fast_simulator")
-        return fast_simulator(simulator)
+        return MujocoSimulator(**self.settings(), extension=rows)
 
     @property
     def target(self) -> Drive:

@@ -42,7 +42,7 @@ from quasistatic_ref.optional.guests.mujoco import actuated, joint_friction
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural, mujoco_state
 from quasistatic_ref.optional.guests.places import Places
 from quasistatic_ref.optional.guests.tolerances import FULL_RANK
-from quasistatic_ref.solve.units import coordinate_units
+from quasistatic_ref.solve.by_group import coordinate_units
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.tolerances import FILLED
 
@@ -76,6 +76,12 @@ class Velocities(ColumnMap):
     def __init__(self, moves: Array, T: Array) -> None:
         super().__init__(moves, np.abs(T).argmax(axis=1), T.shape[1])
         self.T = T
+
+    @property
+    def shares(self) -> tuple[Indices, Indices, Array]:
+        """The entries of T that are not zero, with their rows and columns, (k,) each [-]."""
+        x, v = np.nonzero(self.T)
+        return x, v, self.T[x, v]
 
     def of_coordinates(self, columns: Array) -> Array:
         """`columns` of MuJoCo's velocities, (..., nv), per unit of delta_q, (..., n_v) [m, rad]."""
@@ -138,6 +144,7 @@ class MujocoSystem(Mechanism):
 
     of_mjcf = True
     constant_mass_matrix = False
+    mass_entries = None
 
     def __init__(
         self, model: MjModel, data: MjData, h: float, stiffnesses: Mapping[str, float],

@@ -14,7 +14,6 @@ from quasistatic_ref import (
     ContactError,
     Cylinder,
     Ellipsoid,
-    FastSimulator,
     HalfSpace,
     InputError,
     PointCloud,
@@ -134,12 +133,7 @@ def test_coal_is_off_inside_a_cylinder():
     assert abs(off) > 1e-3
 
 
-def test_fast_and_unknown_words_are_refused():
-    message = r'distances: must be "closed" for fast, which compiles the closed forms; leave fast'
-    with pytest.raises(InputError, match=message):
-        load_scenario("bunny_grasp", fast=True, distances="coal")
-    with pytest.raises(InputError, match=message):
-        FastSimulator(load_scenario("bunny_grasp", distances="coal").simulator())
+def test_unknown_words_are_refused():
     with pytest.raises(InputError, match=r"distances: is not a choice; did you mean 'coal'\?"):
         simulator(distances="cole")
 

@@ -8,7 +8,6 @@ from quasistatic_ref import (
     Capsule,
     ContactPair,
     Cylinder,
-    FastSimulator,
     HalfSpace,
     PointCloud,
     Simulator,
@@ -33,7 +32,7 @@ def free(shape, xyz, fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="floa
     system = System([Body.of_shape("body", solid, 0.3, xyz=xyz, rpy=rpy, base=base)])
     own = placed_shape(shape, system.link("body"))
     pair = ContactPair("c0", placed_shape(fixed), own, *mu, 6, k)
-    return FastSimulator(Simulator(system, [pair], h=H, K_q=1.0)), system.q_start
+    return Simulator(system, [pair], h=H, K_q=1.0, backend="daqp"), system.q_start
 
 
 def vector_scene(name, **settings):

@@ -77,7 +77,7 @@ def test_r49_r_falls_with_t_squared_where_forces_bear_the_loads_and_else_stays(k
     step = scenario.run(progress=False).step_data(0)
     lacks = []
     for T in (0.1, 0.3):
-        slow = coulomb_step(step.replace(h=T), fast=True)
+        slow = coulomb_step(step.replace(h=T), "daqp")
         assert slow.converged
         lacks.append(step.M_u @ slow.delta_q[step.n_a :] / T**2)
     before, after = np.linalg.norm(lacks, axis=1)

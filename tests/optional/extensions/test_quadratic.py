@@ -253,7 +253,7 @@ def test_a_run_with_a_cost_is_recorded_and_replayed(tmp_path, settings):
     if not settings:
         assert_same(solve_step(step, "daqp").delta_q, run["delta_q"][2])
         assert set(run["certificate"].tolist()) == {"exact"}
-        fast = qr.FastSimulator(simulator)
+        fast = qr.load_scenario("sphere_spin", ["steps=3"], fast=True).simulator(spring)
         other = rollout(fast, scenario.system.q_start, scenario.targets, 3)
         for name in ("q", "delta_q", "H", "g", "extra_H", "extra_g"):
             assert_same(other[name], run[name])

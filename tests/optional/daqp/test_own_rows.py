@@ -1,4 +1,4 @@
-"""Own linear rows, joint friction, limits and MuJoCo scenes by `fast`: equal bits, no CVXPY."""
+"""Own linear rows, joint friction, limits and MuJoCo scenes by DAQP: equal bits, no CVXPY."""
 
 import mujoco
 import numpy as np
@@ -61,7 +61,6 @@ def proof_of_walls():
     return type(raised.value).__name__
 
 
-@pytest.mark.extra("fast")
 @pytest.mark.parametrize("name", ["guide", *TABLES, "MuJoCo"])
 def test_steps_with_rows_of_their_own_have_equal_bits(name):
     plain, interface, rows = bits_of_steps(name, fast=False)
@@ -71,13 +70,12 @@ def test_steps_with_rows_of_their_own_have_equal_bits(name):
     assert rows == fast_rows > 0
 
 
-@pytest.mark.extra("fast")
 def test_fast_steps_with_rows_of_their_own_do_without_cvxpy():
     """Nor is a second solver asked whether walls leave no room, of which there is a proof."""
     said = printed_text(
         "import sys",
         "sys.modules['cvxpy'] = None",
-        "from tests.optional.fast.test_own_rows import TABLES, bits_of_steps, proof_of_walls",
+        "from tests.optional.daqp.test_own_rows import TABLES, bits_of_steps, proof_of_walls",
         "names = 'guide', *TABLES, 'MuJoCo'",
         "print([bits_of_steps(name, True)[1] for name in names], proof_of_walls())",
     )

@@ -1,4 +1,4 @@
-"""Both speeds end at the same bits: ``pytest tests/optional/fast/test_same_bits.py --count 2000``.
+"""Both speeds end at the same bits: ``pytest tests/optional/daqp/test_same_bits.py --count 2000``.
 
 Random steps are hard to prove: ties, rows that depend on each other, equal groups, loads and gaps
 of sizes from 2^-300 to 2^300.
@@ -24,7 +24,6 @@ from tests.lab.vectors.committed_cases import cases
 from tests.oracles.random_steps import designed_step, equal_groups
 from tests.pages import ROOT
 
-pytestmark = pytest.mark.extra("fast")
 CLAIMS = ("active", "multipliers_unique", "differentiable", "smallest_inactive_slack")
 """What of a certificate is unique where the multipliers are; the others always are."""
 
@@ -46,7 +45,7 @@ def outcome(step, solver):
 
 def outcomes(step, solver=None):
     """What both speeds end with, plain first: the same bits, or errors of one class."""
-    solver = solver or solver_for(step, "daqp", fast=True)
+    solver = solver or solver_for(step, "daqp")
     plain, fast = outcome(step, NONE), outcome(step, solver)
     assert type(plain) is type(fast)
     assert isinstance(plain, Exception) or fast[1:] == plain[1:]
@@ -97,7 +96,7 @@ def test_one_solver_takes_equal_groups_that_differ_in_all_else(rng):
     """Three steps of one kind after the other, as in a run."""
     for _ in range(20):
         step = equal_groups(rng)
-        solver = solver_for(step, "daqp", fast=True)
+        solver = solver_for(step, "daqp")
         for factor in (1.0, 0.5, -1.0):
             step = step.replace(tau_u=factor * step.tau_u)
             outcomes(step, solver)

@@ -1,0 +1,1 @@
+"""DAQP by its own interface, kept between steps: ``backend = "daqp"``, and ``fast = true``."""
