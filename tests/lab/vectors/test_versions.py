@@ -16,7 +16,7 @@ HASHES = {
     "qp": "b26d8e669f412c35cf57e1a9d2b26da48f0a5aa13efc60bd43595fc61d9b004d",
     "wrench": "ba3e8365d03d022a6bd87683268ad7a4d90f69faf87193505904abb2286f3ebc",
     "integrate": "4b0ca0c4fc608a6b66575636ac8ab2b346f8d53d03317481b3290bb7d3c4e6c1",
-    "step": "9239603a5100b62a66a5bb2b7d10b8e8a0eaf3ce9e41749f9be9be75e42d3a9b",
+    "step": "4f9b36070fc74ce23133bcc3ca472d1ffa61e3f80c59b2e25a543d446cbf0d1d",
     "derivative": "b0be941667c69fab3714389a71ce5089dc8e3e201a3268b6bd89eb03945c13a2",
 }
 """SHA-256 of inputs/LAYER.json followed by expected/LAYER.json. A changed case is another version:

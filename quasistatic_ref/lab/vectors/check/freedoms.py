@@ -126,7 +126,7 @@ def step_by_definition(case: Json, record: Json, answer: Json, failing: Failing)
     if first.field.startswith("contacts."):
         contacts = answer["contacts"]
         wide = "negligible" in record  # tolerances that reach as far as another point of a face
-        if not (wide or _far(failing)) or not {*CONTACT} - {"J"} <= {*contacts[0]}:
+        if not (wide or _far(failing)) or not {*CONTACT} - {"index", "J"} <= {*contacts[0]}:
             return plain_failure(failing)
         if problem := contacts_problem(case, record, contacts):
             sentence = f"{first.sentence}; nor are these other valid contacts: {problem}"

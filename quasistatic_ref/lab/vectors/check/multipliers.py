@@ -12,7 +12,7 @@ import numpy as np
 from quasistatic_ref.certify.farkas import farkas_refutation, fractions_read
 from quasistatic_ref.lab.program.wrench import contact_wrench
 from quasistatic_ref.lab.scenes.rigid import program_step
-from quasistatic_ref.lab.vectors.check.compare import number_problem, tolerance_of
+from quasistatic_ref.lab.vectors.check.compare import ROUNDING, number_problem, tolerance_of
 from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptance, failure
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
 from quasistatic_ref.lab.vectors.trees import Json
@@ -128,7 +128,9 @@ def farkas_verdict(rows: Json, record: Json, y: Json) -> Verdict:
         problem = farkas_refutation(program_step(np.eye(n), np.zeros(n), A, b), y)
     else:
         numbers = (number_problem(value, f"farkas[{i}]") for i, value in enumerate(y))
-        problem = next(filter(None, numbers), None) or _float_problem(A, b, np.array(y), tolerance)
+        problem = next(filter(None, numbers), None)
+        unit = record.get("rounding", 0.0)
+        problem = problem or _float_problem(A, b, np.array(y), tolerance, unit)
     if problem:
         return failure("farkas", problem)
     entries = [nearest_fraction(value) for value in fractions_read(y) or ()] if exact else y
@@ -138,15 +140,20 @@ def farkas_verdict(rows: Json, record: Json, y: Json) -> Verdict:
     return Verdict("", PASSED) if same else acceptance("another Farkas vector")
 
 
-def _float_problem(A: Array, b: Array, y: Array, room: float) -> str | None:
-    """Why y is no proof; A'y = 0 within `room` of |A|'y [-], with or without its noise."""
-    if (y < 0).any():
+def _float_problem(A: Array, b: Array, y: Array, room: float, unit: float) -> str | None:
+    """Why y is no proof; A'y = 0 within `room` of |A|'y [-], with or without its noise.
+
+    Where a column of A is zero but for rounding, to `unit` [-], so is its entry of A'y.
+    """
+    least = max(NOISE, unit) * y.max(initial=0.0)
+    if (y < -least).any():
         return "farkas has a negative entry"
-    for kept in (y, np.where(y > NOISE * y.max(), y, 0.0)):
+    for kept in (np.maximum(y, 0.0), np.where(y > least, y, 0.0)):
         contradiction = sum(map(mul, map(Fraction, b.tolist()), map(Fraction, kept.tolist())))
         with np.errstate(over="ignore", invalid="ignore"):  # such a y is too large, too
             off = np.abs(A.T @ kept)
-            small = off <= room * (np.abs(A).T @ kept)
+            size = np.abs(A).T @ kept
+            small = off <= room * size + max(ROUNDING, unit) * size.max(initial=0.0)
         if contradiction > 0 and small.all():
             return None
     return f"b'y is not positive, or A'y is not zero: its largest entry is {off.max():.2g}"

@@ -7,6 +7,7 @@ program's. J, A and b of these contacts are the plain program's, too; the optimu
 """
 
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,6 +25,7 @@ from quasistatic_ref.lab.program.layers import plain
 from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.program.rotation import AXES, unit
 from quasistatic_ref.lab.program.step import entry_of, sides_of, step_at
+from quasistatic_ref.lab.vectors.check.compare import ROUNDING as ROUNDED
 from quasistatic_ref.lab.vectors.check.compare import tolerance_of
 from quasistatic_ref.lab.vectors.check.valid_witness import Sides, each_solid, witness_problem
 from quasistatic_ref.lab.vectors.layers.qp import exact_optimum
@@ -49,27 +51,25 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
     record : dict
         What is expected.
     contacts : list of dict
-        As many as are expected, of the same pairs in the same order.
+        As many as are expected, of the same pairs in the same order. Without `index`, each is the
+        first candidate after the one before it that it can be.
     """
     wanted = record["output"]["contacts"]
     allowed = max(tolerance_of(record["tolerance"], f"contacts.{name}") for name in FIELDS)
     if [c["pair"] for c in contacts] != [c["pair"] for c in wanted]:
         return "they are of other pairs"
     for one, other in pairwise(contacts):
-        if one["pair"] == other["pair"] and one["index"] > other["index"]:
+        indexed = "index" in one and "index" in other
+        if indexed and one["pair"] == other["pair"] and one["index"] > other["index"]:
             return f"those of {one['pair']} do not stand in the order of index"
+    tied = max(TIED, record.get("rounding", 0.0))
     rounding = 2 * (allowed if "negligible" in record else min(allowed, ROUNDING))
     at = kinematics(case["mechanism"], np.array(case["q"]))
     for pair in case["pairs"]:
         of_pair = [c for c in contacts if c["pair"] == pair["name"]]
-        indices = [c["index"] for c in of_pair]
-        if len({*indices}) < len(of_pair):
-            return f"{pair['name']} names a candidate twice"
-        due = sorted(c["phi"] for c in wanted if c["pair"] == pair["name"])
-        if (
-            np.abs(np.subtract(sorted(c["phi"] for c in of_pair), due)).max(initial=0.0)
-            > 2 * allowed
-        ):
+        due = np.array(sorted(c["phi"] for c in wanted if c["pair"] == pair["name"]))
+        off = np.abs(sorted(c["phi"] for c in of_pair) - due)
+        if (off > 2 * allowed + ROUNDED * np.abs(due)).any():
             return f"the distances of {pair['name']} are others"
         sides: Sides = {
             side: (without_repeats(shape), pose)
@@ -78,6 +78,10 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         *columns, index, late = candidates(*sides["alpha"], *sides["beta"], pair["k"])
         every = [dict(zip(FIELDS, values, strict=True)) for values in zip(*columns, strict=True)]
         known = dict(zip(index.tolist(), every, strict=True))
+        judged = _Judged(sides, pair["k"], known, allowed, tied)
+        indices = [c["index"] for c in of_pair] if _indexed(of_pair) else judged.places(of_pair)
+        if len({*indices}) < len(of_pair):
+            return f"{pair['name']} names a candidate twice"
         unknown = [i for i in indices if i not in known]
         if unknown:
             return f"{pair['name']} has no candidate {unknown[0]}"
@@ -89,12 +93,49 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
             missing = [i for i in first if i not in indices]
             if missing:
                 return f"{pair['name']}: candidate {missing[0]} is as near, and of a lower index"
-        for contact in of_pair:
-            i = contact["index"]
-            solids = _closest(sides, pair["k"], i, known[i])
-            if problem := _contact_problem(known[i], solids, contact, allowed):
+        for i, contact in zip(indices, of_pair, strict=True):
+            if problem := judged.problem(i, contact):
                 return f"{pair['name']}/{i}: {problem}"
     return None
+
+
+def _indexed(contacts: Json) -> bool:
+    return all("index" in contact for contact in contacts)
+
+
+class _Judged(NamedTuple):
+    """Contacts of a pair as candidates of it.
+
+    Parameters
+    ----------
+    sides : Sides
+    k : int
+    known : dict of int to dict
+        The candidates, by index.
+    allowed, tied : float
+        Tolerances of fields, and of the components of a normal [m, -].
+    """
+
+    sides: Sides
+    k: int
+    known: dict[int, Json]
+    allowed: float
+    tied: float
+
+    def problem(self, i: int, contact: Json) -> str | None:
+        """Why a contact is not the candidate i."""
+        solids = _closest(self.sides, self.k, i, self.known[i])
+        return _contact_problem(self.known[i], solids, contact, self.allowed, self.tied)
+
+    def places(self, contacts: Json) -> list[int]:
+        """The candidate that each contact can be, in ascending order; -1 where there is none."""
+        left = sorted(self.known)
+        indices = []
+        for contact in contacts:
+            while left and self.problem(left[0], contact):
+                left.pop(0)
+            indices.append(left.pop(0) if left else -1)
+        return indices
 
 
 def _closest(sides: Sides, k: int, index: int, numbers: Json) -> Sides | None:
@@ -118,20 +159,21 @@ def _closest(sides: Sides, k: int, index: int, numbers: Json) -> Sides | None:
 
 
 def _contact_problem(
-    candidate: Json, solids: Sides | None, contact: Json, allowed: float
+    candidate: Json, solids: Sides | None, contact: Json, allowed: float, tied: float
 ) -> str | None:
     alpha, beta, n, d1, d2 = (
         np.array(contact[name], dtype=np.float64) for name in ("alpha", "beta", "n", "d1", "d2")
     )
     for key in ("phi",) if solids else FIELDS:
-        if np.abs(np.subtract(contact[key], candidate[key])).max() > 2 * allowed:
+        room = 2 * allowed + ROUNDED * np.abs(candidate[key]).max()
+        if np.abs(np.subtract(contact[key], candidate[key])).max() > room:
             return f"its {key} is another"
     if solids:
         gap = float((beta - alpha) @ n)  # also of what fills the number, whose phi is none
         if problem := witness_problem(solids, gap, alpha, beta, n, 2 * allowed):
             return problem
     sizes = np.abs(n)
-    near = np.flatnonzero(sizes <= sizes.min() + TIED)
+    near = np.flatnonzero(sizes <= sizes.min() + tied)
     if (sizes[near] == sizes.min()).all():
         near = near[:1]
     if not any(np.abs(d1 - unit(AXES[i] - n[i] * n)).max() <= 4 * allowed for i in near):
@@ -143,7 +185,10 @@ def record_from(case: Json, record: Json, contacts: Json) -> Json:
     """The expected output of a step with these contacts; H, g and tolerances stay the same."""
     at = kinematics(case["mechanism"], np.array(case["q"]))
     pairs = {pair["name"]: pair for pair in case["pairs"]}
-    entries = [{**entry_of(case, pairs[contact["pair"]]), **contact} for contact in contacts]
+    unnamed = {"index": 0}  # of one without; nothing follows from it
+    entries = [
+        {**entry_of(case, pairs[contact["pair"]]), **unnamed, **contact} for contact in contacts
+    ]
     made = plain(step_at(case, at, entries, exact_optimum))
     kept = {key: record["output"][key] for key in ("H", "g")}
     return {**record, "output": {**made, **kept}}

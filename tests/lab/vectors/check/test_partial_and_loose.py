@@ -3,8 +3,11 @@
 import copy
 import json
 
+import numpy as np
 import pytest
 
+from quasistatic_ref.lab.program.layers import LAYERS as PROGRAM
+from quasistatic_ref.lab.program.layers import plain
 from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
 from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
@@ -15,6 +18,7 @@ from tests.lab.vectors.committed_cases import (
     in_float32,
     report_on,
     right_answers,
+    small_cases,
 )
 
 SOLVED = ("delta_q", "lam", "A_lam", "wrench", "q_next", "farkas")
@@ -99,6 +103,63 @@ def test_float32_is_right_to_six_digits_and_not_to_twelve(layer, every):
         assert verdicts[1] != "failed", case.id
         inexact += verdicts == ["failed", "acceptable", "failed"]
     assert inexact > 0.3 * len(some) or layer == "selection"
+
+
+def noisy(value, size, rng):
+    """An output each of whose numbers is off by a share of the largest of its list."""
+    if isinstance(value, dict):
+        return {k: v if k == "index" else noisy(v, size, rng) for k, v in value.items()}
+    if isinstance(value, float):
+        return value + size * abs(value) * rng.uniform(-1, 1)
+    if not isinstance(value, list):
+        return value
+    if not all(isinstance(one, float) for one in value):
+        return [noisy(one, size, rng) for one in value]
+    top = max(map(abs, value), default=0.0)
+    return [one + size * top * rng.uniform(-1, 1) for one in value]
+
+
+@pytest.mark.parametrize("layer", LAYERS[:8])
+def test_noise_of_1e_15_is_rounding_and_of_1e_13_is_right_to_12_digits(layer, rng):
+    """On what the plain program answers."""
+    refused = 0
+    for case in small_cases(layer):
+        record = expected_of(layer)[case.id]
+        answer = plain(PROGRAM[layer](case.input))
+        for size, digits in ((1e-15, None), (1e-13, 12)):
+            other = noisy(answer, size, rng)
+            verdict = verdict_to_digits(layer, case.input, record, other, digits)
+            assert verdict.verdict != "failed", (case.id, size, verdict)
+            refused += verdict_to_digits(layer, case.input, record, other).verdict == "failed"
+    assert refused > 0 or layer == "selection"
+
+
+def test_a_contradiction_of_one_ulp_is_not_seen_in_float32():
+    name = "qp/infeasible/one_ulp"
+    (case,) = (one for one in cases("qp") if one.id == name)
+    b = np.float32(case.input["b"])
+    answer = {"delta_q": [float(b[0])], "lam": [0.0] * len(b)}
+    verdicts = [
+        verdict_to_digits("qp", case.input, expected_of("qp")[name], answer | {"delta_q": x}, 6)
+        for x in ([float(b[0])], [float(b[0]) + 1e-3])
+    ]
+    assert [one.verdict for one in verdicts] == ["acceptable", "failed"]
+
+
+OTHER_CONTACTS = ("step/peg_in_hole/240", "step/peg_in_hole/241", "step/patch/scissors")
+
+
+@pytest.mark.parametrize("name", OTHER_CONTACTS)
+def test_other_contacts_that_are_as_near_need_no_index(name):
+    """Each is the first candidate that it can be; one that is none is refused."""
+    (case,) = (one for one in cases("step") if one.id == name)
+    record = expected_of("step")[name]
+    output = without(plain(PROGRAM["step"](case.input)), ["contacts.index"])
+    assert verdict_to_digits("step", case.input, record, output).verdict == "acceptable"
+    first_one, *rest = output["contacts"]
+    moved = first_one | {"alpha": [x + 1e-3 for x in first_one["alpha"]]}
+    wrong = output | {"contacts": [moved, *rest]}
+    assert verdict_to_digits("step", case.input, record, wrong).verdict == "failed"
 
 
 @pytest.fixture

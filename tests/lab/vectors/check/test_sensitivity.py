@@ -3,6 +3,7 @@
 import pytest
 
 from quasistatic_ref.lab.vectors.check.case import case_verdict
+from quasistatic_ref.lab.vectors.check.compare import ROUNDING
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import nodes
 from tests.cases import first
@@ -77,4 +78,4 @@ def change_of(layer, case, wanted, keys):
         A = case.get("A") or output.get("A") or [r for b in case["second_order"] for r in b["F"]]
         if not any(A[keys[1]]):
             return None  # a row of zeros: its multiplier does nothing
-    return max(2 * tolerance, 1e-3 * max(size, 0.01) if free else 0.0, 4e-16 * size, 5e-324)
+    return max(2 * tolerance, 1e-3 * max(size, 0.01) if free else 0.0, 2 * ROUNDING * size, 5e-324)
