@@ -41,8 +41,8 @@ def grasp_scenarios(settings: Sequence[str] = ()) -> dict[str, Scenario]:
         end = scenario.steps * scenario.h
         if end < TOP - scenario.h / 2:
             raise ScenarioError(
-                f"end at t = {end:g} s, before the lift does (t = {TOP:g} s), which is what is "
-                "compared: set more of them",
+                f"end at t = {end:g} s; the comparison needs the whole lift, until {TOP:g} s: "
+                "set more of them",
                 field="steps",
                 value=scenario.steps,
             )

@@ -25,7 +25,7 @@ A flat plate has equality; six printed digits break it by up to 1e-6."""
 
 
 def inertia_defect(inertia: Array, digit: float = 0.0) -> Defect | None:
-    """What makes an inertia (3, 3) about a centre of mass that of no body, or None.
+    """Why no body can have this inertia (3, 3) about its centre of mass, or None.
 
     The largest moment may exceed the sum of the others by rounding: by a unit of the last printed
     digit [kg m^2], up to a tenth of it.

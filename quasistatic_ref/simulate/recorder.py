@@ -337,7 +337,9 @@ def _checked_note(name: str, note: ArrayLike, steps: int, before: Array | None) 
     InputError
     """
     if name in (*ARRAYS, "tau") or name.startswith(SECONDS):
-        raise InputError("is a name of the record's own; take another", field=f"note {name}")
+        raise InputError(
+            "is a name that the recording uses itself; take another", field=f"note {name}"
+        )
     try:
         array = np.array(note, np.float64)
     except (TypeError, ValueError):

@@ -122,7 +122,7 @@ FAILS = {
         lambda n: np.zeros((n, 3)),
         r"note note: must have shape \(\) in each step, as in those before \(got \(3,\)\)",
     ),
-    "a name of the record's": ({"lam": np.zeros(7)}, "note lam: is a name of the record's own"),
+    "a name of the record's": ({"lam": np.zeros(7)}, "note lam: is a name that the recording uses"),
 }
 
 

@@ -126,7 +126,7 @@ def tangent_map(system: System, bodies: tuple[str, ...]) -> Array:
 
 
 def mujoco_contacts(scene: Heap, cone: str) -> dict[str, Array]:
-    """MuJoCo's contacts, each array's first axis; columns are those of delta_q.
+    """MuJoCo's contacts as arrays with one row a contact; J has the columns of delta_q.
 
     Returns
     -------

@@ -29,7 +29,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--solvers",
         nargs="+",
         metavar="NAME",
-        help="solvers of qpsolvers, or cvxpy:NAME (of a folder: all that are installed)",
+        help="solvers of qpsolvers, or cvxpy:NAME (default for a folder: all that are installed)",
     )
     shared.add(parser, "-o", metavar="ANSWER.json")
     shared.add(parser, "--out", default="study")

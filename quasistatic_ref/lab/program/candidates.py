@@ -178,7 +178,7 @@ def as_they_bear(solid, pose, n, points):
 
 
 def as_the_cloud_lies(solid, pose, points):
-    """phi, alpha, beta and n of a cloud, beta, on a solid, of whose faces several may tie.
+    """phi, alpha, beta and n between a solid and a cloud (beta's body); ties of faces are broken.
 
     A point of the cloud that is not outside may be as high over one face as over another. Then its
     normal is that of the face above which the whole cloud's least height is the largest.

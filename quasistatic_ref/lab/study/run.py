@@ -149,7 +149,7 @@ def study(
     _check(problems, chosen, at)
     for value in units:
         if value not in UNITS:
-            raise InputError(f"must be of {', '.join(UNITS)}", field="units", value=value)
+            raise InputError(f"must be one of {', '.join(UNITS)}", field="units", value=value)
     wanted = plan(problems, chosen, at, units)
     numbers = {one.id: fingerprint(tuple(one.program))[:12] for one in problems}
     folder = Path(folder)

@@ -199,7 +199,7 @@ def settings_of(wanted: Iterable[str | Setting]) -> list[Setting]:
     chosen: dict[str, Setting] = {}
     for one in wanted:
         if isinstance(one, str) and one not in known:
-            words = f"holds an unknown one{suggestion(one, known)}"
+            words = f"has an unknown name{suggestion(one, known)}"
             raise InputError(words, field="settings", value=one)
         setting = known[one] if isinstance(one, str) else one
         chosen[setting.name] = setting

@@ -121,7 +121,7 @@ class _Calls:
             self.columns.append(once)
 
     def _outside(self, function: Callable[..., Array], signature: str, *more: int) -> Any:
-        """A function of arrays as one of JAX; its result has the axes of q and `more`."""
+        """Makes a NumPy function callable from JAX; its result has the axes of q and `more`."""
         jax = self._jax
         # Of vmap, one inside of another, there are more axes in front.
         each = np.vectorize(function, signature=signature)

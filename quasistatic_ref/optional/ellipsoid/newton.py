@@ -93,7 +93,7 @@ def newton_pair(problem: Blocks, near: Pair, states: list[int]) -> Pair | None:
 
 
 def _bearing(problem: Blocks, states: list[int]) -> list[int]:
-    """The rows whose y are unknown: all of what sticks, the first of what slides."""
+    """Unknown multipliers: all four of a contact that sticks, the first of one that slides."""
     count = {OPEN: 0, SLIDES: 1, STICKS: 4}
     return [
         i for rows, state in zip(problem.rows, states, strict=True) for i in rows[: count[state]]

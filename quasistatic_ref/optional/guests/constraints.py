@@ -201,7 +201,7 @@ def equalities(state: MujocoState, tied: Tied, scale: Natural, as_is: bool) -> H
 
 
 def extra_of(rows: Sequence[Row], n: int) -> Extra:
-    """Rows of n coordinates, with a number in each name; one that does not hold is 0 >= -1."""
+    """Limits and equalities as rows of n coordinates; an inactive one becomes 0 >= -1."""
     return Extra(
         names=tuple(f"{row.name} ({k})" for k, row in enumerate(rows)),
         A=np.array([row.A if row.holds else np.zeros(n) for row in rows]).reshape(-1, n),

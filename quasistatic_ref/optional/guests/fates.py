@@ -147,10 +147,10 @@ def check_run(state: MujocoState) -> None:
         raise ModelError(problem, field=f"{state.words('tendon', i)}.springlength")
     for i in range(model.nu):
         if kind_of(state, "actuator_dyntype", i) == "MUSCLE":
-            problem = "makes the activation follow its control at a rate of its own, which no run "
-            problem += "has; use a filter, or no dyntype"
+            problem = "has a lag between control and force, which a run does not have; "
+            problem += "use a filter, or no dyntype"
             raise ModelError(problem, field=f"{state.words('actuator', i)}.dyntype", value="muscle")
-    sticky = "pulls at every gap within the margin of a run; leave it out"
+    sticky = "attracts bodies across a gap, which no step can express; leave it out"
     for i in range(model.nu):
         if kind_of(state, "actuator_trntype", i) == "BODY":
             raise ModelError(sticky, field=f"{state.words('actuator', i)}.body")

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 STRONGER = "raise friction of the geoms, or what presses the bodies together"
 SPINS = "set condim 4 of the geoms, and the second number of their friction"
 HOLDS = "raise the second number of friction of the geoms, or what presses the bodies together"
-RESTS = "do without what MuJoCo has and a step has not: rolling friction"
+RESTS = "leave out rolling friction, which a step does not have"
 STIFFER = "change solref and solimp of the geoms, or take masses that differ less"
 APART = "change size or pos, or add contact/exclude for bodies that may overlap"
 SETTLES = "put something below it, hold it, or let the scene settle for longer (--settle)"

@@ -219,7 +219,7 @@ def mujoco_state(
 
 
 def terms(state: MujocoState, J: Array, T: Array) -> Array:
-    """The sizes of the terms of which the entries of J T are sums, shape (m, n).
+    """Sums of the absolute terms of each entry of J T, shape (m, n): they bound its rounding.
 
     J has the shape (m, nv), and T the shape (nv, n) [-].
     """

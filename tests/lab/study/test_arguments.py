@@ -39,7 +39,7 @@ MISTAKES = {
         lambda: {"settings": ["high"]},
         "settings: hold nothing that function:honest can be set to",
     ),
-    "unknown units": (lambda: {"units": ["SI"]}, "units: must be of raw, natural"),
+    "unknown units": (lambda: {"units": ["SI"]}, "units: must be one of raw, natural"),
     "no budget": (lambda: {"limits": Limits(budget=0.0)}, "limits.budget: must be greater than 0"),
 }
 

@@ -53,7 +53,7 @@ def test_an_integrator_starts_from_the_activation_of_a_state_and_runs_twice_alik
 
 def test_a_muscle_is_refused_by_name():
     muscle = '<muscle name="m" joint="j" lengthrange="-1 1"/>'
-    with pytest.raises(ModelError, match=r"actuator\[m\]\.dyntype: makes the activation follow"):
+    with pytest.raises(ModelError, match=r"actuator\[m\]\.dyntype: has a lag between control"):
         qr.mujoco_scenario(model_of(SLIDER.format(muscle)))
 
 

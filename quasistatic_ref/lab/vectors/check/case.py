@@ -119,7 +119,7 @@ def verdict_to_digits(
 
 
 def omissions(expected: Json, answer: Json) -> tuple[str, ...]:
-    """Fields that an answer leaves out, if it has any others."""
+    """Expected fields that are missing from an answer which has at least one."""
     present = field_names(answer)
     contacts = answer.get("contacts")
     of_contacts = isinstance(contacts, list) and any(isinstance(one, dict) for one in contacts)

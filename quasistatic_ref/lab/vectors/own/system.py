@@ -25,7 +25,7 @@ _BASES = ("floating", "planar")
 
 @dataclass(frozen=True, eq=False)
 class OwnSystem:
-    """A System, with the places of a mechanism's coordinates and bodies in it.
+    """A System, and where each coordinate and body of the mechanism file stands in it.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ def _tree(
         if k == root and base != "fixed":
             continue
         if body["joint"] in _BASES:
-            problem = "must be a joint of the world"
+            problem = "must connect a body to the world"
             raise ModelError(problem, field=f"{body['name']}.joint", value=body["joint"])
         names = [other["name"] for other in bodies]
         parent = "anchor" if k == root else f"b{names.index(body['parent'])}"
