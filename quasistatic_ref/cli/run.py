@@ -61,6 +61,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="print notes, the findings that are not grave, as sentences, too",
     )
     parser.add_argument(
+        "--numbers",
+        action="store_true",
+        help="print the numbers of all bodies and joints, and a table of all pairs",
+    )
+    parser.add_argument(
         "--table",
         type=Path,
         metavar="FILE",
@@ -123,9 +128,11 @@ def run(options: argparse.Namespace) -> int:
     else:
         _print(summary)
         if numbers:
-            print(_artifacts(trajectory.header))
-            for line in telling.lines(numbers):
+            print(_artifacts(trajectory.header, telling.least_artifacts(trajectory, scenario)))
+            for line in telling.lines(numbers, options.numbers):
                 shared.print_wrapped(line, "    ")
+            if options.numbers:
+                shared.print_rows(telling.pair_rows(numbers))
         times = summary["milliseconds_per_step"].items()
         if times:
             print(f"ms per step: {', '.join(f'{stage} {ms:.2f}' for stage, ms in times)}")
@@ -252,9 +259,12 @@ def worst_residual(trajectory: Trajectory) -> float | None:
     return float(residuals.max())
 
 
-def _artifacts(header: Header) -> str:
+def _artifacts(header: Header, least: tuple[float, float]) -> str:
+    """Both artifacts of a run, 0 where they are below the `least` that is resolved, [-] and [m]."""
     Pi = header.quasi_dynamic_number
-    number = "none, no un-actuated body bears friction" if Pi is None else f"{Pi:.2g}"
-    layer = 1e6 * (header.largest_boundary_layer or 0.0)
+    known = 0.0 if Pi is None or Pi < least[0] else Pi
+    number = "none, no un-actuated body bears friction" if Pi is None else f"{known:.2g}"
+    layer = header.largest_boundary_layer or 0.0
+    layer = 1e6 * layer if layer > least[1] else 0.0
     drag = f"largest quasi-dynamic number (drag over friction): {number}"
     return f"{drag}; largest boundary layer: {layer:.3g} um"

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints.joint import Joint
@@ -20,6 +21,7 @@ from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import friction_coefficients
+from quasistatic_ref.tolerances import FILLED
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.settings import Settings
@@ -34,6 +36,9 @@ SLIDES: Final = 1e-4
 SPINS: Final = 1e-3
 """Turn about its normal of a pair that spins, at least [rad/s]: 0.6 deg in ten
 seconds."""
+
+ROUNDINGS: Final = 16
+"""How many roundings a number of one step may have, to float64's last bit; each step has one."""
 
 SMALL = 1e-6
 """Angle of a rotation whose axis is rounding [rad]."""
@@ -117,6 +122,30 @@ class Drive(Plain):
     spring: Array | None
 
 
+@dataclass(frozen=True)
+class Rounding:
+    """What float64 does not resolve in a run: less is 0.
+
+    Parameters
+    ----------
+    m : float
+        Of lengths [m]: of the farthest coordinate and contact.
+    rad : float
+        Of angles [rad].
+    """
+
+    m: float
+    rad: float
+
+    def length(self, x: ArrayLike) -> Array:
+        """Lengths [m] of any shape, 0 where they are rounding."""
+        return np.where(np.abs(x) > self.m, x, 0.0)
+
+    def angle(self, x: ArrayLike) -> Array:
+        """Angles [rad] of any shape, 0 where they are rounding."""
+        return np.where(np.abs(x) > self.rad, x, 0.0)
+
+
 @dataclass(frozen=True, eq=False)
 class Measures(Plain):
     """Measures of all pairs, bodies and joints in a run.
@@ -127,11 +156,13 @@ class Measures(Plain):
     motions : tuple of Motion
         Of what nothing drives.
     drives : tuple of Drive
+    rounding : Rounding
     """
 
     pairs: tuple[PairMeasures, ...]
     motions: tuple[Motion, ...]
     drives: tuple[Drive, ...]
+    rounding: Rounding
 
 
 def measures(trajectory: Trajectory, settings: Settings) -> Measures:
@@ -147,7 +178,18 @@ def measures(trajectory: Trajectory, settings: Settings) -> Measures:
             _motion(joint, trajectory["q"], hands) for joint in joints if not joint.actuated
         ),
         drives=tuple(drive(joint, trajectory, K) for joint in driven),
+        rounding=rounding_of(trajectory, joints),
     )
+
+
+def rounding_of(run: Trajectory, joints: Sequence[Joint]) -> Rounding:
+    """What is rounding in a run: of its size in space, and of its steps."""
+    places = [run["q"][:, joint.q][:, : joint.lengths].ravel() for joint in joints]
+    if "alpha" in run.arrays:
+        places.append(run["alpha"][run["phi"] < FILLED].ravel())
+    farthest = max((float(np.abs(place).max(initial=0.0)) for place in places), default=0.0)
+    share = (ROUNDINGS + run.steps) * np.finfo(np.float64).eps
+    return Rounding(m=share * farthest, rad=float(share))
 
 
 def side(system: System, placed: PlacedShape) -> str:

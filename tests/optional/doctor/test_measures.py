@@ -9,7 +9,14 @@ from quasistatic_ref import (
     load_trajectory,
     relative_turn,
 )
-from quasistatic_ref.optional.doctor.telling import by_name, in_words, numbers_of
+from quasistatic_ref.optional.doctor.measures import rounding_of
+from quasistatic_ref.optional.doctor.telling import (
+    by_name,
+    in_words,
+    lines,
+    numbers_of,
+    pair_rows,
+)
 from tests.closeness import assert_relative
 from tests.optional.doctor.words import block, driven, free, scene, slides
 
@@ -93,6 +100,47 @@ def test_a_body_that_turns_on_has_turned_by_more_than_half_a_turn():
     made = scene(box, {"floor": ("floor", "box", 0.5, 4)}, 10, gravity=[0, 0, 0])
     numbers = numbers_of(made.run(progress=False), made)["bodies"]["box"]
     assert numbers["largest_rotation_deg"] == pytest.approx(400)
+
+
+def test_what_float64_does_not_resolve_in_its_scene_is_zero(tmp_path, cli):
+    """Three boxes rest, in a scene of 0.1 m: their gaps of 1e-17 m and turns of 1e-14 deg are 0.
+
+    So they are 90 m away, where a place is rounded to 1e-14 m.
+    """
+    words = ["--fast", "--set", "steps=5", "--out", tmp_path, "--numbers"]
+    printed = cli("run", "stack", *words).out.partition("natural units)")[2]
+    assert "least distance" in printed
+    assert "e-" not in printed
+    far = free(block(1.0, (0.1, 0.1, 0.1)), (90, 0, 0.05), (3.0, 0, 0))
+    made = scene({"box": far}, {"floor": ("floor", "box", 0.5, 4)}, 5)
+    numbers = numbers_of(made.run(progress=False, findings=False), made)
+    assert set(numbers["bodies"]["box"].values()) == {0.0}
+    assert numbers["pairs"]["floor(floor, box/box#0)"]["least_distance_m"] == 0.0
+    limits = rounding_of(made.run(progress=False, findings=False), made.system.joints)
+    least = np.array([0.5, -0.5, 2.0, -2.0])
+    assert_relative(limits.length(limits.m * least), [0.0, 0.0, 2 * limits.m, -2 * limits.m])
+    assert 1e-13 < limits.m < 1e-11
+    assert 1e-15 < limits.rad < 1e-14
+
+
+def test_a_body_has_two_lines_a_joint_one_and_pairs_are_a_table():
+    hands = {f"largest_turn_in_hand_{k}_deg": 0.0625 for k in range(9)}
+    bodies = {"ball": {"largest_rotation_deg": 1.5, "ends_from_start_m": 0.25} | hands}
+    joints = {f"arm/j{k}": {"ends_from_target_rad": 0.5} for k in range(6)}
+    pairs = {"a(b, c)": {"touches_s": 0.5, "slip_m": 0.25}, "d(e, f)": {"touches_s": 0.0}}
+    numbers = {"bodies": bodies, "joints": joints, "pairs": pairs}
+    first, second, *others = lines(numbers)
+    assert first == "ball: largest rotation 1.5 deg, ends from start 0.25 m"
+    turns = [f"largest turn in hand {k} 0.0625 deg" for k in range(2)]
+    assert second == f"    {', '.join(turns)}, 7 more: see --numbers"
+    assert others == [
+        *(f"arm/j{k}: ends from target 0.5 rad" for k in range(4)),
+        "2 more joints: see --numbers",
+    ]
+    assert len(list(lines(numbers, every=True))) == 2 + len(joints)
+    assert pair_rows(numbers) == [
+        ("pair", "touches [s]", "slip [m]"), ("a(b, c)", "0.5", "0.25"), ("d(e, f)", "0", "-"),
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize(
