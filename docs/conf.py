@@ -125,7 +125,7 @@ np.set_printoptions(precision=8, suppress=False)  # a page before may have chang
 
 CLOSED_FORMS = (
     "derivations", "exactness", "cones", "derivatives", "conventions",
-    "extensions", "artifacts", "findings", "studies",
+    "extensions", "artifacts", "stands", "studies",
 )  # fmt: skip
 """The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""
 RESULT = re.compile(r"\*\*\((R\d+)\)([^*]*)\*\*")
@@ -154,7 +154,7 @@ CONTENTS = {
     "Evidence": ("included/claims", "reality"),
     "Use": (
         "guides/first_scene", "guides/does_my_contact_hold", "guides/write_a_scenario",
-        "guides/in_python", "findings", "guides/runs", "guides/file_formats", "speed",
+        "guides/in_python", "findings", "stands", "guides/runs", "guides/file_formats", "speed",
         "extensions", "guides/check_your_implementation", "included/vectors", "studies",
         "included/contact_qp", "api/index",
     ),

@@ -39,6 +39,7 @@ PARTS: Final = {
     # Of a step.
     "ellipsoid": ('cone = "ellipsoid"', "optional.ellipsoid.cone:ELLIPSOID_CONE"),
     "coulomb": ('law = "coulomb"', "optional.coulomb.fixed_point:simulated_solution"),
+    "coulomb_from": ("Coulomb's law", "optional.coulomb.fixed_point:fixed_point_from"),
     "posed": ("extension", "optional.extensions.extended:posed"),
     "extended_step": ("extension", "optional.extensions.extended:extended_step"),
     "extended_solution": ("extension", "optional.extensions.extended:simulated_solution"),
@@ -53,6 +54,8 @@ PARTS: Final = {
     "daqp_solver": ('backend = "daqp"', "optional.daqp.solver:DaqpSolver"),
     "fast_backend": ("fast", "optional.daqp.default:default_backend"),
     # Of runs.
+    "stands": ("stands", "optional.stands.stands:stands"),
+    "stands_after": ("stands", "optional.stands.after:stands_after"),
     "doctor": ("strict", "optional.doctor.observer:Doctor"),
     "scene_findings": ("findings", "optional.doctor.checks:scene_findings"),
     "time_findings": ("findings", "optional.doctor.checks:time_findings"),

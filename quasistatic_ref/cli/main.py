@@ -28,6 +28,7 @@ COMMANDS = {
     "inspect": "show what a URDF or a scenario contains, and what the model ignores",
     "body": "make a body for a scenario from a scan, a point cloud or a mesh",
     "qp": "solve a quadratic program exactly, and compare the answers of solvers",
+    "stands": "say which bodies of a scene would not stay, and what they lack",
     "opinion": "compare the contact forces of a MuJoCo scene with the exact ones",
     "extract": "write one step of a trajectory as a step file",
     "vectors": "check another implementation against reference vectors, layer by layer",

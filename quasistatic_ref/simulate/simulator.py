@@ -43,6 +43,7 @@ from quasistatic_ref.simulate.law import COULOMB, Law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.settings import Settings
+from quasistatic_ref.simulate.standing import Standings
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.solve.backends import DAQP, DEFAULT, NONE, Certify, spares
 from quasistatic_ref.solve.by_group import GroupLayout
@@ -64,6 +65,7 @@ CoulombSolution = Callable[[StepData, Solver, float], StepSolution]
 ExtendedSolution = Callable[["Simulator", StepData, StepExtension], StepSolution]
 """A simulator, its step and what a user adds -> its solution."""
 SceneFindings = Callable[["Simulator", Array, Array], list[Finding]]
+StandingsOf = Callable[["Simulator", ArrayLike, ArrayLike, ArrayLike | None, str], Standings]
 """A simulator, q (n_q,) and a force (n_v,) [N, N m] -> what is wrong with the scene."""
 
 
@@ -443,6 +445,44 @@ class Simulator(Settings, Shown):
         q = self.system.q_start if q is None else self.system.checked(q)
         scene_findings: SceneFindings = part("scene_findings")
         return tuple(scene_findings(self, q, checked_force(self.system, force)))
+
+    def stands(
+        self,
+        q: ArrayLike | None = None,
+        target: ArrayLike | None = None,
+        force: ArrayLike | None = None,
+        *,
+        certify: str = "off",
+    ) -> Standings:
+        """Whether each body would stay at q, if the target and a force stayed as they are.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,), optional
+            By default where the system starts.
+        target : array_like, shape (n_q_a,), optional
+            q_bar_a; by default q.
+        force : array_like, shape (n_v,), optional
+            In addition to gravity [N, N m].
+        certify : str
+            ``"full"``: the ends of all iterations are proved; ``"off"``: none.
+
+        Returns
+        -------
+        Standings
+            A row a body.
+
+        Raises
+        ------
+        InputError
+            If there is no ``optional/stands``, or `certify` is none of these words.
+        ModelError, StepDataError, ContactError
+            As of :meth:`step`.
+        """
+        q = self.system.q_start if q is None else self.system.checked(q)
+        target = q[: self.system.n_q_a] if target is None else target
+        standings: StandingsOf = part("stands")
+        return standings(self, q, target, force, certify)
 
     def extended(self, step: StepData, q: Array) -> StepSolution:
         """Solve a step, with the user's own constraints and costs at q (n_q,), if there are any."""

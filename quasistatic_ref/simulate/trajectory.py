@@ -19,6 +19,7 @@ from quasistatic_ref.parts import is_there, part
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import Header
+from quasistatic_ref.simulate.standing import Standings
 from quasistatic_ref.step.data import Contacts, Extra, StepData, no_rows
 from quasistatic_ref.step.solution import UNKNOWN, ContactForces, ForcesOfStep
 
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 TimeFindings = Callable[["Trajectory"], list[Finding]]
 """A run -> what is found of the seconds that it took."""
 Table = Callable[["Trajectory"], "DataFrame"]
+StandsAfter = Callable[["Trajectory", int, "Scene", str], Standings]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -157,9 +159,7 @@ class Trajectory(Plain, HasPage):
         InputError
             If there is no such step, or the record is light.
         """
-        check_kind(k, int | np.integer, "step", "a whole number")
-        if not 0 <= k < self.steps:
-            raise InputError(f"must be 0 to {self.steps - 1}", field="step", value=k)
+        self._check_step(k)
         if self.header.record != "full":
             problem = f"a {self.header.record} record has no quadratic programs"
             raise InputError(f"{problem}; run again with record = 'full'")
@@ -185,6 +185,11 @@ class Trajectory(Plain, HasPage):
             cone=self.header.cone,
             extra=extra,
         )
+
+    def _check_step(self, k: int) -> None:
+        check_kind(k, int | np.integer, "step", "a whole number")
+        if not 0 <= k < self.steps:
+            raise InputError(f"must be 0 to {self.steps - 1}", field="step", value=k)
 
     @cached_property
     def forces(self) -> Array:
@@ -314,6 +319,34 @@ class Trajectory(Plain, HasPage):
     def pair_names(self) -> list[str]:
         """The pair of each contact, shape (n_c,); numbers, of a file that has no names."""
         return [slot.rpartition("/")[0] for slot in self.header.slots]
+
+    def stands(self, k: int, scene: Scene | None = None, *, certify: str = "off") -> Standings:
+        """Whether each body would stay after step k, if its target and loads stayed as they are.
+
+        Parameters
+        ----------
+        k : int
+            From 0.
+        scene : Scenario or Simulator, optional
+            That of the run. A trajectory that comes from a file or a pickle needs it, a light
+            record needs the scenario, which has the loads.
+        certify : str
+            ``"full"``: the ends of all iterations are proved; ``"off"``: none.
+
+        Returns
+        -------
+        Standings
+            A row a body.
+
+        Raises
+        ------
+        InputError
+            If there is no such step, no ``optional/stands``, the scene is missing or another one,
+            or the loads are not known.
+        """
+        self._check_step(k)
+        stands_after: StandsAfter = part("stands_after")
+        return stands_after(self, k, self._scene(scene), certify)
 
     def _scene(self, scene: Scene | None) -> Scene:
         if scene is None:

@@ -29,11 +29,17 @@ from quasistatic_ref.optional.qpsolvers import through_qpsolvers
 from quasistatic_ref.optional.readers import meshes, points
 from quasistatic_ref.optional.scans import cloud
 from quasistatic_ref.optional.show import pages, table
+from quasistatic_ref.optional.stands import after, slow, stands
 from quasistatic_ref.parts import PARTS, is_there, part
 from quasistatic_ref.simulate.distances import ChangedPairs
 from quasistatic_ref.simulate.recorder import WatchingDoctor
-from quasistatic_ref.simulate.simulator import CoulombSolution, ExtendedSolution, SceneFindings
-from quasistatic_ref.simulate.trajectory import Table, TimeFindings
+from quasistatic_ref.simulate.simulator import (
+    CoulombSolution,
+    ExtendedSolution,
+    SceneFindings,
+    StandingsOf,
+)
+from quasistatic_ref.simulate.trajectory import StandsAfter, Table, TimeFindings
 from quasistatic_ref.solve.backends import SolverNames
 from quasistatic_ref.solve.choice import FunctionSolver, NamedSolver
 from quasistatic_ref.solve.solve import ExtendedStep
@@ -57,6 +63,7 @@ class Expected:
     pairs_by_coal: ChangedPairs = clouds_by_coal.pairs_by_coal
     ellipsoid: FrictionCone = ELLIPSOID_CONE
     coulomb: CoulombSolution = fixed_point.simulated_solution
+    coulomb_from: slow.FixedPoint = fixed_point.fixed_point_from
     posed: Posed = extended.posed
     extended_step: ExtendedStep = extended.extended_step
     extended_solution: ExtendedSolution = extended.simulated_solution
@@ -66,6 +73,8 @@ class Expected:
     qpsolvers_names: SolverNames = through_qpsolvers.available_solvers
     daqp_solver: NamedSolver = solver.DaqpSolver
     fast_backend: scenario.FastBackend = default.default_backend
+    stands: StandingsOf = stands.stands
+    stands_after: StandsAfter = after.stands_after
     doctor: WatchingDoctor = observer.Doctor
     scene_findings: SceneFindings = checks.scene_findings
     time_findings: TimeFindings = checks.time_findings

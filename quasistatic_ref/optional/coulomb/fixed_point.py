@@ -41,6 +41,7 @@ from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, all_finite, read_only
 from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
 from quasistatic_ref.optional.friction import slip_norm
+from quasistatic_ref.solve.backends import Certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
@@ -175,11 +176,43 @@ def coulomb_step(
         raise InputError("must be at least 1", field="most", value=most)
     if not isinstance(solver, Solver):
         solver = solver_for(step, solver)
-    end, count = fixed_point(
-        lambda s: iterate(step, s, lambda raised: solve_step(raised, solver, accuracy=accuracy)),
-        s,
-        most,
-    )
+    return fixed_point_from(step, s, solver, accuracy, most=most)
+
+
+def fixed_point_from(
+    step: StepData,
+    s: Array,
+    solver: Solver,
+    accuracy: float,
+    certify: Certify = "full",
+    within: float = COULOMB_RESIDUAL,
+    least: float = 0.0,
+    most: int = MOST,
+) -> CoulombSolution:
+    """The iteration from s; what :func:`coulomb_step` returns.
+
+    Parameters
+    ----------
+    step, s, solver, accuracy, most
+        As of :func:`coulomb_step`: s of shape (n_c,) [m], accuracy in natural units [-].
+    certify : str
+        ``"off"``: an iterate that the backend solves is not proved.
+    within : float
+        Difference of s from that of the next iterate, over the longest motion of a contact [-], at
+        which s is its own.
+    least : float
+        Motion that counts as the longest where all are shorter [m].
+    """
+
+    def solved(raised: StepData) -> StepSolution:
+        try:
+            return solve_step(raised, solver, accuracy=accuracy, certify=certify)
+        except StepNotSolved as failure:
+            if certify == "full" or type(failure) is not StepNotSolved:
+                raise
+            return solve_step(raised, solver, accuracy=accuracy)
+
+    end, count = fixed_point(lambda s: iterate(step, s, solved, within, least), s, most)
     return CoulombSolution(
         **field_values(end.of),
         converged=end.converged,
@@ -197,14 +230,26 @@ def slip_norms(contacts: Contacts, delta_q: Array, name: str) -> Array:
 
 
 def iterate(
-    step: StepData, s: Array, solved: Callable[[StepData], StepSolution]
+    step: StepData,
+    s: Array,
+    solved: Callable[[StepData], StepSolution],
+    within: float = COULOMB_RESIDUAL,
+    least: float = 0.0,
 ) -> Iterate[StepSolution]:
-    """The convex step with phi + s, shape (n_c,) [m], and the norm of its slips."""
+    """The convex step with phi + s, shape (n_c,) [m], and the norm of its slips.
+
+    Parameters
+    ----------
+    step, s, within, least
+        As of :func:`fixed_point_from`: s [m], within [-], least [m].
+    solved : callable
+        A step -> its solution.
+    """
     solution = solved(step.replace(contacts=step.contacts.raised(s)))
     slip = slip_norms(step.contacts, solution.delta_q, step.cone)
     residual = largest(np.abs(slip - s))
-    longest = largest(longest_slips(step, solution.delta_q))
-    return Iterate(s, slip, residual, residual <= COULOMB_RESIDUAL * longest, solution)
+    longest = max(least, largest(longest_slips(step, solution.delta_q)))
+    return Iterate(s, slip, residual, residual <= within * longest, solution)
 
 
 def simulated_solution(step: StepData, solver: Solver, accuracy: float) -> CoulombSolution:

@@ -1,0 +1,1 @@
+"""Does it stand? What each body of a scene lacks, if targets and loads stayed as they are."""

@@ -1,0 +1,280 @@
+"""What stands and what is missing, by hand: just inside of a threshold and just outside of it."""
+
+import math
+
+import numpy as np
+import pytest
+
+from quasistatic_ref import Box, Capsule, Extension, InputError, Sphere, load_scenario
+from tests.files.urdf.urdf_texts import collision, link, robot
+from tests.optional.doctor.words import FLOOR, driven, free, slides, solid
+
+G = 9.81
+NEAR = 0.01
+"""From a threshold, over it."""
+
+
+def block(m, size, xyz, **load):
+    return free(solid(m, Box(size=size)), xyz, **load)
+
+
+def tilted(body, rpy):
+    body["pose"]["rpy"] = list(rpy)
+    return body
+
+
+def on(alpha, beta, mu, k=4, mu_omega=0.0):
+    torsion = {"mu_omega": mu_omega, "rows": 6} if mu_omega else {"rows": 4}
+    return {"alpha": alpha, "beta": beta, "mu_v": mu, "k": k} | torsion
+
+
+def hinge(shape, mass, at=(0, 0, 0), friction=0.0, xyz=(0, 0, 0)):
+    """A link on a hinge through the origin, of a body at `xyz`."""
+    inertial = f'<inertial><origin xyz="{at[0]} {at[1]} {at[2]}"/><mass value="{mass}"/>'
+    inertial += '<inertia ixx="1e-3" iyy="1e-3" izz="1e-3" ixy="0" ixz="0" iyz="0"/></inertial>'
+    origin = f'<origin xyz="{at[0]} {at[1]} {at[2]}"/>'
+    joint = '<joint name="j" type="revolute"><parent link="post"/><child link="arm"/>'
+    joint += '<axis xyz="0 1 0"/><limit lower="-9" upper="9" effort="9" velocity="9"/></joint>'
+    urdf = robot(
+        link("post", inertial=""), link("arm", collision(shape, origin), inertial=inertial), joint
+    )
+    body = {"urdf": urdf, "pose": {"xyz": list(xyz)}}
+    return body | ({"joint_friction": {"j": friction}} if friction else {})
+
+
+def finger(side, x, force, K=1e4, z=0.0):
+    """A ball that presses along x, towards the origin, on what is x away."""
+    at = [side * (x + 0.01), 0, z]
+    to = [side * (x + 0.01 - force / K), 0, z]
+    targets = [{"t": 0, "base": {"xyz": to}}]
+    body = free(solid(0.1, Sphere(0.01)), at)
+    del body["wrenches"]
+    return body | {
+        "actuated": ["base"],
+        "K_q": {"base": [K, 1e6, 1e6, 1e5, 1e5, 1e5]},
+        "targets": targets,
+    }
+
+
+def stands(bodies, contacts, shapes=None, backwards=False, **more):
+    """What is said of a scene where it starts."""
+    if backwards:
+        bodies = dict(reversed(bodies.items()))
+        contacts = {
+            name: table | {"alpha": table["beta"], "beta": table["alpha"]}
+            for name, table in reversed(contacts.items())
+        }
+    scene = {"h": 0.01, "steps": 1, "bodies": bodies, "contacts": contacts}
+    scenario = load_scenario(scene | {"shapes": shapes or {"floor": FLOOR}} | more)
+    q = scenario.system.q_start
+    force = scenario.force(0.0, q) if scenario.force else None
+    return scenario.simulator().stands(q, scenario.targets(0.0), force)
+
+
+def ladder(over):
+    r, a = 0.02, math.pi / 3
+    need = math.cos(a) / (2 * (math.sin(a) + r))
+    middle = (-r - math.cos(a) / 2, 0, r + math.sin(a) / 2)
+    rung = tilted(free(solid(2.0, Capsule(r, length=1.0)), middle), (0, math.pi / 2 - a, 0))
+    wall = {"halfspace": {"normal": [-1, 0, 0], "offset": 0}}
+    contacts = {"f": on("floor", "b", need * over, 2), "w": on("wall", "b", 0.0, 2)}
+    return {"b": rung}, contacts, {"floor": FLOOR, "wall": wall}
+
+
+def slope(over):
+    a = 0.3
+    plane = {"halfspace": {"normal": [math.sin(a), 0, math.cos(a)], "offset": 0}}
+    up = np.array([math.sin(a), 0, math.cos(a)])
+    body = tilted(block(1.0, (0.1, 0.1, 0.05), 0.025 * up), (0, a, 0))
+    return {"b": body}, {"c": on("p", "b", math.tan(a) * over)}, {"p": plane}
+
+
+def overhang(over):
+    table = {"box": {"size": [1, 1, 0.1]}, "pose": {"xyz": [-0.5, 0, -0.05]}}
+    board = block(1.0, (0.4, 0.1, 0.02), (0.2 * (1 - over), 0, 0.01))
+    return {"b": board}, {"c": on("t", "b", 0.5)}, {"t": table}
+
+
+def shelf(over):
+    plate = hinge('<box size="0.2 0.2 0.02"/>', 0.1, (0.1, 0, 0), G * (0.01 + 0.1) * over)
+    return {"s": plate, "b": block(1.0, (0.05, 0.05, 0.05), (0.1, 0, 0.035))}, {
+        "c": on("s/arm", "b", 0.9)
+    }
+
+
+def groove(over):
+    """A bar in a right-angled groove, which doubles mu by 1 / sin 45 degrees, pulled along it."""
+    sides = {
+        name: {"halfspace": {"normal": [0, s * math.sqrt(0.5), math.sqrt(0.5)], "offset": 0}}
+        for name, s in (("l", 1), ("r", -1))
+    }
+    pull = 0.3 * G * math.sqrt(2) / over
+    bar = block(1.0, (0.2, 0.04, 0.04), (0, 0, 0.02 * math.sqrt(2)), force=(pull, 0, 0))
+    return {"b": tilted(bar, (math.pi / 4, 0, 0))}, {"c": on(["l", "r"], "b", 0.3)}, sides
+
+
+def four_bar(over):
+    """A light plate on two legs with friction in their hinges, which its 2 N tip over."""
+    legs = {
+        name: hinge(
+            '<capsule radius="0.01" length="0.18"/>', 0.5, (0, 0, 0.1), 0.2 * over, (x, 0, 0)
+        )
+        for name, x in (("l", -0.1), ("r", 0.1))
+    }
+    plate = block(0.002, (0.4, 0.1, 0.02), (0, 0, 0.21), force=(2, 0, -20))
+    return legs | {"p": plate}, {"c": on(["l/arm", "r/arm"], "p", 0.5, 1)}
+
+
+def rider(over):
+    pull = 0.2 * 3 * G / over
+    low = block(2.0, (0.2, 0.2, 0.05), (0, 0, 0.025), force=(pull, 0, 0))
+    bodies = {"low": low, "up": block(1.0, (0.1, 0.1, 0.02), (0, 0, 0.06))}
+    return bodies, {"c": on("floor", "low", 0.2), "on": on("low", "up", 0.3)}
+
+
+@pytest.mark.parametrize("backwards", [False, True])
+@pytest.mark.parametrize("scene", [ladder, slope, overhang, shelf, groove, four_bar, rider])
+def test_thresholds_are_met_to_a_hundredth_whatever_the_order(scene, backwards):
+    inside = stands(*scene(1 + NEAR), backwards=backwards)
+    outside = stands(*scene(1 - NEAR), backwards=backwards)
+    assert {row.stands for row in inside} == {True}
+    assert {row.stands for row in outside} == {False}
+
+
+def two(lower, upper, force=5.0):
+    """One block on another, of which fingers hold the lower one by 2 mu N = 5 N."""
+    bodies = {
+        "A": block(lower, (0.04,) * 3, (0, 0, 0)),
+        "B": block(upper, (0.04,) * 3, (0, 0, 0.04)),
+    }
+    bodies |= {name: finger(side, 0.02, force) for name, side in (("l", -1), ("r", 1))}
+    return bodies, {"g": on(["l", "r"], "A", 0.5, 1, 0.01), "on": on("A", "B", 0.5)}, {}
+
+
+def seesaw(friction, at=0.1):
+    plank = hinge('<box size="0.4 0.1 0.02"/>', 0.1, friction=friction)
+    return {"plank": plank, "b": block(1.0, (0.04,) * 3, (at, 0, 0.03))}, {
+        "c": on("plank/arm", "b", 0.9)
+    }
+
+
+def ball_on_a_box():
+    """The box slides away below the ball, whose clamp bears its friction."""
+    ball = free(solid(0.3, Sphere(0.05)), (0, 0, 0.15))
+    box = block(2.0, (0.2, 0.2, 0.1), (0, 0, 0.05), force=(20, 0, 0))
+    return {"box": box, "ball": ball}, {
+        "f": on("floor", "box", 0.2),
+        "on": on("box", "ball", 0.3, 1),
+    }
+
+
+def pressed(load):
+    """A body that fingers hold hard, and which is pulled out of them all the same."""
+    bodies = {"b": block(0.02, (0.04,) * 3, (0, 0, 0), force=(0, 0, -load))}
+    bodies |= {name: finger(side, 0.02, 300.0) for name, side in (("l", -1), ("r", 1))}
+    return bodies, {"g": on(["l", "r"], "b", 0.5, 1, 0.01)}, {}
+
+
+PALM = slides("z", '<box size="0.4 0.4 0.02"/>')
+LACKS = [
+    (seesaw(0.0), {"plank/j": (0.981, "Nm"), "b": (9.81, "N")}),
+    (seesaw(0.5), {"plank/j": (0.481, "Nm")}),
+    (seesaw(0.9), {"plank/j": (0.081, "Nm")}),
+    (seesaw(0.1, at=-0.05), {"plank/j": (0.3905, "Nm")}),
+    (two(0.1, 1.0), {"A": (5.791, "N"), "B": (5.791, "N")}),
+    (two(0.5, 0.6), {"A": (5.791, "N"), "B": (5.791, "N")}),
+    (two(0.6, 0.5), {"A": (5.791, "N"), "B": (4.905, "N")}),
+    (rider(0.75), {"low": (1.962, "N"), "up": (1.962, "N")}),
+    (ball_on_a_box(), {"ball": (0.3 * 0.3 * G, "N")}),
+    (pressed(302.0), {"b": (2 + 0.02 * G, "N")}),
+]
+
+
+@pytest.mark.parametrize(("scene", "hand"), LACKS)
+def test_what_a_clamp_on_one_body_alone_would_bear(scene, hand):
+    standings = stands(*scene)
+    for body, (value, unit) in hand.items():
+        row = standings[body]
+        assert row.stands is False
+        assert getattr(row, f"missing_{unit}") == pytest.approx(value, rel=0.01)
+
+
+def test_bodies_of_one_verdict_name_each_other():
+    rows = stands(*four_bar(0.9))
+    assert set(rows["p"].held_with) == {"l/j", "r/j"}
+    assert rows["p"].missing_N == pytest.approx(2 - 2 * 0.2 * 0.9 / 0.2, rel=0.01)
+    assert rows["p"].direction == pytest.approx((-1, 0, 0), abs=1e-3)
+    standing = stands(*rider(1.1))
+    assert [row.held_with for row in standing] == [(), ()]
+
+
+@pytest.mark.parametrize(
+    ("mass", "K", "size"), [(1.0, 50.0, 4.0), (40.0, 2000.0, 4.0), (1.0, 2000.0, 0.1)]
+)
+def test_what_a_spring_bears_in_the_end_stands(mass, K, size):
+    """It sags by m g / K, less than a tenth of its size, at a rate of its own."""
+    palm = driven(PALM, (0, 0, 0), {"z": K}, [{"t": 0, "z": 0.0}])
+    body = block(mass, (size, size, 0.05), (0, 0, 0.035))
+    contact = on("palm/tip", "b", 0.5)
+    assert stands({"palm": palm, "b": body}, {"c": contact}, {})["b"].stands is True
+
+
+def test_what_gives_way_first_is_not_decided():
+    """A palm of 50 N/m sags by 196 mm under a box of 0.1 m, and at once lacks nearly all."""
+    palm = driven(PALM, (0, 0, 0), {"z": 50.0}, [{"t": 0, "z": 0.0}])
+    body = block(1.0, (0.1, 0.1, 0.05), (0, 0, 0.035))
+    row = stands({"palm": palm, "b": body}, {"c": on("palm/tip", "b", 0.5)}, {})["b"]
+    assert row.stands is None
+    assert row.reason.startswith("gives way by 1")
+    assert row.reason.endswith("N at once")
+
+
+def test_a_verdict_does_not_depend_on_the_time_that_is_asked():
+    scene = two(0.5, 0.6)
+    short, long = (stands(*scene, h=h) for h in (0.01, 0.03))  # T = 1 s and 3 s
+    for row in short:
+        assert row.missing_N == pytest.approx(long[row.body].missing_N, rel=1e-3)
+
+
+def test_proved_ends_say_the_same_and_bad_words_are_refused():
+    scenario = load_scenario("block_incline", steps=2, backend="daqp")
+    run = scenario.run(progress=False, findings=False)
+    off, full = (run.stands(1, certify=word) for word in ("off", "full"))
+    for row in off:
+        assert full[row.body].stands is row.stands
+        assert full[row.body].missing_N == pytest.approx(row.missing_N, rel=1e-6)
+    with pytest.raises(InputError, match="certify: must be full or off"):
+        run.stands(1, certify="residual")
+    with pytest.raises(InputError, match="step: must be 0 to 1"):
+        run.stands(2)
+    with pytest.raises(InputError, match="is no body"):
+        off["blok"]
+
+
+def test_a_light_record_needs_the_scenario_and_a_scene_of_no_free_body_says_so():
+    scenario = load_scenario("sphere_spin", {"record": "light"}, steps=60, backend="daqp")
+    run = scenario.run(progress=False, findings=False)
+    with pytest.raises(InputError, match="holds no loads; give its scenario"):
+        run.stands(59)
+    assert run.stands(59, scenario)["sphere"].missing_Nm > 0
+    actuated = load_scenario("peg_in_hole", steps=1, backend="daqp")
+    assert "nothing in this scene is free" in str(actuated.run(progress=False).stands(0))
+
+
+def test_an_ellipsoid_is_asked_by_facets_and_says_so():
+    """6 N at 45 degrees: a round cone bears 0.5 m g of it, the pyramid less."""
+    push = 6 / math.sqrt(2)
+    body = {"b": block(1.0, (0.1,) * 3, (0, 0, 0.05), force=(push, push, 0))}
+    contacts = {"c": on("floor", "b", 0.5)}
+    here, there = (stands(body, contacts, cone=cone) for cone in ("ellipsoid", "pyramid"))
+    assert here.cone == "ellipsoid (facets-32)"
+    assert here["b"].missing_N == pytest.approx(6 - 0.5 * G, rel=0.01)
+    assert there["b"].missing_N == pytest.approx(6 - 0.5 * G / math.sqrt(2), rel=0.01)
+
+
+def test_the_users_own_costs_are_not_asked():
+    cp = pytest.importorskip("cvxpy")
+    scenario = load_scenario("block_incline", steps=1)
+    extension = Extension(lambda symbols: [cp.norm1(symbols.delta_q_u)])
+    row = scenario.simulator(lambda q: extension).stands()["rough"]
+    assert (row.stands, row.reason) == (None, "the user's own costs or constraints are not asked")
