@@ -7,8 +7,8 @@ The sign of a slack is taken from the first of these sources that shows it:
    numbers are;
 3. balls show the others that are clearly not zero (``slack_balls``); a row that they show to be
    violated needs no other sign;
-4. of the rest W implies some rows (``implied_rows``), by a guess that is proved or by elimination
-   in whole numbers, and fractions decide the others (``slack_signs``).
+4. of the rest W implies some rows (``implied_rows``), which elimination in whole numbers tells,
+   and fractions decide the others (``slack_signs``).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import compress
-from typing import Final, Protocol, TypeAlias
+from typing import Protocol, TypeAlias
 
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpz_mat
@@ -28,9 +28,7 @@ from quasistatic_ref.certify.form import (
     TINY,
     UNIT,
     ExactForm,
-    columns,
     combination,
-    exact_matrix,
     fraction,
     implied,
     null_space,
@@ -98,9 +96,6 @@ class Relation:
         assert self.exact is not None  # it is a relation
         return self.exact[j]
 
-
-NEAR: Final = 1e-9
-"""Error of a guessed sum of rows over the largest entry of W; a wrong guess costs time alone."""
 
 Numbers: TypeAlias = Callable[[Point], "list[arb]"]
 """Some numbers of a solution, times its denominator."""
@@ -245,33 +240,6 @@ class Minimiser:
         by_cone = {*self.form.implied_by_cone(self.working, some)}
         return [i for i in some if i not in by_cone]
 
-    def doubtful(self, some: list[int]) -> list[int]:
-        """The given rows that a quick test does not show to be implied by W.
-
-        The guess is that a row is the sum of rows of W, each some halves of times.
-        """
-        k = len(self.working)
-        if not (k and some):
-            return some
-        with np.errstate(all="ignore"):
-            every_row, _ = self.form.inequalities
-            rows = every_row[[*self.working, *some]]
-            A = rows[:k]
-            try:
-                halves = np.rint(2 * np.linalg.solve(A @ A.T, A @ rows[k:].T).T) / 2
-            except np.linalg.LinAlgError:
-                return some
-            near = np.abs(halves @ A - rows[k:]).max(axis=1) <= NEAR * np.abs(A).max()
-        guessed = list(compress(some, near.tolist()))
-        if not guessed:
-            return some
-        every = columns(self.form.exact_rows([*self.working, *guessed]), slice(0, self.form.n + 1))
-        sums = exact_matrix(np.hstack([halves[near], -np.eye(len(guessed))]))
-        with working_precision(EXACT):
-            differences = (sums * every).tolist()
-        proved = {*compress(guessed, _vanish(differences))}
-        return [i for i in some if i not in proved]
-
     def implied(self, some: Sequence[int]) -> list[int]:
         """The given rows [a, c] that are linear combinations of rows of W, in ascending order."""
         beyond = self.beyond_cones(some)
@@ -279,13 +247,11 @@ class Minimiser:
 
     def combined(self, some: list[int]) -> list[int]:
         """Those of the given rows that W implies, whatever the cones of its contacts imply."""
-        doubtful = self.doubtful(some)
-        values = []
-        if doubtful:
-            with working_precision(EXACT):
-                values = self.form.values(doubtful, arb_mat(self.null_space))
-        independent = {*doubtful} - {*compress(doubtful, _vanish(values))}
-        return [i for i in some if i not in independent]
+        if not some:
+            return []
+        with working_precision(EXACT):
+            values = self.form.values(some, arb_mat(self.null_space))
+        return [*compress(some, _vanish(values))]
 
     @cached_property
     def slack_balls(self) -> dict[int, arb]:
