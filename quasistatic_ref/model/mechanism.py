@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from threading import RLock
-from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -35,41 +34,11 @@ from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 
-@runtime_checkable
-class StepSystem(Protocol):
-    """The interface of a system that a simulator needs.
-
-    A System has them from pinocchio, and a MuJoCo scene's from MuJoCo.
-    """
-
-    @property
-    def n_a(self) -> int:
-        """Number of actuated coordinates."""
-
-    @property
-    def n_v(self) -> int:
-        """Number of all coordinates of delta_q."""
-
-    @property
-    def links(self) -> tuple[str, ...]:
-        """Names of links; number 0 is the world."""
-
-    @property
-    def column_map(self) -> ColumnMap:
-        """How links move with the coordinates."""
-
-    @property
-    def lock(self) -> RLock:
-        """A lock that is held during a step."""
-
-    def at(self, q: ArrayLike | State) -> State:
-        """The system at a configuration, shape (n_q,), or at a state of its own."""
-
-
 class Mechanism(ABC):
     """Bodies, links, joints and shapes by their names, in the paper's order.
 
-    What moves them is of the classes that have one: a System has pinocchio.
+    A System moves them by pinocchio, a MuJoCo scene's by MuJoCo. A step asks for `n_a`, `n_v`,
+    `links`, `column_map`, `lock` and :meth:`at`.
 
     Parameters
     ----------

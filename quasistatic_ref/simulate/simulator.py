@@ -23,7 +23,7 @@ from quasistatic_ref.errors import InputError, StepDataError, check_kind
 from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.mechanism import Mechanism, StepSystem
+from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.state import State
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import (
@@ -70,7 +70,7 @@ StandingsOf = Callable[["Simulator", ArrayLike, ArrayLike, ArrayLike | None, str
 
 
 @contextmanager
-def by_one_thread(system: StepSystem) -> Iterator[None]:
+def by_one_thread(system: Mechanism) -> Iterator[None]:
     """A context for one step of a system; it refuses a second thread.
 
     Raises

@@ -102,7 +102,7 @@ class Placed(Kinematics):
 
 
 class MujocoSystem(Mechanism):
-    """A MuJoCo model behind the names of a :class:`.StepSystem`.
+    """A MuJoCo model behind the names of a :class:`.Mechanism`.
 
     Links are MuJoCo's bodies, ``TREE/BODY``, bodies the trees of the world. Coordinates are
     MuJoCo's velocities, without those that equalities of joints take away, the actuated ones first:
