@@ -158,7 +158,7 @@ CONTENTS = {
         "extensions", "guides/check_your_implementation", "included/vectors", "studies",
         "included/contact_qp", "api/index",
     ),
-    "Work on it": ("contributing", "adding"),
+    "Work on it": ("one_hour", "contributing", "adding"),
 }  # fmt: skip
 """The parts of the site and their pages, in the order of its navigation."""
 INDEXED = {

@@ -56,6 +56,25 @@ def test_each_function_of_the_tree_is_called_by_the_one_above_it():
     assert [one for one, caller in TREE.items() if caller not in callers[one]] == []
 
 
+def test_a_step_enters_each_file_of_the_page_of_an_hour():
+    page = (ROOT / "docs" / "one_hour.md").read_text()
+    files = set(re.findall(r"\]\(\.\./quasistatic_ref/([\w/]+\.py)\)", page))
+    assert len(files) == 8  # and the example
+    entered = set()
+
+    def note(frame, event, _):
+        if event == "call":
+            entered.add(frame.f_code.co_filename.removeprefix(f"{PACKAGE}/"))
+
+    before = sys.getprofile()
+    sys.setprofile(note)
+    try:
+        load_scenario("sphere_spin", steps=1).run()
+    finally:
+        sys.setprofile(before)
+    assert files <= entered
+
+
 def test_a_proved_step_is_read_in_at_most_45_files():
     """The third step of the grasp: the program is compiled, and what is constant is kept."""
     scenario = load_scenario("bunny_grasp")
