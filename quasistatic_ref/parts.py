@@ -52,6 +52,7 @@ PARTS: Final = {
     "qpsolvers_solver": ("qpsolvers", "optional.qpsolvers.through_qpsolvers:QpsolversSolver"),
     "qpsolvers_names": ("qpsolvers", "optional.qpsolvers.through_qpsolvers:available_solvers"),
     "daqp_solver": ('backend = "daqp"', "optional.daqp.solver:DaqpSolver"),
+    "bearing_rows": ("a refined start", "optional.daqp.bearing_rows:bearing_rows"),
     "fast_backend": ("fast", "optional.daqp.default:default_backend"),
     # Of runs.
     "stands": ("stands", "optional.stands.stands:stands"),

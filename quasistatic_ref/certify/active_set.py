@@ -34,14 +34,15 @@ import numpy as np
 from flint import arb, fmpq
 
 from quasistatic_ref.certify.form import (
-    PRECISION,
     ExactForm,
     combination,
     fraction,
     independent_rows,
 )
-from quasistatic_ref.certify.minimiser import Line, Minimiser
+from quasistatic_ref.certify.minimiser import LARGE, Line, Minimiser
+from quasistatic_ref.certify.refined import BearingRows, refined
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.modulo import independent_modulo
 from quasistatic_ref.numbers.precision import working_precision
 
 
@@ -84,7 +85,9 @@ def least_index(minimiser: Minimiser) -> int | None:
     return min((i for i, sign in minimiser.slack_signs.items() if sign < 0), default=None)
 
 
-def dual_active_set(form: ExactForm, warm: Sequence[int] = ()) -> Minimiser | Combination:
+def dual_active_set(
+    form: ExactForm, warm: Sequence[int] = (), bearing: BearingRows | None = None
+) -> Minimiser | Combination:
     """The optimum of min 1/2 x'Hx - g'x s.t. Ax >= b, or a proof that there is none.
 
     Parameters
@@ -94,6 +97,8 @@ def dual_active_set(form: ExactForm, warm: Sequence[int] = ()) -> Minimiser | Co
     warm : sequence of int
         Rows that are active at the optimum, as far as a solver could tell, in order of
         preference. Any rows will do; none is a cold start.
+    bearing : BearingRows, optional
+        With it a start on many rows that is wrong is refined, in a program without equations.
 
     Returns
     -------
@@ -105,6 +110,9 @@ def dual_active_set(form: ExactForm, warm: Sequence[int] = ()) -> Minimiser | Co
     contradiction = _contradicted_equation(form, minimiser.working)
     if contradiction is not None:
         return contradiction
+    many = len(minimiser.working) > LARGE and not form.equations
+    if bearing is not None and many and most_violated(minimiser) is not None:
+        minimiser = refined(minimiser, bearing, _start)
     walks = 0
     while True:
         p = most_violated(minimiser)
@@ -121,11 +129,17 @@ def dual_active_set(form: ExactForm, warm: Sequence[int] = ()) -> Minimiser | Co
         walks += 1
 
 
-def _start(form: ExactForm, warm: Sequence[int]) -> Minimiser:
-    """A minimiser with positive multipliers: equations, and any of the warm rows that have them."""
+def _start(form: ExactForm, warm: Sequence[int], bits: int | None = None) -> Minimiser:
+    """A minimiser with positive multipliers: equations, and any of the warm rows that have them.
+
+    In balls of some bits, by default those of the form.
+    """
     working = tuple(warm)
+    if len(working) > LARGE:
+        chosen = independent_modulo([row[:-1] for row in form.whole_rows(working)])
+        working = tuple(working[place] for place in chosen)
     while True:
-        minimiser = Minimiser(form, working)
+        minimiser = Minimiser(form, working, bits=bits)
         try:
             y = minimiser.balls.y
         except ZeroDivisionError:
@@ -183,7 +197,7 @@ def _first_to_vanish(minimiser: Minimiser, line: Line) -> int | None:
 
     No sign of u_j is decided where balls show that, even if it falls, another vanishes before.
     """
-    u = line.ends
+    u = line.ends[: len(minimiser.working)]  # the multiplier of p rises
     free = sum(i < minimiser.form.equations for i in minimiser.working)
     signed = [*enumerate(u)][free:]
     shown = [j for j, ball in signed if ball < 0]
@@ -202,7 +216,7 @@ def _difference(minimiser: Minimiser, line: Line, j: int, k: int) -> arb:
     """Negative where l_j / -u_j < l_k / -u_k, both u being negative."""
     l_balls = minimiser.balls.y
     u = line.ends
-    with working_precision(PRECISION):
+    with working_precision(minimiser.bits):
         return l_balls[k] * u[j] - l_balls[j] * u[k]
 
 

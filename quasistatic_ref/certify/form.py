@@ -25,7 +25,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from functools import cached_property, lru_cache
-from typing import Final, TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpz, fmpz_mat
@@ -44,6 +44,9 @@ EXACT: Final = 1 << 30
 PRECISION: Final = 320
 """Bits of a ball's midpoint. The data have 53 to 250; 256 is enough on grasps, and what is
 left undecided is decided in rational numbers, so this is a matter of speed alone."""
+
+MANY: Final = 64
+"""Coordinates above which products with H^-1 pay by its blocks."""
 
 UNIT: Final = 2.0**-53
 """Largest relative error of one operation in float64."""
@@ -67,7 +70,12 @@ def exact_matrix(array: Array) -> arb_mat:
 
 
 def whole_numbers(numbers: Sequence[arb]) -> list[fmpz]:
-    """Exact numbers times one power of two that makes them integers.
+    """Exact numbers times one power of two that makes them integers; ValueError of a radius."""
+    return scaled(numbers)[0]
+
+
+def scaled(numbers: Sequence[arb]) -> tuple[list[fmpz], int]:
+    """The integers m and the e of exact numbers m 2^e.
 
     Raises
     ------
@@ -77,7 +85,7 @@ def whole_numbers(numbers: Sequence[arb]) -> list[fmpz]:
     parts = [number.man_exp() for number in numbers]
     exponents = [int(e) for _, e in parts]
     least = min(exponents, default=0)
-    return [m << e - least for (m, _), e in zip(parts, exponents, strict=True)]
+    return [m << e - least for (m, _), e in zip(parts, exponents, strict=True)], least
 
 
 def fraction(number: float | arb) -> fmpq:
@@ -89,6 +97,27 @@ def fraction(number: float | arb) -> fmpq:
 def columns(rows: Sequence[Row], of: slice) -> arb_mat:
     """A matrix made of some columns of `rows`."""
     return arb_mat(len(rows), of.stop - of.start, [v for row in rows for v in row[of]])
+
+
+class Inverse(NamedTuple):
+    """H^-1 in balls.
+
+    Parameters
+    ----------
+    H_inverse : arb_mat
+        Shape (n, n).
+    blocks : list of (list of int, arb_mat)
+        Coordinates of each of its blocks, and the block; none where they are not told apart.
+    free : arb_mat
+        The minimiser without rows, shape (n, 1).
+    size : float
+        Of its largest entry [m, rad].
+    """
+
+    H_inverse: arb_mat
+    blocks: list[tuple[list[int], arb_mat]]
+    free: arb_mat
+    size: float
 
 
 class ExactForm(ABC):
@@ -108,11 +137,14 @@ class ExactForm(ABC):
         Shape (n, 1).
     h : arb
         y = h lam: what the program's cost was multiplied by.
+    bits : int
+        Of balls, to begin with.
     """
 
     n: int
     m: int
     equations: int = 0
+    bits: int
     H: arb_mat
     H_inverse: arb_mat
     g: arb_mat
@@ -186,10 +218,41 @@ class ExactForm(ABC):
         return [numbers[k : k + size] for k in range(0, len(numbers), size)]
 
     @cached_property
-    def free(self) -> arb_mat:
-        """The minimiser without rows, in balls, shape (n, 1)."""
-        with working_precision(PRECISION):
-            return self.H_inverse * self.g
+    def _scaled_rows(self) -> dict[int, tuple[list[fmpz], int]]:
+        return {}
+
+    def scaled_rows(self, some: Iterable[int]) -> list[tuple[list[fmpz], int]]:
+        """Integers and power of two of each of the given rows [a, c]."""
+        kept = self._scaled_rows
+        rows = [*some]
+        missing = [i for i in rows if i not in kept]
+        for i, row in zip(missing, self.exact_rows(missing), strict=True):
+            kept[i] = scaled(row)
+        return [kept[i] for i in rows]
+
+    def whole_rows(self, some: Iterable[int]) -> list[list[fmpz]]:
+        """The given rows [a, c], each scaled to integers by a power of two of its own."""
+        return [row for row, _ in self.scaled_rows(some)]
+
+    @cached_property
+    def scaled_cost(self) -> tuple[list[fmpz], int]:
+        """Integers, and their power of two, of [H, g], row by row."""
+        rows = zip(self.H.tolist(), self.g.entries(), strict=True)
+        return scaled([v for H_v, g_v in rows for v in (*H_v, g_v)])
+
+    @cached_property
+    def _inverses(self) -> dict[int, Inverse]:
+        return {}
+
+    def inverse(self, bits: int) -> Inverse:
+        """H^-1 in balls of some bits."""
+        if bits not in self._inverses:
+            H_inverse = self.H_inverse if bits <= PRECISION else inverse(self.H, bits)
+            with working_precision(bits):
+                free = H_inverse * self.g
+            size = max((abs(float(v)) for v in free.entries()), default=0.0)
+            self._inverses[bits] = Inverse(H_inverse, blocks_of(H_inverse), free, size)
+        return self._inverses[bits]
 
     @cached_property
     def A(self) -> arb_mat:
@@ -215,11 +278,22 @@ class MatrixForm(ExactForm):
         [a, c] of each row, shape (m, n + 1).
     equations : int
         How many of the first rows are equations.
+    bits : int, optional
+        Of balls: no answer depends on it.
     """
 
-    def __init__(self, H: arb_mat, g: arb_mat, rows: arb_mat, *, equations: int = 0) -> None:
+    def __init__(
+        self,
+        H: arb_mat,
+        g: arb_mat,
+        rows: arb_mat,
+        *,
+        equations: int = 0,
+        bits: int | None = None,
+    ) -> None:
         self.n = H.nrows()
         self.m = rows.nrows()
+        self.bits = bits or PRECISION
         self.equations = equations
         self.H = H
         self.H_inverse = inverse(H)
@@ -269,6 +343,7 @@ class StepForm(ExactForm):
         self._rows: dict[int, list[Row]] = {}
         self.n = step.n_v
         self.m = step.m
+        self.bits = PRECISION
         self.h = arb(step.h)
         if step.extra.cost is None:
             pull = arb_mat(self.n, 1)
@@ -419,34 +494,45 @@ def _implied_kinds(cone_name: str, held: tuple[int, ...]) -> list[bool]:
     return implied([numbers[kind] for kind in held], numbers)
 
 
-def inverse(H: arb_mat) -> arb_mat:
-    """The inverse, in balls, of an exact matrix that is positive definite.
+def inverse(H: arb_mat, bits: int = PRECISION) -> arb_mat:
+    """The inverse, in balls of some bits, of an exact matrix that is positive definite.
 
     By its blocks. Between coordinates that H does not couple it is zero without a radius, so that a
     coordinate without a load and a contact is seen to stay where it is.
     """
     n = H.nrows()
-    entries = H.entries()
-    coupled = np.array([not v.is_zero() for v in entries], dtype=bool).reshape(n, n)
-    block_of, _ = labels(coupled)
     full = [arb(0)] * (n * n)
-    for first in np.unique(block_of):
-        at = np.flatnonzero(block_of == first)
-        places = (at[:, None] * n + at).ravel().tolist()
-        block = _block_inverse(arb_mat(len(at), len(at), [entries[k] for k in places]))
-        for k, v in zip(places, block.entries(), strict=True):
+    for at, block in _blocks(H):
+        places = (i * n + j for i in at for j in at)
+        for k, v in zip(places, _block_inverse(block, bits).entries(), strict=True):
             full[k] = v
     return arb_mat(n, n, full)
 
 
-def _block_inverse(H: arb_mat) -> arb_mat:
-    precision = PRECISION
+def blocks_of(H: arb_mat) -> list[tuple[list[int], arb_mat]]:
+    """Coordinates and numbers of each block of a matrix, (n, n): none of one that is small."""
+    return _blocks(H) if H.nrows() > MANY else []
+
+
+def _blocks(H: arb_mat) -> list[tuple[list[int], arb_mat]]:
+    n = H.nrows()
+    entries = H.entries()
+    coupled = np.array([not v.is_zero() for v in entries], dtype=bool).reshape(n, n)
+    block_of, _ = labels(coupled)
+    every = [np.flatnonzero(block_of == first).tolist() for first in np.unique(block_of)]
+    return [
+        (at, arb_mat(len(at), len(at), [entries[i * n + j] for i in at for j in at]))
+        for at in every
+    ]
+
+
+def _block_inverse(H: arb_mat, bits: int) -> arb_mat:
     while True:  # ends: H is regular, so some precision resolves it
-        with working_precision(precision):
+        with working_precision(bits):
             try:
                 return H.inv()
             except ZeroDivisionError:
-                precision *= 2
+                bits *= 2
 
 
 def implied(held: Sequence[Sequence[fmpz]], rows: Sequence[Sequence[fmpz]]) -> list[bool]:

@@ -7,8 +7,8 @@ The sign of a slack is taken from the first of these sources that shows it:
    numbers are;
 3. balls show the others that are clearly not zero (``slack_balls``); a row that they show to be
    violated needs no other sign;
-4. of the rest W implies some rows (``implied_rows``), which elimination in whole numbers tells,
-   and fractions decide the others (``slack_signs``).
+4. of the rest W implies some rows (``implied_rows``), which a prime refutes or few rows prove;
+   finer balls of a large program, then fractions, decide the others (``slack_signs``).
 """
 
 from __future__ import annotations
@@ -17,14 +17,13 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import compress
-from typing import Protocol, TypeAlias
+from typing import Final, Protocol, TypeAlias
 
 import numpy as np
-from flint import arb, arb_mat, fmpq, fmpz_mat
+from flint import arb, arb_mat, fmpq, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.form import (
     EXACT,
-    PRECISION,
     TINY,
     UNIT,
     ExactForm,
@@ -37,10 +36,11 @@ from quasistatic_ref.certify.form import (
 from quasistatic_ref.certify.working_set import (
     NearSets,
     Point,
+    WholeSystem,
     ball_point,
-    fraction_point,
 )
 from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.modulo import PRIME, supports_modulo
 from quasistatic_ref.numbers.precision import all_nearest, nearest, working_precision
 
 
@@ -79,13 +79,22 @@ class Relation:
     def exact(self) -> list[fmpq] | None:
         """The u in fractions; None if the row is independent of W.
 
-        Which of them are not zero is guessed from balls, and elimination proves the guess.
+        Which of them are not zero is guessed from balls, of a large set modulo a prime, and
+        elimination proves the guess.
         """
-        guess = [j for j, ball in enumerate(self.ends) if not ball.contains(0)]
+        guess: Sequence[int] | None = [j for j, v in enumerate(self.ends) if not v.contains(0)]
+        if len(self.working) > LARGE:
+            *held, row = (a[:-1] for a in self.form.whole_rows([*self.working, self.p]))
+            supports = supports_modulo(held, [row])
+            guess = guess if supports is None else supports[0]
+        if guess is None:
+            return None
         some = combination(self.form, [self.working[j] for j in guess], self.p)
         if some is None:
-            every = combination(self.form, self.working, self.p)
-            return None if every is None else [-c_j for c_j in every]
+            guess = range(len(self.working))
+            some = combination(self.form, self.working, self.p)
+            if some is None:
+                return None
         u = [fmpq(0)] * len(self.working)
         for j, c_j in zip(guess, some, strict=True):
             u[j] = -c_j
@@ -96,6 +105,12 @@ class Relation:
         assert self.exact is not None  # it is a relation
         return self.exact[j]
 
+
+LARGE: Final = 32
+"""Rows of a working set above which finer balls and a prime come before whole numbers, whose cost
+grows by the fifth power."""
+FINEST: Final = 1280
+"""Most bits of balls."""
 
 Numbers: TypeAlias = Callable[[Point], "list[arb]"]
 """Some numbers of a solution, times its denominator."""
@@ -111,9 +126,13 @@ class Minimiser:
         W: independent rows.
     near : NearSets, optional
         Of a working set that may differ by few rows.
+    bits : int, optional
+        Of balls; by default those of the form.
 
     Attributes
     ----------
+    is_large : bool
+        Whether W has so many rows that fractions are to be avoided.
     walks : int
         Of an optimum, rows that were added to the warm start.
     """
@@ -121,25 +140,39 @@ class Minimiser:
     walks = 0
 
     def __init__(
-        self, form: ExactForm, working: tuple[int, ...], near: NearSets | None = None
+        self,
+        form: ExactForm,
+        working: tuple[int, ...],
+        near: NearSets | None = None,
+        bits: int | None = None,
     ) -> None:
         self.form = form
         self.working = working
+        self.is_large = len(working) > LARGE
+        self.bits = bits or form.bits
         self._near = near if near is not None and near.has_near(working) else None
 
     def on(self, working: tuple[int, ...]) -> Minimiser:
         """The minimiser on another working set, that differs by few rows."""
-        return Minimiser(self.form, working, self.near_sets)
+        return Minimiser(self.form, working, self.near_sets, self._shown.bits)
+
+    @cached_property
+    def finer(self) -> Minimiser | None:
+        """The same one, with balls of twice the bits; None where fractions come next."""
+        if not self.is_large or 2 * self.bits > FINEST:
+            return None
+        return Minimiser(self.form, self.working, bits=2 * self.bits)
 
     @cached_property
     def near_sets(self) -> NearSets:
         """A solver for multipliers on working sets that differ from this one by few rows."""
         if self._near is not None and self._near_balls is not None:
             return self._near
+        bits = self._shown.bits
         try:
-            return NearSets(self.form, self.working)
+            return NearSets(self.form, self.working, bits)
         except ZeroDivisionError:
-            return NearSets(self.form, ())
+            return NearSets(self.form, (), bits)
 
     @cached_property
     def _near_balls(self) -> Point | None:
@@ -148,40 +181,64 @@ class Minimiser:
         They grow with each row by which the sets differ, and more where rows nearly depend on each
         other.
         """
+        return self._balls_by(self._near) if self._near else None
+
+    @cached_property
+    def _own_balls(self) -> Point | None:
+        """The solution in balls of `bits`; None if these are too wide, or do not show one."""
+        return self._near_balls or self._balls_by(None)
+
+    def _balls_by(self, near: NearSets | None) -> Point | None:
         try:
-            balls = ball_point(self.form, self.working, self._near) if self._near else None
+            balls = ball_point(self.form, self.working, self.bits, near)
         except ZeroDivisionError:
             return None
-        return None if balls is None or balls.is_wide else balls
+        return None if balls.is_wide else balls
+
+    @cached_property
+    def _shown(self) -> Minimiser:
+        """The least fine of the same minimisers whose balls show the solution, or the finest."""
+        if self._own_balls is not None or self.finer is None:
+            return self
+        return self.finer._shown
 
     @cached_property
     def balls(self) -> Point:
         """The solution in balls, by the system of multipliers, or from the fractions.
 
         H^-1 has a radius, so that a finer system would not help where that is too wide to show x,
-        or that the rows are independent.
+        or that the rows are independent: in finer balls H^-1 is formed again.
 
         Raises
         ------
         ZeroDivisionError
             If the rows are not independent.
         """
-        try:
-            balls = self._near_balls or ball_point(self.form, self.working)
-            if not balls.is_wide:
-                return balls
-        except ZeroDivisionError:
-            pass
+        balls = self._shown._own_balls
+        if balls is not None:
+            return balls
         exact = self.fractions
-        with working_precision(PRECISION):
+        with working_precision(self.bits):
             share = 1 / exact.denominator
             y = [v * share for v in exact.y]
             return Point(exact.z * share, y, exact.net * share, arb(1))
 
     @cached_property
+    def _whole(self) -> WholeSystem:
+        return WholeSystem(self.form, self.working)
+
+    @cached_property
     def fractions(self) -> Point:
         """The solution in exact fractions, which takes milliseconds."""
-        return fraction_point(self.form, self.working)
+        return self._whole.solution()
+
+    @cached_property
+    def _modulo(self) -> Point | None:
+        """The solution modulo a prime; None if that shows none."""
+        try:
+            return self._whole.solution_modulo()
+        except ZeroDivisionError:
+            return None
 
     @property
     def ends(self) -> list[arb]:
@@ -195,12 +252,42 @@ class Minimiser:
     def positive(self) -> tuple[int, ...]:
         """The rows of the working set that are equations, or whose multipliers are positive."""
         equations = self.form.equations
-        rows = zip(self.working, self.balls.y, strict=True)
-        signs = (
-            1 if i < equations else _sign(v if v > 0 or v < 0 else self.fractions.y[j])
-            for j, (i, v) in enumerate(rows)
+        return tuple(
+            i
+            for j, (i, ball) in enumerate(zip(self.working, self.balls.y, strict=True))
+            if i < equations or (_sign(ball) or self.multiplier_sign(j)) > 0
         )
-        return tuple(i for i, sign in zip(self.working, signs, strict=True) if sign > 0)
+
+    def multiplier_sign(self, j: int) -> int:
+        """The exact sign of multiplier j of W."""
+        return self.sign(lambda m: m.y[j])
+
+    def slack_sign(self, i: int) -> int:
+        """The exact sign of the slack of row i."""
+        return self.sign(lambda m: self.form.slacks([i], m.z)[0])
+
+    def sign(self, number: Callable[[Point], arb]) -> int:
+        """The exact sign of a number of the solution that its balls leave open.
+
+        From finer balls, if the number is not zero modulo a prime; else from the fractions.
+        """
+        level = None if self._may_vanish(number) else self.finer
+        while level is not None:
+            with working_precision(level.bits):
+                sign = _sign(number(level.balls))
+            if sign:
+                return sign
+            level = level.finer
+        with working_precision(EXACT):
+            return _sign(number(self.fractions))
+
+    def _may_vanish(self, number: Callable[[Point], arb]) -> bool:
+        """Whether a prime does not show that a number of the solution is not zero."""
+        if self.finer is None or self._modulo is None:
+            return True
+        with working_precision(EXACT):
+            (residue,) = whole_numbers([number(self._modulo)])
+        return residue % PRIME == 0
 
     @cached_property
     def float_slacks(self) -> tuple[Array, Array]:
@@ -249,15 +336,23 @@ class Minimiser:
         """Those of the given rows that W implies, whatever the cones of its contacts imply."""
         if not some:
             return []
-        with working_precision(EXACT):
-            values = self.form.values(some, arb_mat(self.null_space))
-        return [*compress(some, _vanish(values))]
+        if self.is_large:
+            implied_rows = self._sums(self.form.whole_rows(some))
+        else:
+            with working_precision(EXACT):
+                values = self.form.values(some, arb_mat(self.null_space))
+            implied_rows = _vanish(values)
+        return [*compress(some, implied_rows)]
+
+    def _sums(self, rows: Sequence[Sequence[fmpz]]) -> list[bool]:
+        """Which rows of whole numbers are sums of rows of W, by a prime: for many rows."""
+        return sums(self.form.whole_rows(self.working), rows)
 
     @cached_property
     def slack_balls(self) -> dict[int, arb]:
         """Slacks, as balls, of the open rows that are not implied by rows of the same contact."""
         rows = self.beyond_cones(self.open_rows)
-        with working_precision(PRECISION):
+        with working_precision(self.bits):
             return dict(zip(rows, self.form.slacks(rows, self.balls.z), strict=True))
 
     @cached_property
@@ -273,7 +368,7 @@ class Minimiser:
         """The exact signs of the slacks of all open rows that W does not imply."""
         implied_rows = {*self.implied_rows}
         return {
-            i: _sign(ball if ball > 0 or ball < 0 else self._exact_slack(i))
+            i: _sign(ball) or self.slack_sign(i)
             for i, ball in self.slack_balls.items()
             if i not in implied_rows
         }
@@ -289,7 +384,7 @@ class Minimiser:
             c = [arb(0, 1)] * len(working)  # nothing is shown
         else:
             a, moved, *_ = near.pull(p)
-            with working_precision(PRECISION):
+            with working_precision(self.bits):
                 of_others = sum((v * load for v, load in zip(c, loads, strict=True)), arb(0))
                 if (a * moved)[0, 0] - of_others > 0:
                     return self.on((*working, p))
@@ -298,23 +393,21 @@ class Minimiser:
             return relation
         return self.on((*working, p))
 
-    def _exact_slack(self, i: int) -> arb:
-        with working_precision(EXACT):
-            (slack,) = self.form.slacks([i], self.fractions.z)
-        return slack
-
     def below(self, i: int, j: int) -> bool:
         """Whether the slack of row i is smaller than that of row j, decided exactly."""
-        with working_precision(PRECISION):
-            one, other = self.form.slacks([i, j], self.balls.z)
-            difference = one - other
-        if not (difference > 0 or difference < 0):
-            *W, row_i, row_j = self.form.integers([*self.working, i, j])
-            if implied(W, [[v - w for v, w in zip(row_i, row_j, strict=True)]])[0]:
+
+        def difference(point: Point) -> arb:
+            one, other = self.form.slacks([i, j], point.z)
+            return one - other
+
+        with working_precision(self.bits):
+            sign = _sign(difference(self.balls))
+        if not sign:
+            row_i, row_j = self.form.integers([i, j])
+            if all(self._sums([[v - w for v, w in zip(row_i, row_j, strict=True)]])):
                 return False
-            with working_precision(EXACT):
-                difference = self._exact_slack(i) - self._exact_slack(j)
-        return bool(difference < 0)
+            sign = self.sign(difference)
+        return sign < 0
 
     @cached_property
     def tight_rows(self) -> list[int]:
@@ -335,12 +428,19 @@ class Minimiser:
         No ball shows that by itself. From it follows what of A_W'y = H x - g is a load alone.
         """
         balls = self.balls
-        moves = [any(row) for row in self.null_space.tolist()]
+        n = self.form.n
+        entries = balls.z.entries()
+        if self.is_large:
+            still = [j for j, v in enumerate(entries) if v.contains(0)]
+            units = [[fmpz(int(i == j)) for i in range(n + 1)] for j in still]
+            zero = {*compress(still, self._sums(units))}
+            moves = [j not in zero for j in range(n + 1)]
+        else:
+            moves = [any(row) for row in self.null_space.tolist()]
         if all(moves):
             return balls
-        n = self.form.n
-        z = arb_mat(n + 1, 1, _chosen(moves, balls.z.entries(), [arb(0)] * (n + 1)))
-        with working_precision(PRECISION):
+        z = arb_mat(n + 1, 1, _chosen(moves, entries, [arb(0)] * (n + 1)))
+        with working_precision(self.bits):
             pull = (self.form.H * arb_mat(n, 1, z.entries()[:-1]) - self.form.g).entries()
         net = arb_mat(n, 1, _chosen(moves[:-1], balls.net.entries(), pull))
         return Point(z, balls.y, net, balls.denominator)
@@ -352,7 +452,7 @@ class Minimiser:
         """
         for settled in (False, True):
             solution = self.settled if settled else self.balls
-            with working_precision(PRECISION):
+            with working_precision(self.bits):
                 balls = numbers(solution)
                 balls = balls if unit is None else [ball / unit for ball in balls]
                 values = all_nearest(balls)
@@ -387,10 +487,30 @@ def _chosen(where: Sequence[bool], here: Sequence[arb], elsewhere: Sequence[arb]
     return [a if first else b for first, a, b in zip(where, here, elsewhere, strict=True)]
 
 
-def _vanish(rows: Iterable[Iterable[arb]]) -> list[bool]:
-    """A mask of the rows whose numbers are all zero."""
-    return [all(v.is_zero() for v in row) for row in rows]
+def _sign(ball: arb) -> int:
+    """The sign of the numbers in a ball, 0 if they differ in sign, or of an exact number."""
+    return int(ball > 0) - int(ball < 0)
 
 
-def _sign(number: arb) -> int:
-    return int(number > 0) - int(number < 0)
+def sums(held: Sequence[Sequence[fmpz]], rows: Sequence[Sequence[fmpz]]) -> list[bool]:
+    """Which rows are sums of independent ones that are `held`, each some times: exactly.
+
+    Most of the others are shown by a prime. It names few of those held as the terms of a sum, and
+    elimination of these in whole numbers proves it.
+    """
+    supports = supports_modulo(held, rows)
+    if supports is None:
+        return implied(held, rows)
+    answer = [False] * len(rows)
+    of_terms: dict[tuple[int, ...], list[int]] = {}
+    for place, support in enumerate(supports):
+        if support is not None:
+            of_terms.setdefault(tuple(support), []).append(place)
+    for terms, places in of_terms.items():
+        for some in ([held[j] for j in terms], held):
+            says = implied(some, [rows[place] for place in places])
+            if all(says):
+                break
+        for place, is_sum in zip(places, says, strict=True):
+            answer[place] = is_sum
+    return answer

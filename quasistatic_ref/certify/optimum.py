@@ -21,8 +21,10 @@ from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import ExactForm, StepForm
 from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.norm import Parts, check_length
+from quasistatic_ref.certify.refined import BearingRows
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
+from quasistatic_ref.parts import part as optional_part
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
@@ -69,7 +71,7 @@ def form_optimum(form: ExactForm, warm: Sequence[int] = ()) -> ExactOptimum | Co
     -------
     ExactOptimum or Combination
     """
-    minimiser = dual_active_set(form, warm)
+    minimiser = dual_active_set(form, warm, _bearing_rows())
     if isinstance(minimiser, Combination):
         return minimiser
     working = minimiser.working
@@ -84,6 +86,15 @@ def form_optimum(form: ExactForm, warm: Sequence[int] = ()) -> ExactOptimum | Co
         smallest_active_multiplier=float(lam[pressed].min()) if pressed else None,
         walks=minimiser.walks,
     )
+
+
+def _bearing_rows() -> BearingRows | None:
+    """What finds the rows that bear in a QP; None where its part or its package is missing."""
+    try:
+        bearing: BearingRows = optional_part("bearing_rows")
+    except (InputError, ImportError):
+        return None
+    return bearing
 
 
 def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:

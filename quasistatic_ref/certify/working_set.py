@@ -16,18 +16,18 @@ from functools import cached_property
 from typing import NamedTuple, cast
 
 import numpy as np
-from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz_mat
+from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz, fmpz_mat, nmod_mat
 
 from quasistatic_ref.certify.form import (
     EXACT,
-    PRECISION,
     UNIT,
     ExactForm,
+    Row,
     columns,
     fraction,
-    whole_numbers,
 )
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.modulo import PRIME
 from quasistatic_ref.numbers.precision import working_precision
 
 FEW = 4
@@ -48,12 +48,15 @@ class Point:
         A_W'y times the denominator, shape (n, 1).
     denominator : arb
         Exact and positive: 1 in balls.
+    least : float
+        A radius that shows x well enough, whatever is left of it [m, rad].
     """
 
     z: arb_mat
     y: list[arb]
     net: arb_mat
     denominator: arb
+    least: float = 0.0
 
     @property
     def x(self) -> list[arb]:
@@ -68,9 +71,12 @@ class Point:
 
     @property
     def is_wide(self) -> bool:
-        """Whether a radius of x is larger than what float64 tells apart of its largest number."""
+        """Whether a radius of x is larger than what float64 tells apart of its largest number.
+
+        Where all rests x is next to nothing, and its terms cancel: no radius is small beside that.
+        """
         x, radius = self.floats
-        return not radius.max(initial=0.0) <= UNIT * np.abs(x).max(initial=0.0)
+        return not radius.max(initial=0.0) <= max(UNIT * np.abs(x).max(initial=0.0), self.least)
 
     def in_fractions(self, numerators: Iterable[arb]) -> list[fmpq]:
         """The given numerators over the point's denominator, as fractions."""
@@ -108,6 +114,8 @@ class NearSets:
     form : ExactForm
     base : sequence of int
         Independent rows.
+    bits : int
+        Of balls.
 
     Raises
     ------
@@ -115,12 +123,17 @@ class NearSets:
         If balls do not show that they are independent.
     """
 
-    def __init__(self, form: ExactForm, base: Sequence[int]) -> None:
+    def __init__(self, form: ExactForm, base: Sequence[int], bits: int) -> None:
         self.form = form
+        self._bits = bits
+        self._H_inverse = form.inverse(bits).H_inverse
         self._place = {i: place for place, i in enumerate(base)}
-        self._A = columns(form.exact_rows(base), slice(0, form.n))
-        with working_precision(PRECISION):
-            self._G = (self._A * (form.H_inverse * self._A.transpose())).inv()
+        rows = form.exact_rows(base)
+        self._A = columns(rows, slice(0, form.n))
+        k = len(rows)
+        with working_precision(bits):
+            one = arb_mat(k, k, [int(i == j) for i in range(k) for j in range(k)])
+            self._G = responses(form, rows, self._A, bits).solve(one, algorithm="lu")
         self._G_rows = self._G.tolist()
         self._pulls: dict[int, Pull] = {}
 
@@ -132,8 +145,8 @@ class NearSets:
         """The response of the base to a unit multiplier of row i."""
         if i not in self._pulls:
             a = columns(self.form.exact_rows([i]), slice(0, self.form.n))
-            with working_precision(PRECISION):
-                moved = self.form.H_inverse * a.transpose()
+            with working_precision(self._bits):
+                moved = self._H_inverse * a.transpose()
                 loads = self._A * moved
                 self._pulls[i] = Pull(a, moved, loads.entries(), (self._G * loads).entries())
         return self._pulls[i]
@@ -142,7 +155,7 @@ class NearSets:
         """The vector A_W H^-1 a_p', with an entry for each row of the working set W."""
         pull = self.pull(p)
         place = self._place
-        with working_precision(PRECISION):
+        with working_precision(self._bits):
             return [
                 pull.loads[place[i]] if i in place else self._between(i, [p])[0] for i in working
             ]
@@ -161,7 +174,7 @@ class NearSets:
         left = [j for i, j in place.items() if i not in right]
         y = arb_mat(len(place), 1, [right.get(i, 0) for i in place])
         t: list[arb] = []
-        with working_precision(PRECISION):
+        with working_precision(self._bits):
             y = self._G * y
             if entered or left:
                 changes = [self._G_rows[j] for j in left] + [self.pull(i).changes for i in entered]
@@ -186,7 +199,39 @@ class NearSets:
         return [(a * self.pull(other).moved)[0, 0] for other in rows]
 
 
-def ball_point(form: ExactForm, working: Sequence[int], near: NearSets | None = None) -> Point:
+def responses(form: ExactForm, rows: Sequence[Row], A: arb_mat, bits: int) -> arb_mat:
+    """S = A H^-1 A' of exact rows, in balls: by the blocks of H, of which a row moves few.
+
+    Parameters
+    ----------
+    form : ExactForm
+    rows : sequence of list of arb
+        [a, c].
+    A : arb_mat
+        Their a, shape (k, n).
+    bits : int
+    """
+    H_inverse, blocks, *_ = form.inverse(bits)
+    if not blocks:
+        return A * (H_inverse * A.transpose())
+    k = len(rows)
+    S = [[arb(0)] * k for _ in range(k)]
+    moves = np.array([[not v.is_zero() for v in row] for row in rows], dtype=bool).reshape(
+        k, form.n + 1
+    )
+    for at, block in blocks:
+        moved = np.flatnonzero(moves[:, at].any(axis=1)).tolist()
+        if moved:
+            some = arb_mat([[rows[i][v] for v in at] for i in moved])
+            for i, values in zip(moved, (some * (block * some.transpose())).tolist(), strict=True):
+                for j, value in zip(moved, values, strict=True):
+                    S[i][j] += value
+    return arb_mat(k, k, [value for values in S for value in values])
+
+
+def ball_point(
+    form: ExactForm, working: Sequence[int], bits: int, near: NearSets | None = None
+) -> Point:
     """The optimum with the rows of a working set as equations, and its multipliers, as balls.
 
     Parameters
@@ -194,6 +239,8 @@ def ball_point(form: ExactForm, working: Sequence[int], near: NearSets | None = 
     form : ExactForm
     working : sequence of int
         W.
+    bits : int
+        Of balls.
     near : NearSets, optional
         Of a working set that differs by few rows.
 
@@ -205,34 +252,80 @@ def ball_point(form: ExactForm, working: Sequence[int], near: NearSets | None = 
     rows = form.exact_rows(working)
     A = columns(rows, slice(0, form.n))
     c = columns(rows, slice(form.n, form.n + 1))
-    with working_precision(PRECISION):
-        right_side = -(A * form.free + c)
+    H_inverse, _, free, size = form.inverse(bits)
+    with working_precision(bits):
+        right_side = -(A * free + c)
         if near is None:
-            y = (A * (form.H_inverse * A.transpose())).solve(right_side)
+            y = responses(form, rows, A, bits).solve(right_side, algorithm="lu")
         else:
             y = arb_mat(len(rows), 1, near.solved(working, right_side.entries()))
         net = A.transpose() * y
-        x = form.free + form.H_inverse * net
+        x = free + H_inverse * net
         z = arb_mat(form.n + 1, 1, [*x.entries(), 1])
-        return Point(z, y.entries(), net, arb(1))
+        return Point(z, y.entries(), net, arb(1), 2.0 ** (-bits // 2) * size)
+
+
+class WholeSystem:
+    """The equations of :func:`ball_point` in whole numbers, K [x; y] = r.
+
+    Multipliers are scaled by powers of two, each as its row.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+        W.
+    """
+
+    def __init__(self, form: ExactForm, working: Sequence[int]) -> None:
+        n = self.n = form.n
+        k = len(working)
+        cost, e = form.scaled_cost
+        rows = form.scaled_rows(working)
+        none = [fmpz(0)] * k
+        entries: list[fmpz] = []
+        for v in range(n):
+            entries += cost[v * (n + 1) : v * (n + 1) + n]
+            entries += [-a[v] for a, _ in rows]
+        for a, _ in rows:
+            entries += a[:n]
+            entries += none
+        self._K = fmpz_mat(n + k, n + k, entries)
+        self._right = fmpz_mat(n + k, 1, [*cost[n :: n + 1], *(-a[n] for a, _ in rows)])
+        self._form = form
+        self._powers = [e - of_row for _, of_row in rows]
+
+    def solution(self) -> Point:
+        """The point without rounding; ZeroDivisionError if rows are dependent."""
+        quotients = cast("fmpq_mat", self._K.solve(self._right))
+        numerators, denominator = quotients.numer_denom()  # positive
+        return self._point(numerators.entries(), denominator)
+
+    def solution_modulo(self) -> Point:
+        """A point whose numbers are those of the solution modulo a prime.
+
+        A number that is a sum of them, each some halves of times, is not zero if it is not zero of
+        this point modulo the prime.
+
+        Raises
+        ------
+        ZeroDivisionError
+            If the prime does not show that there is a solution.
+        """
+        z = nmod_mat(self._K, PRIME).solve(nmod_mat(self._right, PRIME))
+        return self._point([fmpz(int(v)) for v in z.entries()], fmpz(1))
+
+    def _point(self, numbers: Sequence[fmpz], denominator: fmpz) -> Point:
+        n = self.n
+        with working_precision(EXACT):
+            x = arb_mat(n, 1, [arb(v) for v in numbers[:n]])
+            scaled_y = zip(numbers[n:], self._powers, strict=True)
+            y = [arb(v) * arb(2) ** power for v, power in scaled_y]
+            z = arb_mat(n + 1, 1, [*x.entries(), denominator])
+            net = self._form.H * x - self._form.g * arb(denominator)
+        return Point(z, y, net, arb(denominator))
 
 
 def fraction_point(form: ExactForm, working: Sequence[int]) -> Point:
     """The point of :func:`ball_point` without rounding; ZeroDivisionError if rows are dependent."""
-    n = form.n
-    k = len(working)
-    rows = form.exact_rows(working)
-    H_g = zip(form.H.tolist(), form.g.entries(), strict=True)
-    with working_precision(EXACT):
-        balance = [[*H_v, *(-a[v] for a in rows), g_v] for v, (H_v, g_v) in enumerate(H_g)]
-        closed = [[*a[:n], *[arb(0)] * k, -a[n]] for a in rows]
-    equations = [whole_numbers(equation) for equation in [*balance, *closed]]
-    K = fmpz_mat(n + k, n + k, [v for equation in equations for v in equation[:-1]])
-    right_side = fmpz_mat(n + k, 1, [equation[-1] for equation in equations])
-    numerators, denominator = cast("fmpq_mat", K.solve(right_side)).numer_denom()  # positive
-    entries = [arb(v) for v in numerators.entries()]
-    x = arb_mat(n, 1, entries[:n])
-    z = arb_mat(n + 1, 1, [*entries[:n], denominator])
-    with working_precision(EXACT):
-        net = form.H * x - form.g * arb(denominator)
-    return Point(z, entries[n:], net, arb(denominator))
+    return WholeSystem(form, working).solution()

@@ -32,9 +32,9 @@ def test_balls_that_hide_x_are_formed_again():
     """What rows (1, 0) and (1, 2^-150) say of another set loses 300 of 320 bits."""
     A = np.array([[1.0, 0.0], [1.0, 2.0**-150], [0.0, 1.0]])
     form = exact_form_of(np.eye(2), np.array([-1.0, 1.0]), A, np.array([1.0, 2.0, 3.0]))
-    near = NearSets(form, (0, 1))
+    near = NearSets(form, (0, 1), form.bits)
     minimiser = Minimiser(form, (1, 2), near)
-    _, radius = ball_point(form, (1, 2), near).floats
+    _, radius = ball_point(form, (1, 2), form.bits, near).floats
     _, formed_again = minimiser.balls.floats
     assert radius.max() > 1e-6
     assert formed_again.max() < 1e-90

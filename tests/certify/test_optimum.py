@@ -7,6 +7,7 @@ from quasistatic_ref import load_scenario, solve_step
 from quasistatic_ref.certify import optimum
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.optimum import step_optimum
+from quasistatic_ref.certify.working_set import WholeSystem
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.solve.choice import solver_for
@@ -19,11 +20,11 @@ def test_what_stays_where_it_is_needs_no_fractions(monkeypatch):
     target = scene.target(0.0, scene.q)
     step = scene.simulator("off", False).step(scene.q, target, scene.force).step
 
-    def refused(form, working):
+    def refused(system):
         pytest.fail("solved in fractions")
 
     working = step_optimum(step).working_set
-    monkeypatch.setattr("quasistatic_ref.certify.minimiser.fraction_point", refused)
+    monkeypatch.setattr(WholeSystem, "solution", refused)
     delta_q = step_optimum(step, working).delta_q
     assert delta_q.astype(bool).tolist() == [True, True, True, False, False, False]
 

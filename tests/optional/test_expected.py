@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
+from quasistatic_ref.certify.refined import BearingRows
 from quasistatic_ref.contact.crossings import CurveCrossings
 from quasistatic_ref.contact.normals import KnownGaps
 from quasistatic_ref.contact.solids.solid_pair import WitnessOfPair
@@ -19,7 +20,7 @@ from quasistatic_ref.numbers.compiled import CompiledMethod
 from quasistatic_ref.optional.compiled import leaves
 from quasistatic_ref.optional.coulomb import fixed_point
 from quasistatic_ref.optional.curved import by_coal, clouds_by_coal, rims, ways_out
-from quasistatic_ref.optional.daqp import default, solver
+from quasistatic_ref.optional.daqp import bearing_rows, default, solver
 from quasistatic_ref.optional.doctor import checks, names, observer
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 from quasistatic_ref.optional.extensions import by_function, extended, of_scenario
@@ -72,6 +73,7 @@ class Expected:
     qpsolvers_solver: NamedSolver = through_qpsolvers.QpsolversSolver
     qpsolvers_names: SolverNames = through_qpsolvers.available_solvers
     daqp_solver: NamedSolver = solver.DaqpSolver
+    bearing_rows: BearingRows = bearing_rows.bearing_rows
     fast_backend: scenario.FastBackend = default.default_backend
     stands: StandingsOf = stands.stands
     stands_after: StandsAfter = after.stands_after

@@ -119,7 +119,7 @@ class ExactQP(Plain, Shown):
                 x = _column(self.x[block.coordinates])
                 off += _square(error, block.form.H * error)
                 length += _square(x, block.form.H * x)
-                free += _square(block.form.g, block.form.free)
+                free += _square(block.form.g, block.form.inverse(PRECISION).free)
             longer = max(length.mid(), free.mid())
             if not longer > 0:
                 return digits_of_error(0.0 if off == 0 else math.inf)
