@@ -28,6 +28,8 @@ class NaturalHessian(NamedTuple):
     ----------
     unit : ndarray, shape (n_v,)
         Diagonal of S [m or rad, per (N m s)^0.5].
+    own_unit : ndarray, shape (m_c, w)
+        The same of the own columns of each contact's rows.
     blocks : list of ndarray, shape (n, n)
         H of each group in these units [-].
     inverses : list of (ndarray, ndarray), shapes (k, n) of int and (k, n, n)
@@ -36,6 +38,7 @@ class NaturalHessian(NamedTuple):
     """
 
     unit: Array
+    own_unit: Array
     blocks: list[Array]
     inverses: list[tuple[Indices, Array]]
 
@@ -166,11 +169,10 @@ class GroupLayout:
             )
             for alike in of_width.values()
         ]
-        return NaturalHessian(read_only(unit), blocks, inverses)
+        own_unit = np.append(unit, 0.0)[self.column]
+        return NaturalHessian(read_only(unit), read_only(own_unit), blocks, inverses)
 
-    def programs(
-        self, step: StepData, A: Array, b: Array, g: Array, units: Units, blocks: list[Array]
-    ) -> Programs:
+    def programs(self, step: StepData, A: Array, b: Array, g: Array, units: Units) -> Programs:
         """The groups' programs in natural units.
 
         Parameters
@@ -181,16 +183,15 @@ class GroupLayout:
         b, g : ndarray, shapes (m,) and (n_v,)
             Of the step.
         units : Units
-        blocks : list of ndarray
-            H of each group in natural units [-].
         """
         S, ell, rho = units
+        H = self.natural_hessian_of(step)
         whole = np.zeros(self._size + 1)  # there is a place for what is in no group
-        whole[self._place] = A * (np.append(S, 0.0) / ell)[self.column]
+        whole[self._place] = A * (H.own_unit / ell)
         if step.extra.names:
             whole[self._place_extra] = step.extra.A * (S / ell)
         g = (g * S / rho)[self.coordinates]
-        return Programs(self, blocks, g, whole[:-1], (b / (rho * ell))[self.rows])
+        return Programs(self, H.blocks, g, whole[:-1], (b / (rho * ell))[self.rows])
 
 
 def layout_of(step: StepData) -> GroupLayout:

@@ -183,11 +183,10 @@ class ScaledStep:
     @cached_property
     def squared_lengths(self) -> Array:
         """Squared lengths of the rows of A S, shape (m,) [m^2/(N m s)]."""
-        S = self.layout.natural_hessian_of(self.step).unit
-        A, _ = self._own_inequalities
-        squares = squared_lengths(A, np.append(S, 0.0)[self.layout.column])
+        H = self.layout.natural_hessian_of(self.step)
+        squares = squared_lengths(self._own_inequalities[0], H.own_unit)
         extra = self.step.extra
-        return np.append(squares, squared_lengths(extra.A, S)) if extra.names else squares
+        return np.append(squares, squared_lengths(extra.A, H.unit)) if extra.names else squares
 
     @cached_property
     def units(self) -> Units:
@@ -222,8 +221,7 @@ class ScaledStep:
         return self._programs(self.layout)
 
     def _programs(self, layout: GroupLayout) -> Programs:
-        blocks = layout.natural_hessian_of(self.step).blocks
-        return layout.programs(self.step, *self._own_inequalities, self._g, self.units, blocks)
+        return layout.programs(self.step, *self._own_inequalities, self._g, self.units)
 
     @cached_property
     def _finer(self) -> GroupLayout:

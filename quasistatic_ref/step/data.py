@@ -388,7 +388,12 @@ KIND: dict[str, Callable[[StepData], ArrayLike]] = {
 
 def differences(template: StepData, step: StepData, names: Iterable[str] = KIND) -> list[str]:
     """Those of `names` in which two steps differ."""
-    return [n for n in names if not np.array_equal(KIND[n](template), KIND[n](step))]
+    both = {n: (KIND[n](template), KIND[n](step)) for n in names}
+    return [n for n, (one, other) in both.items() if not _same(one, other)]
+
+
+def _same(one: ArrayLike, other: ArrayLike) -> bool:
+    return one is other or np.array_equal(one, other)
 
 
 def seconds(h: object) -> float:

@@ -6,22 +6,40 @@ step before. What it answers then depends on that step in its last bits, unless 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import daqp
 import numpy as np
 
-from quasistatic_ref.numbers.arrays import all_finite
+from quasistatic_ref.numbers.arrays import Array, all_finite
 from quasistatic_ref.solve.backends import DAQP, Options
 from quasistatic_ref.solve.by_group import GroupLayout, Programs
 from quasistatic_ref.solve.solver import BackendSolver, Reply
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.standard_form import StandardForm
 
 STATUS = {1: "optimal", 2: "soft optimal", -1: "infeasible", -2: "cycling", -3: "unbounded",
           -4: "iteration limit", -5: "not convex", -6: "overdetermined"}  # fmt: skip
+
+
+class Answer(NamedTuple):
+    """DAQP's answer to the program of a group.
+
+    Parameters
+    ----------
+    x, lam : ndarray, shapes (n,) and (m,)
+        The minimiser and the multipliers, in natural units [-].
+    flag : int
+        DAQP's word, 1 where it claims a solution.
+    iterations : int
+    seconds : float
+    """
+
+    x: Array
+    lam: Array
+    flag: int
+    iterations: int
+    seconds: float
 
 
 class Workspace:
@@ -29,57 +47,59 @@ class Workspace:
 
     Parameters
     ----------
-    form : StandardForm
-        Of the first step, in natural units [-]; the next ones have its sizes.
+    H : ndarray, shape (n, n)
+        Of the first step, in natural units [-], as all of these.
+    f, A, b : ndarray, shapes (n,), (m, n) and (m,)
+        f = -g. DAQP reads them where they are: they are written again for each step.
     options : dict
         DAQP's own.
     """
 
-    def __init__(self, form: StandardForm, options: Options) -> None:
-        self._cold = np.zeros(len(form.b), np.int32)
+    def __init__(self, H: Array, f: Array, A: Array, b: Array, options: Options) -> None:
+        self._program = {"f": f, "A": A, "blower": b}
+        self._above = np.full(len(b), np.inf)
+        self._cold = np.zeros(len(b), np.int32)
         self._warm = False
         self._options = options
-        if len(form.b):
-            self._set_up(form)
+        if len(b):
+            self._set_up(H)
 
-    def _set_up(self, form: StandardForm) -> None:
-        """Prepare a new workspace."""
-        self._H = form.H
+    def _set_up(self, H: Array) -> None:
+        """Prepare a new workspace for the matrix H."""
+        self._H = H
         self._model: Any = daqp.Model()
         self._model.settings = self._options
-        above = np.full(len(form.b), np.inf)
-        # DAQP reads them where they are.
-        self._held = {"f": -form.g, "A": form.A, "bupper": above, "blower": form.b}
-        self._model.setup(form.H, *self._held.values(), self._cold)
+        f, A, b = self._program.values()
+        self._model.setup(H, f, A, self._above, b, self._cold)
 
-    def reply(self, form: StandardForm) -> Reply:
-        """Solve a program: from the answer before, if there is one, then cold.
+    def answer(self, H: Array) -> Answer:
+        """Solve the program as it stands: from the answer before, if there is one, then cold.
 
         A workspace that has had no finite answer may have none for ever: it is set up again.
         """
-        if not len(form.b):
-            return Reply(form.free(), np.zeros(0), True, "optimal", 0)
-        reply = self._solved(form, warm=True) if self._warm else None
-        if reply is None or not reply.solved:
-            reply = self._solved(form, warm=False)
-        if not all_finite(reply.answer[0]):
-            self._set_up(form)
-            reply = self._solved(form, warm=False)
-        self._warm = reply.solved
-        return reply
+        if not len(self._cold):
+            x = np.asarray(np.linalg.solve(H, -self._program["f"]), dtype=np.float64)
+            return Answer(x, np.zeros(0), 1, 0, 0.0)
+        answer = self._solved(H, warm=True) if self._warm else None
+        if answer is None or answer.flag != 1:
+            answer = self._solved(H, warm=False)
+        if not all_finite(answer.x):
+            self._set_up(H)
+            answer = self._solved(H, warm=False)
+        self._warm = answer.flag == 1
+        return answer
 
-    def _solved(self, form: StandardForm, *, warm: bool) -> Reply:
-        changes: dict[str, Any] = {"f": -form.g, "A": form.A, "blower": form.b}
-        if not warm or form.H is not self._H:  # else DAQP keeps its factor, with the same bits
-            changes["H"] = self._H = form.H
-        if not warm:
-            changes["sense"] = self._cold
-        self._model.update(**changes)
-        self._held |= changes
+    def _solved(self, H: Array, *, warm: bool) -> Answer:
+        if warm and H is self._H:  # DAQP keeps its factor, with the same bits
+            self._model.update(**self._program)
+        elif warm:
+            self._model.update(H=H, **self._program)
+        else:
+            self._model.update(H=H, sense=self._cold, **self._program)
+        self._H = H
         x, _, flag, info = self._model.solve()
         lam = 0.0 - info["lam"]  # those of lower bounds are negative
-        status = STATUS.get(flag) or str(flag)
-        return Reply(x, lam, flag == 1, status, info["iterations"], info["solve_time"])
+        return Answer(x, lam, flag, info["iterations"], info["solve_time"])
 
 
 class Workspaces:
@@ -95,26 +115,25 @@ class Workspaces:
 
     def __init__(self, programs: Programs, options: Options) -> None:
         self.layout: GroupLayout = programs.layout
-        self._each = [Workspace(form, options) for form in programs.forms]
+        f, A, b = map(np.zeros_like, (programs.g, programs.A, programs.b))
+        self._program = programs._replace(g=f, A=A, b=b)
+        forms = zip(self._program.forms, programs.blocks, strict=True)
+        self._each = [Workspace(H, form.g, form.A, form.b, options) for form, H in forms]
 
     def reply(self, programs: Programs) -> Reply:
-        """Solve the programs of a step."""
-        both = zip(self._each, programs.forms, strict=True)
-        return joined(programs, [one.reply(form) for one, form in both])
-
-
-def joined(programs: Programs, replies: Sequence[Reply]) -> Reply:
-    """The reply to a step from the replies to its groups: solved if all are."""
-    if len(replies) == 1:
-        return replies[0]
-    each = [reply.answer for reply in replies]
-    x = programs.joined([x for x, _ in each])
-    lam = np.zeros(len(programs.b))
-    lam[programs.layout.rows] = np.concatenate([lam_of for _, lam_of in each])
-    worst = min(replies, key=lambda reply: reply.solved)
-    iterations = sum(reply.iterations or 0 for reply in replies)
-    seconds = sum(reply.seconds or 0.0 for reply in replies)
-    return Reply(x, lam, worst.solved, worst.status, iterations, seconds)
+        """Solve the programs of a step: solved if all are."""
+        np.negative(programs.g, out=self._program.g)
+        self._program.A[:] = programs.A
+        self._program.b[:] = programs.b
+        both = zip(self._each, programs.blocks, strict=True)
+        answers = [one.answer(H) for one, H in both]
+        flag = next((one.flag for one in answers if one.flag != 1), 1)
+        x = programs.joined([one.x for one in answers])
+        lam = np.zeros(len(programs.b))
+        lam[self.layout.rows] = np.concatenate([one.lam for one in answers])
+        iterations = sum(one.iterations for one in answers)
+        seconds = sum(one.seconds for one in answers)
+        return Reply(x, lam, flag == 1, STATUS.get(flag) or str(flag), iterations, seconds)
 
 
 class DaqpSolver(BackendSolver):

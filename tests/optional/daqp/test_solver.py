@@ -4,11 +4,11 @@ import numpy as np
 
 from quasistatic_ref import solve_step
 from quasistatic_ref.lab.bench.scenes import boxes
-from quasistatic_ref.optional.daqp.solver import DaqpSolver, Workspace
-from quasistatic_ref.solve.solver import Reply
-from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.optional.daqp.solver import Answer, DaqpSolver, Workspace
 from tests.helpers import changed, error, planted_step
 from tests.tolerances import ACTIVE_SET
+
+AT_A_LOSS = Answer(np.zeros(0), np.zeros(0), -2, 0, 0.0)
 
 
 def test_a_warm_start_that_fails_is_followed_by_a_cold_one(rng, monkeypatch):
@@ -18,9 +18,9 @@ def test_a_warm_start_that_fails_is_followed_by_a_cold_one(rng, monkeypatch):
     honest = Workspace._solved
     calls = []
 
-    def solved(self, form, *, warm):
+    def solved(self, H, *, warm):
         calls.append(warm)
-        return Reply(None, None, False, "at a loss") if warm else honest(self, form, warm=warm)
+        return AT_A_LOSS if warm else honest(self, H, warm=warm)
 
     monkeypatch.setattr(Workspace, "_solved", solved)
     again = solve_step(step, solver, certify="off").delta_q
@@ -40,15 +40,14 @@ CORNERS = {
 
 def test_a_workspace_that_had_no_finite_answer_is_set_up_again():
     """DAQP has NaN in the second corner after the first, and would have it from then on."""
-    forms = {
-        name: StandardForm(np.eye(3), -np.array(f), np.array(A), np.zeros(3))
-        for name, (f, A) in CORNERS.items()
-    }
-    workspace = Workspace(forms["square"], {})
+    f, A, b, H = np.zeros(3), np.zeros((3, 3)), np.zeros(3), np.eye(3)
+    f[:], A[:] = CORNERS["square"]
+    workspace = Workspace(H, f, A, b, {})
     for corner in ("square", "nearly flat", "square"):
-        reply = workspace.reply(forms[corner])
-        assert reply.solved
-        assert np.abs(reply.answer[0]).max() < ACTIVE_SET
+        f[:], A[:] = CORNERS[corner]
+        answer = workspace.answer(H)
+        assert answer.flag == 1
+        assert np.abs(answer.x).max() < ACTIVE_SET
 
 
 def test_a_step_that_couples_what_the_step_before_did_not_is_solved(rng):
