@@ -36,7 +36,7 @@ class Side(NamedTuple):
     eps : float
         Share of the direction at which the nearest one is, with its sign [-].
     ends : list of End
-        That, and the one twice as far; fewer where they are refused, or not taken.
+        That, and the one twice as far; fewer where they are refused.
     problem : str
         Why one is refused.
     """
@@ -58,7 +58,8 @@ class Column(NamedTuple):
     Parameters
     ----------
     rate, below, above : ndarray, shape (n_v,)
-        The derivative and the one-sided ones [m or rad, per direction]; NaN where there is none.
+        The derivative and the one-sided ones [m or rad, per direction]; NaN where there is none,
+        or no second difference confirms it.
     holds : float
         How far from here steps were compared, on both sides [of directions].
     rows, points : tuple of str
@@ -88,16 +89,17 @@ def column(near: Nearby, direction: Changes) -> Column:
     rounding = near.rounding(direction)
     aboves, belows = [], []
     for eps in SHARES:
-        above = _side(near, direction, eps, 2)
-        below = _side(near, direction, -eps, 1)
-        if len(above.ends) + len(below.ends) == 3:
+        above = _side(near, direction, eps)
+        below = _side(near, direction, -eps)
+        if len(above.ends) + len(below.ends) == 4:
             far, up, down = above.ends[1].change, above.ends[0].change, below.ends[0].change
-            if _equal(above.slope, (up - down) / (2 * eps), rounding / eps):
+            central = (up - down) / (2 * eps)
+            # A kink at eps / 2 leaves one side's slope equal to this, not both.
+            if all(_equal(side.slope, central, rounding / eps) for side in (above, below)):
                 rate = (6 * up - far - 2 * down) / (6 * eps)  # of third order
                 return Column(rate, rate, rate, eps)
         aboves.append(above)
         belows.append(below)
-    belows = [_side(near, direction, side.eps, 2, side.ends) for side in belows]
     nowhere = np.full(near.result.step.n_v, np.nan)
     return Column(
         nowhere,
@@ -108,12 +110,10 @@ def column(near: Nearby, direction: Changes) -> Column:
     )
 
 
-def _side(
-    near: Nearby, direction: Changes, eps: float, steps: int, first: Sequence[End] = ()
-) -> Side:
-    """The steps at eps and, if there are two, at 2 eps along a direction; the `first` are known."""
-    ends = [*first]
-    for times in range(len(ends) + 1, steps + 1):
+def _side(near: Nearby, direction: Changes, eps: float) -> Side:
+    """The steps at eps and at 2 eps along a direction, up to one that is refused."""
+    ends: list[End] = []
+    for times in (1, 2):
         changes = {name: times * eps * change for name, change in direction.items()}
         try:
             ends.append(near.end(changes))
@@ -130,12 +130,12 @@ def _equal(one: Array, other: Array, rounding: float) -> bool:
 
 
 def _slope(sides: Sequence[Side], rounding: float, nowhere: Array) -> Array:
-    """The first slope, of differences that get smaller, that the next slope confirms."""
+    """The first slope, of differences that get smaller, that the next confirms; or nowhere."""
     slopes = [side.slope if len(side.ends) == 2 else nowhere for side in sides]
     for slope, smaller, side in zip(slopes, slopes[1:], sides[1:], strict=False):
         if _equal(slope, smaller, rounding / abs(side.eps)):
             return slope
-    return slopes[-1]
+    return nowhere
 
 
 def _difference(below: Side, above: Side) -> tuple[tuple[str, ...], tuple[str, ...], str]:

@@ -39,7 +39,8 @@ class Sides(Plain, Shown):
     rate : ndarray, shape (n_v, P)
         The derivatives [m or rad, per unit of the parameter].
     below, above : ndarray, shape (n_v, P)
-        The one-sided derivatives, the parameter falling and rising [m or rad, per unit of it].
+        The one-sided derivatives, the parameter falling and rising [m or rad, per unit of it]; NaN
+        where no two differences agree on one, as where a kink is nearer than the smallest.
     holds : ndarray, shape (P,)
         How far each column was compared with steps on either side [of the parameter]: there may be
         a kink beyond.
@@ -136,13 +137,15 @@ class Derivatives(Plain, Shown):
         Raises
         ------
         InputError
-            If a name or a shape is wrong, a number is not finite, or a step on that side is
-            refused.
+            If a name or a shape is wrong, a number is not finite, a step on that side is
+            refused, or no two differences agree on a slope.
         """
         found, size = directed(self._near, directions)
         slope = found.above if found.problem else found.rate
         if np.isnan(slope).any():
-            problem = f"has no one-sided derivative here: {found.problem}"
+            problem = (
+                f"has no one-sided derivative here that two differences agree on: {found.problem}"
+            )
             raise InputError(problem, field="along")
         return size * slope
 

@@ -7,18 +7,27 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import (
+    Body,
     ContactError,
+    ContactPair,
     Extension,
+    HalfSpace,
     InputError,
+    Simulator,
     Sphere,
+    System,
     derivatives,
 )
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.check.loosened import loosened
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.own.step import posed_case
-from tests.cases import parts
+from quasistatic_ref.optional.derivatives.column import SHARES
+from quasistatic_ref.optional.derivatives.nearby import PLACE
+from tests.cases import first, parts
 from tests.closeness import assert_same, assert_within
+from tests.contact.still import placed_shape
+from tests.files.urdf.urdf_texts import collision, joint, link, robot
 from tests.lab.vectors.committed_cases import cases, expected_of
 from tests.optional.derivatives.free_bodies import (
     FLOOR,
@@ -136,7 +145,7 @@ def test_friction_of_zero_has_a_derivative_from_above_alone():
     assert np.isnan(found.by["mu_v"].below).all()
     assert np.isfinite(found.by["mu_v"].above).all()
     assert np.isfinite(found.dq_dmu_omega).all()
-    with pytest.raises(InputError, match="along: has no one-sided derivative here: a step"):
+    with pytest.raises(InputError, match="along: has no one-sided .* agree on: a step nearby"):
         found.along(mu_v=[-0.1])
 
 
@@ -159,3 +168,50 @@ def test_what_has_no_derivatives_is_refused_in_a_sentence():
         found.along(tau=np.ones((1, 6)))
     with pytest.raises(InputError, match=r"along\.q: must contain finite"):
         found.along(q=np.full(6, np.inf))
+
+
+RAIL = robot(
+    link("rail"),
+    link("ball", collision('<sphere radius="0.1"/>')),
+    joint("z", "rail", "ball", "prismatic", "0 0 1"),
+)
+KINKS = {
+    "a floor": (FLOOR, 0.1, 0.0, (0.0, 1.0)),
+    "a lid": (HalfSpace((0, 0, -1), 0.0), -0.1, 0.0, (1.0, 0.0)),
+    "a landing": (FLOOR, 0.1 + H**2 * G, -G, (0.0, 1.0)),
+}
+"""Half-space, height of a ball [m] at which its step has a kink, gravity, slopes below and above."""
+DIFFERENCES = [eps * PLACE for eps in SHARES]
+"""Those that are taken of a height [m]."""
+RATIOS = {m / n for m in range(1, 7) for n in range(1, 7)}
+BESIDE = (0.0, 1e-8, -1e-8)
+
+
+def wrong_slopes(kink, away):
+    """The slopes of a ball on a rail that are none, where a kink is some way below it [m]."""
+    wall, height, g, slopes = KINKS[kink]
+    system = System([Body("b", RAIL)])
+    pair = ContactPair("p", placed_shape(wall), system.shapes[0], 0.5, 0.001)
+    simulator = Simulator(system, [pair], h=H, gravity=(0, 0, g), backend="daqp")
+    found = derivatives(simulator, [height + away], NONE, by="q").by["q"]
+    right = slopes[int(away > 0)]
+    # A one-sided slope beyond a kink that is nearer than the differences is that beyond it.
+    given = {"rate": (right,), "below": (right, slopes[0]), "above": (right, slopes[1])}
+    off = {name: np.abs(getattr(found, name)[0, 0] - many).min() for name, many in given.items()}
+    return {(name, away): error for name, error in off.items() if error > DIFFERENCE_OF_STEPS}
+
+
+@pytest.mark.parametrize("every", first(1, [16, 1]))
+@pytest.mark.parametrize("kink", KINKS)
+def test_no_slope_is_wrong_at_a_share_of_a_difference_from_a_kink(kink, every):
+    """At m/n of each, m and n to 6, and 1e-8 of that beside, on either side."""
+    depths = [d * r * (1 + b) for d in DIFFERENCES for r in sorted(RATIOS) for b in BESIDE]
+    places = [sign * depth for depth in depths for sign in (-1, 1)]
+    wrong = [found for away in places[::every] if (found := wrong_slopes(kink, away))]
+    assert wrong == []
+
+
+@pytest.mark.parametrize("kink", KINKS)
+def test_no_slope_is_wrong_at_a_drawn_distance_from_a_kink(kink, rng):
+    places = rng.choice([-1, 1], 40) * 10.0 ** rng.uniform(-10, -3, 40)
+    assert [found for away in places if (found := wrong_slopes(kink, away))] == []
