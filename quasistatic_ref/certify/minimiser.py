@@ -341,7 +341,7 @@ class Minimiser:
         else:
             with working_precision(EXACT):
                 values = self.form.values(some, arb_mat(self.null_space))
-            implied_rows = _vanish(values)
+            implied_rows = [all(v.is_zero() for v in row) for row in values]
         return [*compress(some, implied_rows)]
 
     def _sums(self, rows: Sequence[Sequence[fmpz]]) -> list[bool]:
