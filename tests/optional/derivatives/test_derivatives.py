@@ -145,7 +145,7 @@ def test_friction_of_zero_has_a_derivative_from_above_alone():
     assert np.isnan(found.by["mu_v"].below).all()
     assert np.isfinite(found.by["mu_v"].above).all()
     assert np.isfinite(found.dq_dmu_omega).all()
-    with pytest.raises(InputError, match="along: has no one-sided .* agree on: a step nearby"):
+    with pytest.raises(InputError, match=r"along: has no one-sided .* agree on: a step nearby"):
         found.along(mu_v=[-0.1])
 
 
@@ -180,7 +180,7 @@ KINKS = {
     "a lid": (HalfSpace((0, 0, -1), 0.0), -0.1, 0.0, (1.0, 0.0)),
     "a landing": (FLOOR, 0.1 + H**2 * G, -G, (0.0, 1.0)),
 }
-"""Half-space, height of a ball [m] at which its step has a kink, gravity, slopes below and above."""
+"""Half-space, height of a ball at which its step has a kink, gravity, slopes below and above."""
 DIFFERENCES = [eps * PLACE for eps in SHARES]
 """Those that are taken of a height [m]."""
 RATIOS = {m / n for m in range(1, 7) for n in range(1, 7)}

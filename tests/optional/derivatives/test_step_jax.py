@@ -145,7 +145,7 @@ def test_second_derivatives_are_refused_in_a_sentence(twice):
 
 
 def test_forwards_a_gradient_is_one_column(monkeypatch):
-    """Its steps: q+, the same under the column, and the three of that."""
+    """Its steps: q+, the same under the column, and the four of that."""
     simulator, q, goal = floating_hand_and_body()
     step = step_jax(simulator)
     solved = []
@@ -154,9 +154,9 @@ def test_forwards_a_gradient_is_one_column(monkeypatch):
     along = lambda q, t: jax.jvp(lambda q: step(q, goal), (q,), (t,))[1]  # noqa: E731 one line
     tangent = np.linspace(-1, 1, len(q))
     one = along(q, tangent)
-    assert len(solved) == 3
+    assert len(solved) == 4
     assert_within(jax.jit(along)(q, tangent), one)
-    assert len(solved) == 6
+    assert len(solved) == 8
     assert_within(jax.jacrev(lambda q: step(q, goal))(q) @ tangent, one, JAX_GRADIENT)
 
 
