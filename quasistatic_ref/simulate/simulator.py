@@ -412,7 +412,8 @@ class Simulator(Settings, Shown):
         last = self._hessian
         if last is None or not (masses is last.masses or np.array_equal(masses, last.masses)):
             positive_definite("M_u", masses)
-            self._hessian = last = Hessian(self.h, self.K_q, masses)
+            new = Hessian(self.h, self.K_q, masses) if last is None else last.changed(masses)
+            self._hessian = last = new
         return StepData.unchecked(
             h=self.h,
             K_q=self.K_q,

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+import quasistatic_ref as qr
 from quasistatic_ref import load_scenario, solve_step
-from quasistatic_ref.certify import optimum
+from quasistatic_ref.certify import form, optimum
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.certify.working_set import WholeSystem
@@ -86,3 +87,35 @@ def test_what_differs_in_one_bit_or_starts_elsewhere_is_proved(proofs_made):
         assert not other.same_as(step)
         optimum.optimum_by_groups(other, [(part[0], other)], [[0]], kept)
     assert len(proofs_made) == 6
+
+
+ARM = """<robot name="arm"><link name="wall"/>
+  <link name="upper"><inertial><origin xyz="0 0 -1"/><mass value="1"/>
+    <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="lower"><inertial><origin xyz="0 0 -1"/><mass value="1"/>
+    <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="shoulder" type="continuous"><parent link="wall"/><child link="upper"/>
+    <axis xyz="0 1 0"/></joint>
+  <joint name="elbow" type="continuous"><parent link="upper"/><child link="lower"/>
+    <origin xyz="0 0 -2"/><axis xyz="0 1 0"/></joint>
+</robot>"""
+
+
+@pytest.mark.parametrize("swings", [False, True])
+def test_each_of_40_unlike_bodies_is_inverted_once(monkeypatch, swings):
+    """Also beside an arm, whose masses change from step to step."""
+    inverted = []
+    inverse = form.inverse
+    monkeypatch.setattr(form, "inverse", lambda H: inverted.append(H) or inverse(H))
+    ball = qr.Sphere(0.02)
+    masses = np.linspace(0.2, 0.3, 40)
+    bodies = [qr.Body.of_shape(f"{m}", ball, m, xyz=(10 * m, 0, 0.02)) for m in masses]
+    arm = qr.Body("arm", ARM, base="fixed", actuated=())
+    system = qr.System([*bodies, arm] if swings else bodies)
+    floor = qr.PlacedShape.in_world("floor", qr.HalfSpace((0, 0, 1), 0.0))
+    pairs = [qr.ContactPair(one.name, floor, one, 0.5, 0.01) for one in system.shapes]
+    simulator = qr.Simulator(system, pairs, h=0.02, backend="none")
+    q = system.q_start
+    for k in range(1, 4):
+        q = simulator.step(q, [], np.full(system.n_v, 0.1 * k)).q
+        assert len(inverted) == 40 + k * swings
