@@ -14,7 +14,6 @@ import qpsolvers
 
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.solve import backends
 from quasistatic_ref.solve.choice import solver_for
 from tests.cases import cases
 from tests.closeness import assert_within
@@ -142,17 +141,6 @@ def test_a_function_takes_neither_cones_nor_costs():
     cone = qr.Extension(lambda s: [cp.norm(s.delta_q_a) <= 1e-3])
     with pytest.raises(qr.BackendError, match="function"):
         qr.solve_step(STEP, by_daqp, extension=cone)
-
-
-OTHERS = [name for name in backends.others_installed() if "gurobi" not in name]
-
-
-@pytest.mark.parametrize("name", OTHERS)
-def test_solvers_that_the_table_does_not_have_are_called_by_their_names(name):
-    """Whatever CVXPY and qpsolvers have here."""
-    solution = qr.solve_step(STEP, name)
-    assert solution.delta_q.tobytes() == EXACT.delta_q.tobytes()
-    assert solution.statistics.backend == name
 
 
 MARK = contextvars.ContextVar("MARK", default="nothing")

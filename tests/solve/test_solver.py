@@ -25,39 +25,12 @@ from quasistatic_ref.solve.step_problem import CvxpySolver
 from quasistatic_ref.solve.units import ScaledStep
 from tests.closeness import assert_same
 from tests.helpers import (
-    REQUIRED,
     changed,
     error,
     point_on_floor,
     random_step,
 )
 from tests.tolerances import OPTIMUM
-
-BY_QPSOLVERS = [name for name in installed_backends() if name.startswith("qpsolvers:")]
-BY_CVXPY = [name for name in installed_backends() if name not in {"daqp", *BY_QPSOLVERS}]
-EVERY = [
-    *((CvxpySolver, name, "cvxpy") for name in BY_CVXPY),
-    *((QpsolversSolver, name, "qpsolvers") for name in BY_QPSOLVERS),
-    (DaqpSolver, "daqp", "native"),
-    (NoSolver, "none", "none"),
-]
-every_solver = pytest.mark.parametrize(("kind", "name", "interface"), EVERY)
-
-
-@every_solver
-def test_the_result_names_the_backend_and_the_interface_that_were_asked(
-    kind, name, interface, step
-):
-    solver = solver_for(step, name)
-    assert type(solver) is kind
-    assert (solver.name, solver.interface) == (name, interface)
-    solution = solve_step(step, solver)
-    said = solution.statistics
-    assert (solution.backend, said.backend, said.interface) == (name, name, interface)
-    if name in REQUIRED:
-        assert said.status == "optimal"
-    said = solve_step(step, name).statistics
-    assert (said.backend, said.interface) == (name, interface)
 
 
 def with_mu(step, **mu):
