@@ -55,8 +55,8 @@ _HOMES = {
     "certify.residuals": "Residuals optimality_residuals",
     "optional.forces.forces": "contact_forces",
     # Any quadratic program.
-    "optional.qp.exact": "exact_qp",
-    "optional.qp.answer": "ExactQP QPInfeasible",
+    "optional.qp.exact": "exact_lp exact_ls exact_qp",
+    "optional.qp.answer": "ExactQP QPInfeasible QPNotConvex QPUnbounded",
     # A run in pictures and numbers.
     "optional.show.figures.animation": "animate",
     "optional.show.figures.draw": "draw_scene draw_scenes",
@@ -134,8 +134,17 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.optional.guests.mujoco import mujoco_step as mujoco_step
     from quasistatic_ref.optional.guests.mujoco_opinion import mujoco_opinion as mujoco_opinion
     from quasistatic_ref.optional.guests.scene import mujoco_scenario as mujoco_scenario
-    from quasistatic_ref.optional.qp.answer import ExactQP as ExactQP, QPInfeasible as QPInfeasible
-    from quasistatic_ref.optional.qp.exact import exact_qp as exact_qp
+    from quasistatic_ref.optional.qp.answer import (
+        ExactQP as ExactQP,
+        QPInfeasible as QPInfeasible,
+        QPNotConvex as QPNotConvex,
+        QPUnbounded as QPUnbounded,
+    )
+    from quasistatic_ref.optional.qp.exact import (
+        exact_lp as exact_lp,
+        exact_ls as exact_ls,
+        exact_qp as exact_qp,
+    )
     from quasistatic_ref.optional.scans.body import scanned_body as scanned_body
     from quasistatic_ref.optional.show.figures.animation import animate as animate
     from quasistatic_ref.optional.show.figures.draw import (

@@ -6,12 +6,15 @@ something fails, 2 if a file cannot be read, or cannot be judged here.
 
 ``python check_solution.py ANSWER.json`` judges a file of ``exact_qp``, which holds its program:
 minimise 1/2 x'Px + q'x subject to G x <= h, A x = b and lb <= x <= ub, with at most 100 unknowns.
+It claims an optimum, or proves that there is none: rows contradict each other, or the cost falls
+without end along a direction, or P is not convex.
 
 All numbers of the files are float64, hence fractions, and fractions they stay. A step is the
 problem  min 1/2 x'Hx - g'x  subject to  A x >= b,  where x is delta_q. A solution names rows W, its
 ``active``. Eq. (9) and A_W x = b_W are one linear system, which determines x and lam. The file is
 right if these satisfy Eqs. (10)-(12), and if its numbers are theirs, rounded once, and zero is 0.0.
-Not judged are multipliers_unique and differentiable where a row touches that bears nothing.
+Not judged are multipliers_unique and differentiable where a row touches that bears nothing, nor
+that an answer without a direction has no other optimum.
 """
 
 import hashlib
@@ -311,88 +314,223 @@ def verdicts(step, solution):
     yield "certificate", true
 
 
+def number(value, name):
+    """A finite number, or a text of one that float64 does not hold, as a fraction."""
+    if isinstance(value, str):
+        need(value and set(value) <= set("-0123456789/"), f"{name} is no fraction: {value!r}")
+        return Fraction(value)
+    return Fraction(read(value, (), name))
+
+
+def matrix(value, shape, name):
+    """A list of numbers, or of as many lists of them, as fractions."""
+    right = isinstance(value, list) and len(value) == shape[0]
+    need(right, f"{name} is no list of the right length")
+    if len(shape) == 1:
+        return [number(v, name) for v in value]
+    return [matrix(row, shape[1:], name) for row in value]
+
+
 def program_read(record):
     """A quadratic program with its answer; limits of null are infinite."""
     sizes = {name: len(read(record.get(name), list, name)) for name in ("q", "h", "b")}
     n, k, e = sizes.values()
     need(0 < n <= MOST, f"a program of {n} unknowns; at most {MOST} are judged here")
-    kinds = {"P": (n, n), "q": (n,), "G": (k, n), "A": (e, n), "b": (e,)}
-    like = {"format": {"quasistatic-ref/qp"}, "version": {1}, "status": {"optimal", "infeasible"}}
-    like |= kinds | {"h": list, "lb": list, "ub": list}
-    if record.get("status") == "infeasible":
-        like["farkas"] = {"z": [str], "y": [str], "z_box": [str]}
-    else:
-        like |= {"x": (n,), "z": (k,), "y": (e,), "z_box": (n,), "obj": (), "obj_error": ()}
-        like |= {"active": [str], "multipliers_unique": bool}
-    return read(record, like, "answer")
+    head = {"format": {"quasistatic-ref/qp"}, "version": {2}, "status": str}
+    arrays = dict.fromkeys(("P", "q", "G", "h", "A", "b", "lb", "ub"), list)
+    kinds = {"infeasible": {"farkas": dict}, "not convex": {"direction": [str]}}
+    kinds["unbounded"] = {"x": [str], "direction": [str]}
+    kinds["optimal"] = {"x": (n,), "z": (k,), "y": (e,), "z_box": (n,), "obj": (), "obj_error": ()}
+    kinds["optimal"] |= {"active": [str], "multipliers_unique": bool}
+    kinds["optimal"] |= {"least_norm": [str], "direction": [str]}
+    need(record.get("status") in kinds, f"status must be one of {[*kinds]}")
+    qp = {name: value for name, value in record.items() if name in arrays or name == "constant"}
+    others = {name: value for name, value in record.items() if name not in qp}
+    need(arrays.keys() | {"constant"} == qp.keys(), "an array of the program is missing")
+    qp |= read(others, head | kinds[record["status"]], "answer")
+    for name, shape in {"P": (n, n), "q": (n,), "G": (k, n), "A": (e, n), "b": (e,)}.items():
+        qp[name] = matrix(qp[name], shape, name)
+    qp["constant"] = number(qp["constant"], "constant")
+    return qp
 
 
 def program_rows(qp):
     """The (a, side, sign) of each a x <= side by name; those of equations have sign 0."""
     n = len(qp["q"])
-    eye = [[float(i == j) for j in range(n)] for i in range(n)]
+    eye = [[Fraction(i == j) for j in range(n)] for i in range(n)]
     sides = {"A": (qp["A"], qp["b"], 0), "G": (qp["G"], qp["h"], 1)}
     sides |= {"lb": (eye, qp["lb"], -1), "ub": (eye, qp["ub"], 1)}
     rows = {}
-    for field, (matrix, limits, sign) in sides.items():
-        need(len(matrix) == len(limits), f"{field} has another number of rows than limits")
-        for i, (a, limit) in enumerate(zip(matrix, limits, strict=True)):
+    for field, (lines, limits, sign) in sides.items():
+        need(len(lines) == len(limits), f"{field} has another number of rows than limits")
+        for i, (a, limit) in enumerate(zip(lines, limits, strict=True)):
             if limit is not None:
-                side = Fraction(read(limit, (), f"{field}[{i}]"))
-                rows[f"{field}[{i}]"] = (fractions(a), side, sign)
-    for i, (low, high) in enumerate(zip(qp["lb"], qp["ub"], strict=True)):
-        if low is not None and low == high:  # an equation
+                rows[f"{field}[{i}]"] = (
+                    a,
+                    Fraction(limit if field == "A" else number(limit, f"{field}[{i}]")),
+                    sign,
+                )
+    for i in range(n):
+        low, high = (rows.get(f"{field}[{i}]") for field in ("lb", "ub"))
+        if low and high and low[1] == high[1]:  # an equation
             rows[f"lb[{i}]"] = (*rows.pop(f"ub[{i}]")[:2], 0)
     return rows
+
+
+def solutions(M, right, n):
+    """A solution of M z = right and a basis of those of M z = 0, n unknowns; None if none."""
+    rows = [whole([*row, v])[0] for row, v in zip(M, right, strict=True)]
+    pivots, last = [], 1
+    for j in range(n):  # as Bareiss, above and below
+        k = len(pivots)
+        found = next((i for i in range(k, len(rows)) if rows[i][j]), None)
+        if found is None:
+            continue
+        rows[k], rows[found] = rows[found], rows[k]
+        head = rows[k]
+        for i, row in enumerate(rows):
+            if i != k:
+                rows[i] = [
+                    (head[j] * v - row[j] * w) // last for v, w in zip(row, head, strict=True)
+                ]
+        last = head[j]
+        pivots.append(j)
+    if any(row[-1] for row in rows[len(pivots) :]):
+        return None
+    z, basis = [Fraction(0)] * n, []
+    for row, j in zip(rows, pivots, strict=False):
+        z[j] = Fraction(row[-1], last)
+    for j in (j for j in range(n) if j not in pivots):
+        basis.append([Fraction(k == j) for k in range(n)])
+        for row, k in zip(rows, pivots, strict=False):
+            basis[-1][k] = Fraction(-row[j], last)
+    return z, basis
+
+
+def semidefinite(S):
+    """Whether a symmetric S is positive semidefinite, by elimination from its diagonal."""
+    S = [*S]
+    while S:
+        k = next((k for k, row in enumerate(S) if row[k]), None)
+        if k is None:
+            return not any(map(any, S))
+        (head, pivot), rest = (S[k], S[k][k]), [i for i in range(len(S)) if i != k]
+        if pivot < 0:
+            return False
+        S = [[S[i][j] - S[i][k] * head[j] / pivot for j in rest] for i in rest]
+    return True
+
+
+def convex(P, rows):
+    """Whether P is positive semidefinite where all equations hold."""
+    n = len(P)
+    equations = [a for a, _, sign in rows.values() if not sign]
+    _, Z = solutions(equations, [Fraction(0)] * len(equations), n)
+    return semidefinite([[dot(u, along(P, v)) for v in Z] for u in Z])
+
+
+def balanced(P, q, W, L):
+    """The x and y of P x + q + W'y = 0 where rows W and L hold, x of least norm; None if none.
+
+    And the multipliers of L that hold x against directions that P and W leave free.
+    """
+    n, k = len(q), len(W)
+    M = [[*row, *(a[i] for a, _, _ in W)] for i, row in enumerate(P)]
+    M += [[*a, *[Fraction(0)] * k] for a, _, _ in W + L]
+    found = solutions(M, [-v for v in q] + [side for _, side, _ in W + L], n + k)
+    if found is None or any(any(v[n:]) for v in found[1]):
+        return None
+    (z, free), (_, loose) = found, solutions(P + [a for a, _, _ in W], [Fraction(0)] * (n + k), n)
+    x, N = z[:n], [v[:n] for v in free]
+    w, _ = solutions([[dot(u, v) for v in N] for u in N], [-dot(u, x) for u in N], len(N))
+    x = [v + sum(t * u[i] for t, u in zip(w, N, strict=True)) for i, v in enumerate(x)]
+    held = solutions(
+        [[dot(a, u) for a, _, _ in L] for u in loose], [-dot(x, u) for u in loose], len(L)
+    )
+    return None if held is None or held[1] else (x, z[n:], held[0])
 
 
 def program_verdicts(qp):
     """Each claim of an answer to a quadratic program, and whether it holds."""
     rows, n = program_rows(qp), len(qp["q"])
-    P = [
-        [(Fraction(qp["P"][i][j]) + Fraction(qp["P"][j][i])) / 2 for j in range(n)]
-        for i in range(n)
-    ]
-    yield "P is positive definite", definite(P, 0)
-    if qp["status"] == "infeasible":
-        yield "there is no solution", contradicted(qp, rows)
+    P = [[(qp["P"][i][j] + qp["P"][j][i]) / 2 for j in range(n)] for i in range(n)]
+    q, status = qp["q"], qp["status"]
+    if status == "infeasible":
+        yield "there is no solution", contradicted(qp["farkas"], rows, n)
         return
-    q, x = fractions(qp["q"]), fractions(qp["x"])
-    W = [rows[name] for name in qp["active"] if name in rows]
-    x_y = solved(P, [-v for v in q], [a for a, _, _ in W], [side for _, side, _ in W])
-    each_once = len(W) == len(qp["active"]) == len(set(qp["active"]))
-    yield "active names independent rows", each_once and x_y is not None
-    x, y_W = x_y
+    if status != "optimal":
+        way = [number(v, "direction") for v in qp["direction"]]
+        need(len(way) == n, "direction has another length than q")
+        cost, slopes = dot(way, along(P, way)), along([a for a, _, _ in rows.values()], way)
+        signed = [(v, sign) for v, (_, _, sign) in zip(slopes, rows.values(), strict=True)]
+        if status == "not convex":
+            yield "equations leave the direction", not any(v for v, sign in signed if not sign)
+            yield "it costs less than nothing", cost < 0
+            return
+        x = [number(v, "x") for v in qp["x"]]
+        need(len(x) == n, "x has another length than q")
+        yield "x is feasible", feasible(rows, x)
+        yield "no row ends the direction", all(v * s <= 0 if s else v == 0 for v, s in signed)
+        yield "the cost falls without end", cost <= 0 and dot(along(P, x), way) + dot(q, way) < 0
+        return
+    yield "P is convex where something can move", convex(P, rows)
+    W, L = (
+        [rows[name] for name in qp[field] if name in rows] for field in ("active", "least_norm")
+    )
+    names = qp["active"] + qp["least_norm"]
+    each_once = len(W) + len(L) == len(names) == len(set(names))
+    found = (
+        definite(P, 0)
+        and not L
+        and solved(P, [-v for v in q], [a for a, _, _ in W], [side for _, side, _ in W])
+    )
+    found = (*found, []) if found else balanced(P, q, W, L)
+    yield "active names independent rows", each_once and found is not None
+    x, y_W, y_L = found
     yield "x", qp["x"] == [rounded(v) for v in x]
-    signs = [y * sign >= 0 if sign else True for y, (_, _, sign) in zip(y_W, W, strict=True)]
+    signs = [
+        y * sign >= 0 if sign else True for y, (_, _, sign) in zip(y_W + y_L, W + L, strict=True)
+    ]
     yield "signs of multipliers", all(signs)
-    at_x = along([a for a, _, _ in rows.values()], x)
-    off = [(v - side, sign) for v, (_, side, sign) in zip(at_x, rows.values(), strict=True)]
-    yield "rows", all(v * sign <= 0 if sign else v == 0 for v, sign in off)
+    yield "rows", feasible(rows, x)
     right = {"z": [0.0] * len(qp["z"]), "y": [0.0] * len(qp["y"]), "z_box": [0.0] * n}
     for name, y in zip(qp["active"], y_W, strict=True):
         field, i = name[:-1].split("[")
         right[{"G": "z", "A": "y"}.get(field, "z_box")][int(i)] = rounded(y)
     yield "multipliers", all(qp[name] == values for name, values in right.items())
-    value = dot(x, along(P, x)) / 2 + dot(q, x)
+    value = dot(x, along(P, x)) / 2 + dot(q, x) + qp["constant"]
     yield "obj", abs(value - Fraction(qp["obj"])) <= Fraction(qp["obj_error"])
-    idle = [v for name, (v, _) in zip(rows, off, strict=True) if name not in qp["active"]]
+    idle = [dot(a, x) - side for name, (a, side, _) in rows.items() if name not in qp["active"]]
     yield "multipliers_unique", qp["multipliers_unique"] or 0 in idle  # false: not judged
+    if qp["direction"]:  # without one: whether there is another optimum is not judged
+        way = [number(v, "direction") for v in qp["direction"]]
+        need(len(way) == n, "direction has another length than q")
+        bear = {name for name, y in zip(qp["active"], y_W, strict=True) if y}
+        free = any(way) and not any(along(P, way)) and dot(q, way) == 0
+        for name, (a, side, sign) in rows.items():
+            slope = dot(a, way)
+            if slope and (name in bear or not sign or (dot(a, x) == side and slope * sign > 0)):
+                free = False
+        yield "direction", free
 
 
-def contradicted(qp, rows):
-    """Whether the multipliers of a proof add rows up to 0 <= something negative."""
-    proof = [(f"G[{i}]", text) for i, text in enumerate(qp["farkas"]["z"])]
-    proof += [(f"A[{i}]", text) for i, text in enumerate(qp["farkas"]["y"])]
-    for i, text in enumerate(qp["farkas"]["z_box"]):
-        upper = not text.startswith("-") and f"ub[{i}]" in rows
-        proof.append((f"ub[{i}]" if upper else f"lb[{i}]", text))
-    need(all(set(text) <= set("-0123456789/") for _, text in proof), "farkas has no fractions")
-    used = [(name, Fraction(text)) for name, text in proof if text != "0"]
-    if any(name not in rows or v * rows[name][2] < 0 for name, v in used):
-        return False
-    total = [sum(v * rows[name][0][i] for name, v in used) for i in range(len(qp["q"]))]
-    return not any(total) and sum(v * rows[name][1] for name, v in used) < 0
+def feasible(rows, x):
+    """Whether x satisfies all rows."""
+    off = zip(along([a for a, _, _ in rows.values()], x), rows.values(), strict=True)
+    return all((v - side) * sign <= 0 if sign else v == side for v, (_, side, sign) in off)
+
+
+def contradicted(factors, rows, n):
+    """Whether rows times the factors of a proof add up to 0 <= something negative."""
+    total, limit = [Fraction(0)] * n, Fraction(0)
+    for name, text in factors.items():
+        need(name in rows, f"farkas names {name}, which is no limit of the program")
+        v, (a, side, sign) = number(text, "farkas"), rows[name]
+        if v < 0 and sign:
+            return False
+        way = -v if name.startswith("lb") else v
+        total, limit = [t + way * w for t, w in zip(total, a, strict=True)], limit + way * side
+    return not any(total) and limit < 0
 
 
 def main(*paths):

@@ -5,7 +5,8 @@ independent, and where some of them are, one that is no sum of these modulo the 
 depends modulo the prime is a guess, which elimination in whole numbers proves for few rows.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import count
 from typing import Final
 
 from flint import fmpz, fmpz_mat, nmod, nmod_mat
@@ -13,15 +14,21 @@ from flint import fmpz, fmpz_mat, nmod, nmod_mat
 PRIME: Final = 2**61 - 1
 
 
-def independent_modulo(rows: Sequence[Sequence[fmpz]]) -> list[int]:
+def primes() -> Iterator[int]:
+    """``PRIME`` and ever smaller primes: what one divides by chance, the next does not."""
+    return (p for p in count(PRIME, -2) if fmpz(p).is_prime())
+
+
+def independent_modulo(rows: Sequence[Sequence[fmpz]], prime: int = PRIME) -> list[int]:
     """Places of rows that are independent, each the first that is so of those before it [-].
 
     Parameters
     ----------
     rows : sequence of list of fmpz
         Of one length.
+    prime : int
     """
-    columns, rank = _eliminated(rows)
+    columns, rank = _eliminated(rows, prime)
     chosen: list[int] = []
     for place, column in enumerate(columns):
         if len(chosen) < rank and column[len(chosen)]:
@@ -55,10 +62,10 @@ def supports_modulo(
     ]
 
 
-def _eliminated(rows: Sequence[Sequence[fmpz]]) -> tuple[list[list[nmod]], int]:
-    """Rows as columns of a matrix in reduced echelon form modulo the prime, and its rank."""
+def _eliminated(rows: Sequence[Sequence[fmpz]], prime: int = PRIME) -> tuple[list[list[nmod]], int]:
+    """Rows as columns of a matrix in reduced echelon form modulo a prime, and its rank."""
     if not (rows and rows[0]):
         return [[] for _ in rows], 0
     whole = fmpz_mat(len(rows), len(rows[0]), [v for row in rows for v in row])
-    reduced, rank = nmod_mat(whole.transpose(), PRIME).rref()
+    reduced, rank = nmod_mat(whole.transpose(), prime).rref()
     return reduced.transpose().tolist(), rank

@@ -95,7 +95,7 @@ def positive_sum(S: Array, terms: Iterable[tuple[Fraction, Array]]) -> bool:
     """
     if not np.isfinite(S).all():
         return False
-    if _surely_positive(S * (1 - 16 * len(S) * UNIT * np.eye(len(S)))):
+    if surely_positive(S * (1 - 16 * len(S) * UNIT * np.eye(len(S)))):
         return True
     exact = np.frompyfunc(Fraction, 1, 1)
     return _exactly_positive(sum(factor * exact(term) for factor, term in terms))
@@ -116,14 +116,14 @@ def positive_pivots(S: Array) -> bool:
         Symmetric and finite [any unit].
     """
     many = S.ndim == 2 and len(S) > MANY
-    if not many and _surely_positive(S):
+    if not many and surely_positive(S):
         return True
     if S.ndim > 2:
         return all(map(positive_pivots, S))
     blocks = _diagonal_blocks(S)
     if len(blocks) > 1:
         return all(map(positive_pivots, blocks))
-    return (many and _surely_positive(S)) or _exactly_positive(S)
+    return (many and surely_positive(S)) or _exactly_positive(S)
 
 
 def _exactly_positive(S: Any) -> bool:
@@ -131,7 +131,7 @@ def _exactly_positive(S: Any) -> bool:
     return all(exact_factor(block, DEFINITE) is not None for block in _diagonal_blocks(S))
 
 
-def _surely_positive(S: Array) -> bool:
+def surely_positive(S: Array) -> bool:
     """Whether float64 shows that all matrices (..., n, n) are positive definite [any unit]."""
     n = S.shape[-1]
     least, most = RANGE

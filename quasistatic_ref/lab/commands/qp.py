@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.quoting import listed
-from quasistatic_ref.optional.qp.answer import ExactQP, QPInfeasible
+from quasistatic_ref.optional.qp.answer import NO_OPTIMUM, Answer, ExactQP
 from quasistatic_ref.optional.qp.exact import exact_qp
 from quasistatic_ref.optional.qp.files import SUFFIXES, load_qp
 
 if TYPE_CHECKING:
     from quasistatic_ref.lab.study.row import Row
 
-Answer = ExactQP | QPInfeasible
 SETTINGS = ("default", "high")
 """The accuracies that solvers are asked for: their own, and 1e-9."""
 MOST_NAMES = 20
@@ -36,7 +35,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Exit status 0 if all is proved, 3 if the program of a file has no solution.
+    """Exit status 0 if all have an optimum, 3 if the program of a file has none.
 
     Raises
     ------
@@ -58,7 +57,7 @@ def run(options: argparse.Namespace) -> int:
         from quasistatic_ref.lab.study.foreign import rows_of
 
         shared.print_rows(_table(rows_of(answers, _labels(options.solvers), SETTINGS)))
-    return 3 if any(isinstance(answer, QPInfeasible) for answer in answers.values()) else 0
+    return 0 if all(isinstance(answer, ExactQP) for answer in answers.values()) else 3
 
 
 def _study(options: argparse.Namespace) -> int:
@@ -90,7 +89,7 @@ def _study(options: argparse.Namespace) -> int:
 def _answer(program: object) -> Answer:
     try:
         return exact_qp(program)  # type: ignore[arg-type]  # a program has all arrays
-    except QPInfeasible as proof:
+    except NO_OPTIMUM as proof:
         return proof
 
 
@@ -99,13 +98,15 @@ def _labels(names: list[str]) -> list[str]:
 
 
 def _in_words(answer: Answer) -> str:
-    if isinstance(answer, QPInfeasible):
+    if not isinstance(answer, ExactQP):
         return str(answer)
     names = answer.active
     more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
     active = f"{', '.join(names[:MOST_NAMES])}{more}" if names else "none"
-    unique = "unique" if answer.multipliers_unique else "not unique"
-    return f"proved: objective {answer.obj!r}; active: {active}; multipliers {unique}"
+    x, multipliers = (
+        "unique" if only else "not unique" for only in (answer.x_unique, answer.multipliers_unique)
+    )
+    return f"proved: objective {answer.obj!r}; active: {active}; x {x}; multipliers {multipliers}"
 
 
 def _table(rows: list["Row"]) -> list[tuple[str, ...]]:

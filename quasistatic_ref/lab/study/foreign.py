@@ -11,7 +11,7 @@ from quasistatic_ref.lab.study.row import Row
 from quasistatic_ref.lab.study.run import measured, plan
 from quasistatic_ref.lab.study.solvers import settings_of, solvers_of
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.qp.answer import ExactQP, QPInfeasible
+from quasistatic_ref.optional.qp.answer import Answer, ExactQP
 from quasistatic_ref.solve.units import units_of
 from quasistatic_ref.step.standard_form import StandardForm, Units
 
@@ -24,13 +24,13 @@ class Foreign:
     ----------
     id : str
         Its name.
-    answer : ExactQP or QPInfeasible
+    answer : ExactQP, or the proof that there is none
     dial : None
         It is of no family with a dial [-].
     """
 
     id: str
-    answer: ExactQP | QPInfeasible
+    answer: Answer
     dial: float | None = None
 
     @property
@@ -63,13 +63,13 @@ class Foreign:
         return self.answer.digits(x)
 
 
-def known(answers: Mapping[str, ExactQP | QPInfeasible]) -> list[Foreign]:
+def known(answers: Mapping[str, Answer]) -> list[Foreign]:
     """Answers by name as problems of a study."""
     return [Foreign(name, answer) for name, answer in answers.items()]
 
 
 def rows_of(
-    answers: Mapping[str, ExactQP | QPInfeasible], solvers: Sequence[str], settings: Sequence[str]
+    answers: Mapping[str, Answer], solvers: Sequence[str], settings: Sequence[str]
 ) -> list[Row]:
     """The rows of a study that is not kept."""
     chosen = solvers_of(solvers)

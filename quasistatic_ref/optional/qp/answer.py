@@ -1,43 +1,44 @@
-"""What ``exact_qp`` gives: the optimum, or the proof of none; and how each is checked."""
+"""What ``exact_qp`` gives: the optimum, or the proof that there is none."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from flint import arb, arb_mat, fmpq
+from flint import fmpq
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.farkas import fractions_read
-from quasistatic_ref.certify.form import EXACT, PRECISION, ExactForm, exact_matrix, fraction
-from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
-from quasistatic_ref.certify.norm import digits_of_error
-from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
-from quasistatic_ref.certify.verification import unique_and_smooth, wrong_sign
-from quasistatic_ref.certify.working_set import Point, fraction_point
-from quasistatic_ref.errors import InputError, QuasistaticError
+from quasistatic_ref.certify.verdict import Verdict
+from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.formats.plain import Plain, field_values
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.numbers.arrays import Array, checked_numbers
-from quasistatic_ref.numbers.precision import check_arithmetic, nearest_fraction, working_precision
-from quasistatic_ref.optional.qp.program import QuadraticProgram
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.precision import nearest_fraction
+from quasistatic_ref.optional.qp.digits import correct_digits, multiplier_digits
+from quasistatic_ref.optional.qp.numbers import texts
+from quasistatic_ref.optional.qp.program import FIELDS, QuadraticProgram
+from quasistatic_ref.optional.qp.verdict import Proof, optimum_verdict
 
 QP_FORMAT: Final = "quasistatic-ref/qp"
-VERSION: Final = 1
+VERSION: Final = 2
 MOST_NAMES: Final = 8
 """Names of rows that a sentence lists."""
+MOST_TERMS: Final = 6
+"""Terms of a direction that a sentence shows."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ExactQP(Plain, Shown):
     """The optimum of a quadratic program; every number of x, z, y and z_box is rounded correctly.
+
+    Of several optima, x is the one of least norm.
 
     Parameters
     ----------
@@ -52,10 +53,14 @@ class ExactQP(Plain, Shown):
     obj, obj_error : float
         1/2 x'Px + q'x of the exact x, and a bound of the error of `obj`.
     active : tuple of str
-        Rows that hold x where it is, as ``"G[3]"``, ``"A[0]"``, ``"lb[2]"`` and ``"ub[2]"``: they
-        are independent, and all others have multipliers of zero. Where lb = ub the row is lb's.
+        Rows that bear, as ``"G[3]"``, ``"A[0]"``, ``"lb[2]"`` and ``"ub[2]"``: they are
+        independent, and all others have multipliers of zero. Where lb = ub the row is lb's.
     multipliers_unique : bool
         Whether z, y and z_box are the only ones.
+    least_norm : tuple of str
+        Further rows that hold x where it is among several optima.
+    direction : tuple of str
+        Whole numbers, n of them, that lead from x to other optima; empty if there are none.
 
     Examples
     --------
@@ -75,56 +80,35 @@ class ExactQP(Plain, Shown):
     obj_error: float
     active: tuple[str, ...]
     multipliers_unique: bool
+    least_norm: tuple[str, ...] = ()
+    direction: tuple[str, ...] = ()
+
+    @property
+    def x_unique(self) -> bool:
+        """Whether x is the only optimum."""
+        return not self.direction
 
     def digits(self, x: ArrayLike) -> float:
-        """Correct digits of somebody's x, shape (n,): 0 to 16, and 0 for what is not finite.
+        """Correct digits of an x, shape (n,): 0 to 16, and 0 for what is not finite.
 
-        -log10 of ||x - x*||_P over the longer of ||x*||_P and ||P^-1 q||_P, with
-        ||v||_P^2 = v'Pv: x* is the optimum, -P^-1 q the optimum without any row.
+        Where P is positive definite: -log10 of ||x - x*||_P over the longer of ||x*||_P and
+        ||P^-1 q||_P, with ||v||_P^2 = v'Pv; x* is the optimum, -P^-1 q the optimum without any
+        row. Elsewhere the largest counts of ||x - x*||_P, `|q'(x - x*)|` and the violations of
+        rows, each over the size of its terms: all optima have 16 digits.
         """
-        off = _numbers(x, "x", len(self.x))
-        return self._digits(
-            _column(off[block.coordinates]) - _column(self.x[block.coordinates])
-            for block in self.problem.blocks
-        )
+        return correct_digits(self.problem, self.x, x)
 
     def digits_of_multipliers(
-        self, z: ArrayLike = (), y: ArrayLike = (), z_box: ArrayLike | None = None
+        self, z: ArrayLike | None = (), y: ArrayLike | None = (), z_box: ArrayLike | None = ()
     ) -> float:
-        """Correct digits of somebody's multipliers, by what they do to x: 0 to 16 [-].
+        """Correct digits of multipliers, 0 to 16 [-]; empty ones are zero.
 
-        As :meth:`digits`, of P^-1 (G'z + A'y + z_box): it is unique where multipliers are not.
+        Where P is positive definite, by what they do to x: as :meth:`digits`, of
+        P^-1 (G'z + A'y + z_box), which is unique where multipliers are not. Elsewhere by the
+        largest of the residual of P x* + q + G'z + A'y + z_box = 0, of wrong signs, and of the
+        gap, each over the size of its terms.
         """
-        problem = self.problem
-        n = len(problem.q)
-        given = {"z": z, "y": y, "z_box": np.zeros(n) if z_box is None else z_box}
-        parts = [_numbers(given[name], name, size) for name, size in problem.sizes.items()]
-        eye = np.eye(n)
-        matrix = exact_matrix(np.concatenate([problem.G, problem.A, eye, eye]).T)
-        with working_precision(EXACT):
-            force = (matrix * _column(np.concatenate([*parts, problem.q]))).entries()
-        return self._digits(
-            block.form.H_inverse * arb_mat([[force[i]] for i in block.coordinates])
-            + _column(self.x[block.coordinates])
-            for block in problem.blocks
-        )
-
-    def _digits(self, errors: Iterable[arb_mat]) -> float:
-        """Correct digits from the errors of each block."""
-        with working_precision(PRECISION):
-            off = arb(0)
-            length = arb(0)
-            free = arb(0)
-            for block, error in zip(self.problem.blocks, errors, strict=True):
-                x = _column(self.x[block.coordinates])
-                off += _square(error, block.form.H * error)
-                length += _square(x, block.form.H * x)
-                free += _square(block.form.g, block.form.inverse(PRECISION).free)
-            longer = max(length.mid(), free.mid())
-            if not longer > 0:
-                return digits_of_error(0.0 if off == 0 else math.inf)
-            share = float((off / longer).mid())
-            return digits_of_error(math.sqrt(share) if share >= 0 else math.nan)
+        return multiplier_digits(self.problem, self.x, {"z": z, "y": y, "z_box": z_box})
 
     def save(self, path: str | Path) -> Path:
         """Write the problem and this answer as one JSON file, whole or not at all.
@@ -136,7 +120,8 @@ class ExactQP(Plain, Shown):
 
     def verdict(self) -> Verdict:
         """Whether all numbers of the answer are proved, checked without a solver."""
-        return _optimum_verdict(self)
+        claims = field_values(self)
+        return optimum_verdict(replace(claims.pop("problem")), claims)
 
 
 class QPInfeasible(QuasistaticError):
@@ -145,15 +130,14 @@ class QPInfeasible(QuasistaticError):
     Parameters
     ----------
     problem : QuadraticProgram
-    exact : mapping of str to sequence of str
-        The proof (Farkas) in fractions ``"p/q"``: z >= 0, y and z_box with G'z + A'y + z_box = 0,
-        and h'z + b'y plus what z_box asks of the bounds (ub where it is positive, lb where it is
-        negative) is negative.
+    exact : mapping of str to str
+        The proof (Farkas): by row a factor ``"p/q"``, positive but of equations. G x <= h,
+        A x = b, -x <= -lb and x <= ub times these add up to 0 <= a negative number.
 
     Attributes
     ----------
     z, y, z_box : ndarray, shapes (k,), (e,) and (n,)
-        The proof, each number rounded correctly.
+        The proof as multipliers, each number rounded correctly.
     rows : tuple of str
         The rows that contradict each other, as of :class:`ExactQP`.
 
@@ -166,193 +150,187 @@ class QPInfeasible(QuasistaticError):
     ('G[0]', 'G[1]') [1.0, 1.0]
     """
 
-    def __init__(self, problem: QuadraticProgram, exact: Mapping[str, Sequence[str]]) -> None:
+    status = "infeasible"
+
+    def __init__(self, problem: QuadraticProgram, exact: Mapping[str, str]) -> None:
         self.problem = problem
-        self.exact = {name: tuple(exact[name]) for name in ("z", "y", "z_box")}
-        self.z, self.y, self.z_box = (
-            np.array([nearest_fraction(v) for v in fractions_read(texts) or []])
-            for texts in self.exact.values()
-        )
-        self.rows = tuple(problem.rows.names[i] for i in _used_rows(problem, self.exact))
-        super().__init__(
-            f"the program has no solution: {self._in_words()} (proved without rounding)"
-        )
+        self.exact = dict(exact)
+        self.rows = tuple(name for name in problem.rows.names if name in exact)
+        factors = np.zeros(len(problem.rows.names))
+        for i, name in enumerate(problem.rows.names):
+            if name in exact and (read := fractions_read([exact[name]])):
+                way = -1 if name.startswith("A[") else 1
+                factors[i] = way * nearest_fraction(read[0])
+        multipliers = problem.multipliers(factors)
+        self.z, self.y, self.z_box = multipliers["z"], multipliers["y"], multipliers["z_box"]
+        super().__init__("the program has no solution")
+
+    def __str__(self) -> str:
+        if reason := self.verdict().reason:
+            return f"the program is said to have no solution, but {reason}"
+        return f"the program has no solution: {self._in_words()} (proved without rounding)"
 
     def _in_words(self) -> str:
-        if len(self.rows) != 1:
-            more = len(self.rows) - MOST_NAMES
-            names = [*self.rows[:MOST_NAMES], *([f"{more} more rows"] if more > 0 else [])]
-            return f"{listed(names or ['no rows'])} contradict each other"
-        (i,) = np.flatnonzero([*self.z, *self.y])
-        side = [*self.problem.h, *self.problem.b][i]
-        relation = "<=" if i < len(self.z) else "="
-        return f"{self.rows[0]} asks for 0 {relation} {side:.3g}"
+        rows = self.problem.rows
+        places = [rows.names.index(name) for name in self.rows]
+        if len(places) == 1 and not rows.a[places].any():
+            (i,) = places
+            side = rows.c[i] if rows.names[i][0] == "G" else -rows.c[i]
+            return f"{self.rows[0]} asks for 0 {'=' if i < rows.equations else '<='} {side:.3g}"
+        more = len(self.rows) - MOST_NAMES
+        names = [*self.rows[:MOST_NAMES], *([f"{more} more rows"] if more > 0 else [])]
+        missed, largest = self._missed(places)
+        ulps = missed / np.spacing(largest)
+        by = f"{missed:.2g}"
+        if ulps < MOST_ULPS:
+            by += f", {ulps:.2g} ulps of {largest:.3g}: decimals, as texts, may have a solution"
+        return f"{listed(names)} contradict each other by {by}"
+
+    def _missed(self, places: Sequence[int]) -> tuple[float, float]:
+        """By how much the limits miss, and the largest number of the rows."""
+        rows = self.problem.rows
+        factors = fractions_read([self.exact[name] for name in self.rows]) or []
+        block = Proof(self.problem).block
+        total = fmpq(0)
+        for i, v in zip(places, factors, strict=True):
+            way = -1 if rows.names[i].startswith("A[") else 1
+            total += way * v * block.row(i).side / block.row(i).unit
+        largest = max(np.abs(rows.a[places]).max(), np.abs(rows.c[places]).max())
+        return abs(nearest_fraction(total)), float(largest)
 
     def save(self, path: str | Path) -> Path:
         """Write the problem and this proof as one JSON file, as of :meth:`ExactQP.save`."""
-        return _saved(path, self.problem, {"status": "infeasible", "farkas": self.exact})
+        return _saved(path, self.problem, {"status": self.status, "farkas": self.exact})
 
     def verdict(self) -> Verdict:
         """Whether the proof that there is no solution holds, checked without a solver."""
-        reason = _farkas_refutation(self.problem, self.exact)
+        reason = Proof(replace(self.problem)).infeasible(self.exact)
         return Verdict(not reason, reason)
 
 
-@dataclass(frozen=True, eq=False)
-class BlockOptimum:
-    """The optimum of a block, each number rounded correctly.
+MOST_ULPS: Final = 1e4
+"""Units in the last place up to which rounding may be what makes rows contradict each other."""
+
+
+class QPUnbounded(QuasistaticError):
+    """The cost of a quadratic program falls without end; this is proved.
 
     Parameters
     ----------
-    working : sequence of int
-        The rows of the block that hold x.
-    x, y : ndarray, shapes (n,) and (k,)
-        Of the block's coordinates, and the multipliers of `working` [any unit].
-    objective : ndarray, shape (1,)
-        Of the block alone [any unit].
-    unique : bool
-        Whether the multipliers are the only ones.
+    problem : QuadraticProgram
+    exact_x, exact_direction : sequence of str
+        A feasible x, and a direction from it that no row ends and along which the cost falls
+        without end, n fractions ``"p/q"`` each.
+
+    Attributes
+    ----------
+    x, direction : ndarray, shape (n,)
+        Each number rounded correctly.
+
+    Examples
+    --------
+    >>> try:
+    ...     qr.exact_qp(np.zeros((2, 2)), [1.0, -1.0], lb=[0.0, 0.0])
+    ... except qr.QPUnbounded as error:
+    ...     print(error.direction.tolist())
+    [0.0, 1.0]
     """
 
-    working: Sequence[int]
-    x: Array
-    y: Array
-    objective: Array
-    unique: bool
+    status = "unbounded"
 
-
-def double_objective(form: ExactForm, working: Sequence[int], point: Point) -> list[arb]:
-    """Twice 1/2 x'Px + q'x at the minimiser on W, times the denominator: q'x - c_W'y.
-
-    For x'Px + q'x = x'A_W'y = -c_W'y.
-    """
-    c = [row[-1] for row in form.exact_rows(working)]
-    terms = [(form.g.entries(), point.x), (c, point.y)]
-    return [-sum((u * v for us, vs in terms for u, v in zip(us, vs, strict=True)), arb(0))]
-
-
-def joined(problem: QuadraticProgram, optima: Sequence[BlockOptimum]) -> dict[str, Any]:
-    """The fields of an answer, but its problem, from the optima of its blocks."""
-    rows = problem.rows
-    x = np.zeros(len(problem.q))
-    of_rows = np.zeros(len(rows.names))
-    active: list[int] = []
-    for block, optimum in zip(problem.blocks, optima, strict=True):
-        held = block.rows[[*optimum.working]]
-        x[block.coordinates] = optimum.x
-        of_rows[held] = optimum.y
-        active += held.tolist()
-    objectives = np.concatenate([optimum.objective for optimum in optima])
-    obj = math.fsum(objectives)
-    return {
-        "x": x,
-        **problem.multipliers(of_rows),
-        "obj": obj,
-        "obj_error": math.fsum(np.spacing(np.abs([obj, *objectives]))),
-        "active": tuple(rows.names[i] for i in sorted(active)),
-        "multipliers_unique": all(optimum.unique for optimum in optima),
-    }
-
-
-def _optimum_verdict(answer: ExactQP) -> Verdict:
-    check_arithmetic()
-    problem = answer.problem
-    names = problem.rows.names
-    unknown = [name for name in answer.active if name not in names]
-    if unknown:
-        return Verdict(False, f"active names {unknown[0]!r}, which is no row of the program")
-    optima = []
-    for block in problem.blocks:
-        form = block.form
-        working = [j for j, i in enumerate(block.rows) if names[i] in answer.active]
-        try:
-            point = fraction_point(form, working)
-        except ZeroDivisionError:
-            return Verdict(False, "the active rows are not independent")
-        with working_precision(EXACT):
-            slack = form.slacks(range(form.m), point.z)
-            double = double_objective(form, working, point)
-            twice = point.denominator * 2
-        wrong = wrong_sign(form, working, point.y, slack)
-        if wrong is not None:
-            name = names[block.rows[wrong[0]]]
-            if wrong[1] == "violated":
-                return Verdict(False, f"{name} is violated by the minimiser on the active rows")
-            return Verdict(False, f"the multiplier of {name} is {wrong[1]}")
-        left = sorted({*range(form.equations)} - {*working})
-        if Minimiser(form, tuple(working)).implied(left) != left:
-            return Verdict(False, "active leaves out an equation that does not follow from it")
-        optimum = BlockOptimum(
-            working,
-            x=rounded_quotients(point.x, point.denominator),
-            y=rounded_quotients(point.y, point.denominator),
-            objective=rounded_quotients(double, twice),
-            unique=unique_and_smooth(form, working, slack)[0],
+    def __init__(
+        self, problem: QuadraticProgram, exact_x: Sequence[str], exact_direction: Sequence[str]
+    ) -> None:
+        self.problem = problem
+        self.exact_x, self.exact_direction = tuple(exact_x), tuple(exact_direction)
+        self.x, self.direction = _rounded(exact_x), _rounded(exact_direction)
+        super().__init__(
+            f"the cost falls without end along {_direction_in_words(exact_direction)} "
+            "(proved without rounding)"
         )
-        optima.append(optimum)
-    for name, right in joined(problem, optima).items():
-        fault = wrong_bits if isinstance(right, np.ndarray) else wrong_claim
-        if reason := fault(name, getattr(answer, name), right):
-            return Verdict(False, reason)
-    return Verdict(True)
+
+    def save(self, path: str | Path) -> Path:
+        """Write the problem and this proof as one JSON file, as of :meth:`ExactQP.save`."""
+        claims = {"status": self.status, "x": self.exact_x, "direction": self.exact_direction}
+        return _saved(path, self.problem, claims)
+
+    def verdict(self) -> Verdict:
+        """Whether the proof holds, checked without a solver."""
+        proof = Proof(replace(self.problem))
+        reason = proof.unbounded(self.exact_x, self.exact_direction)
+        return Verdict(not reason, reason)
 
 
-def _farkas_refutation(problem: QuadraticProgram, exact: Mapping[str, Sequence[str]]) -> str:
-    """What is wrong with a proof that there is no solution; empty if it holds."""
-    proof = {name: fractions_read(exact[name]) for name in problem.sizes}
-    for name, numbers in proof.items():
-        size = problem.sizes[name]
-        if numbers is None or len(numbers) != size:
-            return f"{name} of the proof is no list of {size} fractions"
-    if any(v < 0 for v in proof["z"] or []):
-        return "z of the proof has a negative entry"
-    rows = problem.rows
-    used = _used_rows(problem, exact)
-    if len(used) != sum(bool(v) for numbers in proof.values() for v in numbers or []):
-        return "the proof uses a limit that is infinite"
-    sums = [fmpq(0)] * (len(problem.q) + 1)
-    for i, v in used.items():
-        entries: list[float] = [*rows.a[i].tolist(), float(rows.c[i])]
-        sums = [s + v * fraction(w) if w else s for s, w in zip(sums, entries, strict=True)]
-    *force, limit = sums
-    if any(force):
-        return "G'z + A'y + z_box is not zero"
-    return "" if limit < 0 else "the limits that the proof adds up are not negative"
+class QPNotConvex(QuasistaticError):
+    """P has a direction that equations leave and that costs less than nothing; this is proved.
+
+    Parameters
+    ----------
+    problem : QuadraticProgram
+    exact_direction : sequence of str
+        v with v'Pv < 0, A v = 0 and v_i = 0 where lb_i = ub_i, n whole numbers.
+
+    Attributes
+    ----------
+    direction : ndarray, shape (n,)
+        Each number rounded correctly.
+
+    Examples
+    --------
+    >>> try:
+    ...     qr.exact_qp([[1.0, 2.0], [2.0, 1.0]], [0.0, 0.0])
+    ... except qr.QPNotConvex as error:
+    ...     print(error.direction.tolist())
+    [1.0, -1.0]
+    """
+
+    status = "not convex"
+
+    def __init__(self, problem: QuadraticProgram, exact_direction: Sequence[str]) -> None:
+        self.problem = problem
+        self.exact_direction = tuple(exact_direction)
+        self.direction = _rounded(exact_direction)
+        super().__init__(
+            f"P as float64 holds it is not convex: {_direction_in_words(exact_direction)} costs "
+            "less than nothing; exact_ls takes factors of P, which rounding does not bend, and "
+            "exact_qp decimals as texts"
+        )
+
+    def save(self, path: str | Path) -> Path:
+        """Write the problem and this proof as one JSON file, as of :meth:`ExactQP.save`."""
+        claims = {"status": self.status, "direction": self.exact_direction}
+        return _saved(path, self.problem, claims)
+
+    def verdict(self) -> Verdict:
+        """Whether the proof holds, checked without a solver."""
+        reason = Proof(replace(self.problem)).not_convex(self.exact_direction)
+        return Verdict(not reason, reason)
 
 
-def _used_rows(problem: QuadraticProgram, exact: Mapping[str, Sequence[str]]) -> dict[int, fmpq]:
-    """The rows that a proof adds up, each with its factor: positive but that of an equation."""
-    proof = fractions_read([text for texts in exact.values() for text in texts]) or []
-    rows = problem.rows
-    factors = {
-        i: int(sign) * proof[slot]
-        for i, (slot, sign) in enumerate(zip(rows.slot.tolist(), rows.sign, strict=True))
-        if slot < len(proof)
-    }
-    return {i: v for i, v in factors.items() if v > 0 or (i < rows.equations and v)}
+Answer = ExactQP | QPInfeasible | QPUnbounded | QPNotConvex
+NO_OPTIMUM: Final = (QPInfeasible, QPUnbounded, QPNotConvex)
+"""What ``exact_qp`` raises where there is no optimum."""
+
+
+def _rounded(exact: Sequence[str]) -> Array:
+    return np.array([nearest_fraction(v) for v in fractions_read(exact) or []])
+
+
+def _direction_in_words(direction: Sequence[str]) -> str:
+    """A direction as ``x_3 - x_7``."""
+    named = [(i, v) for i, v in enumerate(fractions_read(direction) or []) if v]
+    words = ""
+    for i, v in named[:MOST_TERMS]:
+        share = nearest_fraction(v / abs(named[0][1]))
+        factor = "" if abs(share) == 1 else f"{abs(share):.6g} "
+        words += f" {'-' if share < 0 else '+'} {factor}x_{i}"
+    return words.removeprefix(" + ").strip() + (" + ..." if len(named) > MOST_TERMS else "")
 
 
 def _saved(path: str | Path, problem: QuadraticProgram, claims: Mapping[str, Any]) -> Path:
-    arrays = {
-        name: [v if math.isfinite(v) else None for v in array.tolist()]
-        if array.ndim == 1
-        else array
-        for name, array in field_values(problem).items()
-    }
+    values = field_values(problem)
+    exact = values["exact"]
+    arrays: dict[str, Any] = {name: texts(values[name], exact.get(name, {})) for name in FIELDS}
+    arrays["constant"] = texts(np.array([problem.constant]), exact.get("constant", {}))[0]
     record = {"format": QP_FORMAT, "version": VERSION} | arrays | dict(claims)
     return text_written(path, json_text(record) + "\n")
-
-
-def _numbers(value: ArrayLike, name: str, size: int) -> Array:
-    numbers = checked_numbers(value, name, InputError).reshape(-1)
-    if numbers.shape != (size,):
-        raise InputError(f"must be {size} numbers", field=name, value=numbers.shape)
-    return numbers
-
-
-def _column(numbers: Array) -> arb_mat:
-    return exact_matrix(numbers[:, None])
-
-
-def _square(u: arb_mat, v: arb_mat) -> arb:
-    return (u.transpose() * v)[0, 0]

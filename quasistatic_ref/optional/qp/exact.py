@@ -1,29 +1,31 @@
-"""``exact_qp``: the exact answer of a strictly convex quadratic program, or the proof of none."""
+"""``exact_qp``: the exact answer of a convex quadratic program, or the proof that there is none."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
-from flint import arb, fmpq
+from flint import fmpq, fmpq_mat
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.certify.active_set import Combination, dual_active_set
-from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import without_warnings
 from quasistatic_ref.numbers.precision import check_arithmetic
-from quasistatic_ref.optional.qp.answer import (
-    BlockOptimum,
-    ExactQP,
-    QPInfeasible,
-    double_objective,
-    joined,
-)
-from quasistatic_ref.optional.qp.form import Block
-from quasistatic_ref.optional.qp.guess import guessed
+from quasistatic_ref.optional.qp.answer import ExactQP, QPInfeasible, QPNotConvex, QPUnbounded
+from quasistatic_ref.optional.qp.block import Block, Convex, blocks_of
+from quasistatic_ref.optional.qp.convexity import Indefinite, convex_cost
+from quasistatic_ref.optional.qp.guess import Scaled, guessed
+from quasistatic_ref.optional.qp.numbers import as_fraction, fraction_matrix
 from quasistatic_ref.optional.qp.program import HasProgram, QuadraticProgram, program_of
+from quasistatic_ref.optional.qp.search import (
+    BlockOptimum,
+    Contradiction,
+    Endless,
+    feasible_point,
+    optimum,
+)
+from quasistatic_ref.optional.qp.verdict import joined
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -59,14 +61,17 @@ def exact_qp(
     *,
     initvals: ArrayLike | HasAnswer | None = None,
 ) -> ExactQP:
-    """The exact optimum of a strictly convex quadratic program, each number rounded correctly.
+    """The exact optimum of a convex quadratic program, each number rounded correctly.
 
     Minimise 1/2 x'Px + q'x subject to G x <= h, A x = b, lb <= x <= ub: the words of qpsolvers.
+    Of several optima, the one of least norm. Numbers may be fractions, or texts: ``"0.1"`` is a
+    tenth, and whole numbers of any size are themselves.
 
     Parameters
     ----------
     P : array_like or sparse, shape (n, n), or ``qpsolvers.Problem``
-        Its symmetric part counts, and must be positive definite. A problem has all of the arrays.
+        Symmetric but for rounding, which its symmetric part removes; positive semidefinite where
+        equations and fixed variables let something move. A problem has all of the arrays.
     q : array_like, shape (n,)
     G, h : array_like, shapes (k, n) and (k,), optional
         An infinite h is no inequality.
@@ -83,11 +88,11 @@ def exact_qp(
 
     Raises
     ------
-    QPInfeasible
-        If no x satisfies the rows, with the proof.
+    QPInfeasible, QPUnbounded, QPNotConvex
+        If no x satisfies the rows, the cost falls without end, or P is not convex: with the proof.
     InputError
-        If P is not positive definite, without rounding; if an array is not what it should be; if
-        the answer is beyond the range of float64; or if nothing can be proved in this thread.
+        If an array is not what it should be; if the answer is beyond the range of float64; or if
+        nothing can be proved in this thread.
 
     Examples
     --------
@@ -95,13 +100,146 @@ def exact_qp(
     >>> answer.x.tolist(), answer.active, round(answer.digits([-0.500001, -0.5]))
     ([-0.5, -0.49999999999999956], ('lb[0]',), 6)
     """
-    program = program_of(P, q, G, h, A, b, lb, ub)
+    return _answer(program_of(P, q, G, h, A, b, lb, ub), initvals)
+
+
+def exact_ls(
+    R: ArrayLike | Sparse,
+    s: ArrayLike,
+    G: Matrix = None,
+    h: ArrayLike | None = None,
+    A: Matrix = None,
+    b: ArrayLike | None = None,
+    lb: ArrayLike | None = None,
+    ub: ArrayLike | None = None,
+    W: Matrix = None,
+    *,
+    q: ArrayLike | None = None,
+    D: Matrix = None,
+    initvals: ArrayLike | HasAnswer | None = None,
+) -> ExactQP:
+    """The exact optimum of a cost by factors: as :func:`exact_qp`, with P formed without rounding.
+
+    Minimise 1/2 (R x - s)'W (R x - s) + 1/2 x'Dx + q'x, as ``qpsolvers.solve_ls`` does without D
+    and q. A covariance X'X of fewer samples than assets is singular so, and not indefinite.
+
+    Parameters
+    ----------
+    R, s : array_like, shapes (r, n) and (r,)
+    G, h, A, b, lb, ub, initvals
+        As of :func:`exact_qp`.
+    W : array_like, shape (r, r), optional
+        Of each residual one by default.
+    q : array_like, shape (n,), optional
+    D : array_like, shape (n, n) or (n,), optional
+        A vector is a diagonal.
+
+    Returns
+    -------
+    ExactQP
+
+    Raises
+    ------
+    QPInfeasible, QPUnbounded, QPNotConvex, InputError
+        As of :func:`exact_qp`.
+
+    Examples
+    --------
+    >>> qr.exact_ls([["0.1", "0.7"]], [1.0], lb=[0.0, 0.0]).x.tolist()
+    [0.2, 1.4]
+    """
+    of_R, of_s = fraction_matrix(R, "R"), fraction_matrix(s, "s")
+    r, n = of_R.nrows(), of_R.ncols()
+    of_s = fmpq_mat(of_s.nrows() * of_s.ncols(), 1, of_s.entries())
+    of_W = of_R if W is None else fraction_matrix(W, "W")
+    if of_s.nrows() != r or (W is not None and (of_W.nrows(), of_W.ncols()) != (r, r)):
+        raise InputError(f"must be of {r} residuals, as R says", field="s or W")
+    weighed = of_R.transpose() if W is None else of_R.transpose() * of_W
+    P, slope = weighed * of_R, weighed * of_s
+    size = (of_s.transpose() * (of_s if W is None else of_W * of_s))[0, 0]
+    others = [fraction_matrix(v, k) for k, v in (("D", D), ("q", q)) if v is not None]
+    if D is not None:
+        add = others.pop(0)
+        if 1 in (add.nrows(), add.ncols()):
+            add = fmpq_mat(
+                [[v * int(i == j) for j in range(n)] for i, v in enumerate(add.entries())]
+            )
+        P = P + add
+    linear = others[0].entries() if others else [fmpq(0)] * n
+    arrays = (
+        [[*map(as_fraction, row)] for row in P.tolist()],
+        [as_fraction(v - w) for v, w in zip(linear, slope.entries(), strict=True)],
+    )
+    program = program_of(*arrays, G, h, A, b, lb, ub, constant=as_fraction(size / 2))
+    return _answer(program, initvals)
+
+
+def exact_lp(
+    c: ArrayLike,
+    A_ub: Matrix = None,
+    b_ub: ArrayLike | None = None,
+    A_eq: Matrix = None,
+    b_eq: ArrayLike | None = None,
+    bounds: Any = (0, None),
+    integrality: ArrayLike | None = None,
+) -> ExactQP:
+    """The exact optimum of a linear program, of least norm, in the words of SciPy's ``linprog``.
+
+    Minimise c'x subject to A_ub x <= b_ub, A_eq x = b_eq and bounds, which are x >= 0 if they are
+    left out. It is ``exact_qp`` with P = 0; of several optima, x is generally no vertex.
+
+    Parameters
+    ----------
+    c, A_ub, b_ub, A_eq, b_eq : array_like
+        Shapes (n,), (k, n), (k,), (e, n) and (e,).
+    bounds : sequence of (least, most), or one such pair for all
+        None or NaN where there is none.
+    integrality
+        Refused unless it is zero.
+
+    Returns
+    -------
+    ExactQP
+
+    Raises
+    ------
+    QPInfeasible, QPUnbounded, InputError
+        As of :func:`exact_qp`.
+
+    Examples
+    --------
+    >>> qr.exact_lp([-1.0, -2.0], A_ub=[[1.0, 1.0]], b_ub=["0.1"]).obj
+    -0.2
+    """
+    if integrality is not None and np.any(integrality):
+        raise InputError("is for whole numbers, which are not solved for", field="integrality")
+    n = np.size(c)
+    pairs = np.array((0, None) if bounds is None or not np.size(bounds) else bounds, dtype=object)
+    if pairs.shape not in ((2,), (1, 2), (n, 2)):
+        raise InputError(f"must be a pair, or {n} pairs", field="bounds", value=pairs.shape)
+    limits = [
+        [end if v is None or v != v else v for v in column]
+        for column, end in zip(np.broadcast_to(pairs, (n, 2)).T, (-np.inf, np.inf), strict=True)
+    ]
+    return exact_qp(np.zeros((n, n)), c, A_ub, b_ub, A_eq, b_eq, *limits)
+
+
+def _answer(program: QuadraticProgram, initvals: Any) -> ExactQP:
     check_arithmetic()
-    optima = []
-    for block in program.blocks:
-        guess = guessed(program, block, initvals)
-        optima.append(without_warnings(_of_block, program, block, guess))
-    fields = joined(program, optima)
+    blocks = blocks_of(program)
+    costs = [without_warnings(_convex, program, block) for block in blocks]
+    optima: list[BlockOptimum] = []
+    endless: tuple[Block, Endless] | None = None
+    for block, convex in zip(blocks, costs, strict=True):
+        try:
+            optima.append(without_warnings(_of_block, program, block, convex, initvals))
+        except Contradiction as end:
+            raise QPInfeasible(program, _proof(program, block, end)) from None
+        except Endless as end:
+            endless = block, end
+    if endless is not None:
+        raise _unbounded(program, blocks, *endless)
+    fields = joined(program, blocks, optima)
     for name in ("x", "obj", "z", "y", "z_box"):
         if not np.isfinite(fields[name]).all():
             problem = f"{name} of the optimum is beyond the range of float64; choose other units"
@@ -109,27 +247,43 @@ def exact_qp(
     return ExactQP(program, **fields)
 
 
-def _of_block(program: QuadraticProgram, block: Block, guess: list[int]) -> BlockOptimum:
-    form = block.form
-    end = dual_active_set(form, guess)
-    if isinstance(end, Combination):
-        raise QPInfeasible(program, _proof(program, block, end))
-    working = end.working
-    return BlockOptimum(
-        working,
-        x=end.rounded(lambda point: point.x),
-        y=end.rounded(lambda point: point.y),
-        objective=end.rounded(lambda point: double_objective(form, working, point), arb(2)),
-        unique=degeneracy(form, working, end.implied_rows, end.tight_rows)[0],
-    )
+def _convex(program: QuadraticProgram, block: Block) -> Convex:
+    try:
+        return convex_cost(block)
+    except Indefinite as found:
+        entries = dict(zip(block.coordinates.tolist(), found.direction, strict=True))
+        texts = [str(entries.get(j, 0)) for j in range(len(program.q))]
+        raise QPNotConvex(program, texts) from None
 
 
-def _proof(program: QuadraticProgram, block: Block, end: Combination) -> dict[str, Sequence[str]]:
-    """A contradiction of rows of a block in the words of qpsolvers, its largest entry one."""
-    largest = max(abs(v) for v in end.y.values())
-    proof = [fmpq(0)] * sum(program.sizes.values())
-    rows = program.rows
-    for j, v in end.y.items():
-        i = block.rows[j]
-        proof[int(rows.slot[i])] += int(rows.sign[i]) * v / largest
-    return program.split([str(v) for v in proof])
+def _of_block(
+    program: QuadraticProgram, block: Block, convex: Convex, initvals: Any
+) -> BlockOptimum:
+    at = block.coordinates
+    square = program.P[np.ix_(at, at)]
+    P = square / 2 + square.T / 2
+    scaled = Scaled(P, program.q[at], block.a, 0.0 - block.c, block.equations)
+    return optimum(block, convex, guessed(program, block, scaled, initvals))
+
+
+def _proof(program: QuadraticProgram, block: Block, end: Contradiction) -> dict[str, str]:
+    """The factors of rows that contradict each other, the largest one."""
+    largest = max(abs(v) for v in end.factors.values())
+    names = program.rows.names
+    by_name = {names[block.rows[i]]: v / largest for i, v in sorted(end.factors.items()) if v}
+    return {name: str(-v if name.startswith("A[") else v) for name, v in by_name.items()}
+
+
+def _unbounded(
+    program: QuadraticProgram, blocks: Sequence[Block], endless: Block, end: Endless
+) -> QPUnbounded:
+    """The proof of one block, at a feasible point of all."""
+    n = len(program.q)
+    x, direction = [fmpq(0)] * n, [fmpq(0)] * n
+    for block in blocks:
+        point = end.x if block is endless else without_warnings(feasible_point, block)
+        for j, v in zip(block.coordinates.tolist(), point, strict=True):
+            x[j] = v
+    for j, v in zip(endless.coordinates.tolist(), end.direction, strict=True):
+        direction[j] = v
+    return QPUnbounded(program, [*map(str, x)], [*map(str, direction)])

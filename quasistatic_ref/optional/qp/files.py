@@ -11,12 +11,19 @@ from typing import Any, Final
 
 import numpy as np
 
-from quasistatic_ref.certify.farkas import fractions_read
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.files.content import json_read
 from quasistatic_ref.files.npz import npz_arrays
 from quasistatic_ref.files.table_reader import TableReader
-from quasistatic_ref.optional.qp.answer import QP_FORMAT, VERSION, ExactQP, QPInfeasible
+from quasistatic_ref.optional.qp.answer import (
+    QP_FORMAT,
+    VERSION,
+    Answer,
+    ExactQP,
+    QPInfeasible,
+    QPNotConvex,
+    QPUnbounded,
+)
 from quasistatic_ref.optional.qp.program import FIELDS, NO_LIMIT, QuadraticProgram, program_of
 
 SUFFIXES: Final = (".npz", ".mat", ".parquet", ".json")
@@ -61,7 +68,7 @@ def load_qp(path: str | Path) -> dict[str, QuadraticProgram]:
         return {name: program_of(*(table.get(f) for f in FIELDS)) for name, table in tables.items()}
 
 
-def load_answer(path: str | Path) -> ExactQP | QPInfeasible:
+def load_answer(path: str | Path) -> Answer:
     """A file of ``save``: nothing of what it claims is believed until it is verified.
 
     Raises
@@ -73,30 +80,32 @@ def load_answer(path: str | Path) -> ExactQP | QPInfeasible:
         return _answer(TableReader(json_read(path)))
 
 
-def _answer(top: TableReader) -> ExactQP | QPInfeasible:
+def _answer(top: TableReader) -> Answer:
     top.check_format(QP_FORMAT, VERSION)
-    program = program_of(*(_limits(field, top.take(field)) for field in FIELDS))
-    sizes = program.sizes
-    if top.text("status", choices=("optimal", "infeasible")) == "infeasible":
+    arrays = [_limits(field, top.take(field)) for field in FIELDS]
+    program = program_of(*arrays, constant=top.take("constant"))
+    status = top.text("status", choices=("optimal", "infeasible", "unbounded", "not convex"))
+    answer: Answer
+    if status == "infeasible":
         table = top.table("farkas")
-        exact = {name: table.words(name) for name in sizes}
-        for name, texts in exact.items():
-            if len(texts) != sizes[name] or fractions_read(texts) is None:
-                problem = f'must be {sizes[name]} fractions such as "-1/3"'
-                raise table.error_about(name, problem, texts)
-        table.close()
-        top.close()
-        return QPInfeasible(program, exact)
-    answer = ExactQP(
-        problem=program,
-        **{
-            name: top.array(name, (size,)) for name, size in ({"x": len(program.q)} | sizes).items()
-        },
-        obj=top.number("obj"),
-        obj_error=top.number("obj_error", least=0.0),
-        active=tuple(top.words("active")),
-        multipliers_unique=top.boolean("multipliers_unique"),
-    )
+        exact = {name: table.text(name) for name in table.names_left()}
+        answer = QPInfeasible(program, exact)
+    elif status == "unbounded":
+        answer = QPUnbounded(program, top.words("x"), top.words("direction"))
+    elif status == "not convex":
+        answer = QPNotConvex(program, top.words("direction"))
+    else:
+        sizes = {"x": len(program.q)} | program.sizes
+        answer = ExactQP(
+            problem=program,
+            **{name: top.array(name, (size,)) for name, size in sizes.items()},
+            obj=top.number("obj"),
+            obj_error=top.number("obj_error", least=0.0),
+            active=tuple(top.words("active")),
+            multipliers_unique=top.boolean("multipliers_unique"),
+            least_norm=tuple(top.words("least_norm")),
+            direction=tuple(top.words("direction")),
+        )
     top.close()
     return answer
 

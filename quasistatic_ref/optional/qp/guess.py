@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from importlib import import_module
 from typing import Any, Final
 
@@ -11,7 +12,7 @@ import numpy as np
 from quasistatic_ref.certify.active_set import warm_rows
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
-from quasistatic_ref.optional.qp.form import Block
+from quasistatic_ref.optional.qp.block import Block
 from quasistatic_ref.optional.qp.program import QuadraticProgram
 
 NEAR: Final = 1e-6
@@ -21,24 +22,28 @@ TOLERANCE: Final = 1e-11
 
 
 class Scaled:
-    """The program of a block in natural units: P with ones on its diagonal, rows of length one.
+    """A program in natural units: P with ones on its diagonal, rows of length one.
 
-    The unit of x makes the largest entry of q one, too; where q is zero, that of b.
+    Where P has a zero there, the largest entry of the column is one. The unit of x makes the
+    largest entry of q one, too; where q is zero, that of b.
 
     Parameters
     ----------
-    program : QuadraticProgram
-    block : Block
+    P, q : ndarray, shapes (n, n) and (n,)
+        P symmetric.
+    a, b : ndarray, shapes (m, n) and (m,)
+        Of a x >= b.
+    equations : int
+        How many of the first rows are a x = b.
     """
 
-    def __init__(self, program: QuadraticProgram, block: Block) -> None:
-        at = block.coordinates
-        P = program.P[np.ix_(at, at)]
-        self.P = P / 2 + P.T / 2
-        unit = 1 / np.sqrt(np.diag(self.P))
-        self.P *= np.outer(unit, unit)
-        q = program.q[at] * unit
-        a, b = block.form.inequalities
+    def __init__(self, P: Array, q: Array, a: Array, b: Array, equations: int) -> None:
+        diagonal = P.diagonal()
+        column = np.abs(a[np.count_nonzero(a, axis=1) > 1]).max(axis=0, initial=0.0)
+        column[column == 0] = 1.0
+        unit = 1 / np.where(diagonal > 0, np.sqrt(np.maximum(diagonal, 0)), column)
+        self.P = P * np.outer(unit, unit)
+        q = q * unit
         length = np.hypot.reduce(a * unit, axis=1, initial=0.0)
         self.length = np.where(length > 0, length, 1.0)
         self.a = a * unit / self.length[:, None]
@@ -47,7 +52,13 @@ class Scaled:
         self.q = q / size
         self.b = b / size
         self.unit = unit * size
-        self.equations = block.form.equations
+        self.equations = equations
+
+    @property
+    def finite(self) -> bool:
+        """Whether all numbers are in the range of float64."""
+        numbers = np.concatenate([self.a.ravel(), self.P.ravel(), self.b, self.unit])
+        return bool(np.isfinite(numbers).all())
 
     def rows(self, x: Array, lam: Array) -> list[int]:
         """The inequalities that an answer shows to bear, from x and lam in natural units."""
@@ -59,12 +70,11 @@ class Scaled:
         return [i + first for i in bear]
 
     def near(self, x: Array) -> list[int]:
-        """The inequalities that x alone shows to bear, with least-squares multipliers."""
-        slack = self.a @ x - self.b
-        held = np.flatnonzero(slack <= NEAR * (1 + np.abs(self.b)))
-        lam = np.zeros(len(self.b))
-        lam[held] = np.linalg.lstsq(self.a[held].T, self.P @ x + self.q)[0]
-        return self.rows(x, lam)
+        """The inequalities that x alone shows to bear, the least slack first."""
+        slack = (self.a @ x - self.b)[self.equations :]
+        held = np.flatnonzero(slack <= NEAR * (1 + np.abs(self.b[self.equations :])))
+        nearest: list[int] = held[np.argsort(slack[held], kind="stable")].tolist()
+        return [i + self.equations for i in nearest]
 
 
 def by_daqp(scaled: Scaled) -> tuple[Array, Array] | None:
@@ -96,47 +106,70 @@ def by_clarabel(scaled: Scaled) -> tuple[Array, Array] | None:
     return (x, np.array(answer.z)) if np.isfinite(x).all() else None
 
 
-BACKENDS: Final[tuple[Callable[[Scaled], tuple[Array, Array] | None], ...]] = (by_daqp, by_clarabel)
+def by_highs(scaled: Scaled) -> tuple[Array, Array] | None:
+    """The x, (n,), and lam, (m,), of HiGHS in natural units, where P is zero; else None."""
+    if scaled.P.any():
+        return None
+    optimize = import_module("scipy.optimize")
+    e = scaled.equations
+    arrays = {"A_ub": -scaled.a[e:], "b_ub": -scaled.b[e:]}
+    arrays |= {"A_eq": scaled.a[:e], "b_eq": scaled.b[:e]} if e else {}
+    answer = optimize.linprog(scaled.q, **arrays, bounds=(None, None), method="highs-ds")
+    if answer.status:
+        return None
+    of_equations = answer.eqlin.marginals if e else []
+    return answer.x, np.append(of_equations, -answer.ineqlin.marginals)
+
+
+BACKENDS: Final[tuple[Callable[[Scaled], tuple[Array, Array] | None], ...]] = (
+    by_daqp,
+    by_highs,
+    by_clarabel,
+)
 """Who is asked, the first first; one that is not installed has no answer."""
 
 
-def guessed(program: QuadraticProgram, block: Block, initvals: Any) -> list[int]:
-    """Rows of a block that seem to bear; none is a cold start.
+def guesses(scaled: Scaled) -> Iterator[tuple[list[int], Array]]:
+    """Rows that seem to bear, and x, (n,), as each backend sees them; none is a cold start."""
+    if not scaled.finite:
+        return
+    for answer_of in BACKENDS:
+        with suppress(ImportError):
+            answer = answer_of(scaled)
+            if answer is not None:
+                yield scaled.rows(*answer), answer[0] * scaled.unit
+
+
+def guessed(
+    program: QuadraticProgram, block: Block, scaled: Scaled, initvals: Any
+) -> Iterator[tuple[list[int], Array]]:
+    """As :func:`guesses`, from what a user gave.
 
     Parameters
     ----------
     program : QuadraticProgram
     block : Block
+    scaled : Scaled
+        The block's.
     initvals : ndarray of shape (n,), object with x, z, y and z_box, or None
-        None asks a backend.
+        None asks backends.
 
     Raises
     ------
     InputError
         If initvals is neither.
     """
-    with np.errstate(all="ignore"):
-        scaled = Scaled(program, block)
-        if not np.isfinite(np.concatenate([scaled.a.ravel(), scaled.P.ravel(), scaled.b])).all():
-            return []  # out of the range of float64
-        if initvals is None:
-            return _asked(scaled)
-        x, lam = _given(program, initvals)
-        x = x[block.coordinates] / scaled.unit
-        if lam is None:
-            return scaled.near(x)
-        return scaled.rows(x, lam[block.rows] * scaled.length)
-
-
-def _asked(scaled: Scaled) -> list[int]:
-    for answer_of in BACKENDS:
-        try:
-            answer = answer_of(scaled)
-        except ImportError:
-            continue
-        if answer is not None:
-            return scaled.rows(*answer)
-    return []
+    if initvals is None:
+        yield from guesses(scaled)
+        return
+    x, lam = _given(program, initvals)
+    of_block = x[block.coordinates]
+    if not scaled.finite:
+        return
+    if lam is None:
+        yield scaled.near(of_block / scaled.unit), of_block
+    else:
+        yield scaled.rows(of_block / scaled.unit, lam[block.rows] * scaled.length), of_block
 
 
 def _given(program: QuadraticProgram, initvals: Any) -> tuple[Array, Array | None]:

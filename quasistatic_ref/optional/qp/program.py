@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 from itertools import chain, islice
-from typing import Any, Protocol
+from typing import Any, Final, Protocol
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.numbers.arrays import Array, Indices, checked_numbers, read_only
-from quasistatic_ref.optional.qp.form import Block, blocks_of
+from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.optional.qp.numbers import exact_numbers
 
 FIELDS = ("P", "q", "G", "h", "A", "b", "lb", "ub")
 """The names of its arrays, in the order of the arguments of qpsolvers."""
 NO_LIMIT = {"h": np.inf, "lb": -np.inf, "ub": np.inf}
 """The infinite number that an array may hold: there is no limit then."""
+SYMMETRIC: Final = 1e-12
+"""Largest |P - P'| relative to the largest entry of P that rounding may leave."""
 
 
 class HasProgram(Protocol):
@@ -41,13 +45,18 @@ class QuadraticProgram(Plain, Shown):
     Parameters
     ----------
     P : ndarray, shape (n, n)
-        Its symmetric part counts.
+        Symmetric but for rounding: its symmetric part counts.
     q : ndarray, shape (n,)
     G, h : ndarray, shapes (k, n) and (k,)
         An infinite h is no inequality.
     A, b : ndarray, shapes (e, n) and (e,)
     lb, ub : ndarray, shape (n,)
         Infinite where there is no bound.
+    constant : float
+        Added to the objective.
+    exact : mapping of str to mapping of int to Fraction
+        By array and flat place, the numbers that float64 does not hold; the arrays, and the
+        constant, have the nearest ones.
     """
 
     P: Array
@@ -58,6 +67,8 @@ class QuadraticProgram(Plain, Shown):
     b: Array
     lb: Array
     ub: Array
+    constant: float = 0.0
+    exact: Mapping[str, Mapping[int, Fraction]] = field(default_factory=dict)
 
     @cached_property
     def rows(self) -> Rows:
@@ -65,6 +76,8 @@ class QuadraticProgram(Plain, Shown):
         k, e, n = len(self.h), len(self.b), len(self.q)
         eye = np.eye(n)
         fixed = self.lb == self.ub
+        low, high = (self.exact.get(name, {}) for name in ("lb", "ub"))
+        fixed[[i for i in {*low, *high} if low.get(i) != high.get(i)]] = False
         at_box = k + e
         groups = [  # name, sign and first slot of multipliers; a, c and which of them are rows
             ("A", -1, k, self.A, -self.b, np.full(e, True)),
@@ -87,7 +100,20 @@ class QuadraticProgram(Plain, Shown):
             a=np.concatenate(a),
             c=np.concatenate(c),
             equations=e + int(fixed.sum()),
+            exact=self._exact_rows(),
         )
+
+    def _exact_rows(self) -> dict[str, dict[int, Fraction]]:
+        """By row and coordinate (n is its side), what float64 does not hold."""
+        n = len(self.q)
+        rows: dict[str, dict[int, Fraction]] = {}
+        for name, side, of_a in (("G", "h", -1), ("A", "b", 1), ("lb", "lb", 0), ("ub", "ub", 0)):
+            for place, v in self.exact.get(name, {}).items() if of_a else ():
+                rows.setdefault(f"{name}[{place // n}]", {})[place % n] = of_a * v
+            of_side = 1 if side in ("h", "ub") else -1
+            for i, v in self.exact.get(side, {}).items():
+                rows.setdefault(f"{name}[{i}]", {})[n] = of_side * v
+        return rows
 
     def multipliers(self, of_rows: Array) -> dict[str, Array]:
         """The z, y and z_box of qpsolvers from `of_rows`, a multiplier of each row, (m,) [-]."""
@@ -105,11 +131,6 @@ class QuadraticProgram(Plain, Shown):
         left = iter(multipliers)
         return {name: [*islice(left, size)] for name, size in self.sizes.items()}
 
-    @cached_property
-    def blocks(self) -> list[Block]:
-        """The uncoupled blocks of the program, in exact numbers; InputError as of `blocks_of`."""
-        return blocks_of(self)
-
 
 @dataclass(frozen=True, eq=False)
 class Rows:
@@ -125,6 +146,8 @@ class Rows:
         [Any unit.]
     equations : int
         How many of the first are equations.
+    exact : mapping of str to mapping of int to Fraction
+        By name, entries of a, and c at place n, that float64 does not hold.
     """
 
     names: list[str]
@@ -133,9 +156,16 @@ class Rows:
     a: Array
     c: Array
     equations: int
+    exact: Mapping[str, Mapping[int, Fraction]]
+
+    def others(self, i: int, columns: Sequence[int]) -> dict[int, Fraction]:
+        """What float64 does not hold of row i, by place in `columns`; its side comes last."""
+        row = self.exact.get(self.names[i], {})
+        places = (*columns, self.a.shape[1]) if row else ()
+        return {t: row[j] for t, j in enumerate(places) if j in row}
 
 
-def program_of(P: Any, *arrays: Any) -> QuadraticProgram:
+def program_of(P: Any, *arrays: Any, constant: Any = 0.0) -> QuadraticProgram:
     """A program from what users give: arrays, dense or sparse, or an object that has all of them.
 
     Raises
@@ -143,40 +173,58 @@ def program_of(P: Any, *arrays: Any) -> QuadraticProgram:
     InputError
         Naming the array that is no such array.
     """
+    if isinstance(P, QuadraticProgram):
+        return P
     if all(hasattr(P, name) for name in FIELDS):
         if any(array is not None for array in arrays):
             raise InputError("P is a whole problem; give no other arrays beside it")
         P, *arrays = (getattr(P, name) for name in FIELDS)  # type: ignore[assignment]  # of Any
-    given = dict(zip(FIELDS, (P, *arrays), strict=True))
+    given = {
+        name: value if value is None else exact_numbers(value, name)
+        for name, value in zip(FIELDS, (P, *arrays), strict=True)
+    }
     for name in ("P", "q"):
         if given[name] is None:
             raise InputError("is missing", field=name)
     for matrix, side in (("G", "h"), ("A", "b")):
         if (given[matrix] is None) != (given[side] is None):
             raise InputError(f"{matrix} and {side} are given together, or not at all")
-    n = np.size(given["q"])
-    k, e = (np.size(given[name]) if given[name] is not None else 0 for name in ("h", "b"))
+    n, k, e = (pair[0].size if (pair := given[name]) else 0 for name in "qhb")
     shapes = dict(zip(FIELDS, ((n, n), (n,), (k, n), (k,), (e, n), (e,), (n,), (n,)), strict=True))
-    values = {
-        name: np.full(shape, NO_LIMIT.get(name, 0.0))
-        if given[name] is None
-        else _checked(name, given[name], shape)
-        for name, shape in shapes.items()
-    }
     if not n:
         raise InputError("must have an entry for each variable, and has none", field="q")
-    crossed = np.flatnonzero(values["lb"] > values["ub"])
-    if crossed.size:
-        i = crossed[0]
-        problem = f"is above ub[{i}] = {values['ub'][i]:g}"
-        raise InputError(problem, field=f"lb[{i}]", value=float(values["lb"][i]))
-    return QuadraticProgram(**{name: read_only(array) for name, array in values.items()})
+    values = {
+        name: np.full(shape, NO_LIMIT.get(name, 0.0))
+        if (pair := given[name]) is None
+        else _checked(name, pair[0], shape)
+        for name, shape in shapes.items()
+    }
+    _check_symmetric(values["P"])
+    numbers, of_constant = exact_numbers([constant], "constant")
+    exact = {name: pair[1] for name, pair in given.items() if pair} | {"constant": of_constant}
+    exact = {name: others for name, others in exact.items() if others}
+    return QuadraticProgram(**values, constant=float(numbers[0]), exact=exact)
 
 
-def _checked(name: str, value: Any, shape: tuple[int, ...]) -> Array:
-    """A float64 copy of an array of that shape."""
-    dense = value.toarray() if hasattr(value, "toarray") else value
-    array = checked_numbers(dense, name, InputError)
+def _check_symmetric(P: Array) -> None:
+    """Refuse one triangle, which others ask for: which one is meant cannot be guessed."""
+    off = np.abs(P - P.T)
+    if off.max() <= SYMMETRIC * np.abs(P).max():
+        return
+    for word, part in (("upper", np.triu), ("lower", np.tril)):
+        if np.array_equal(P, part(P)):
+            raise InputError(
+                f"is one triangle, the {word} one; give P + P.T - np.diag(np.diag(P)) if the "
+                "other was left out, (P + P.T) / 2 if 1/2 x'Px is meant as it stands",
+                field="P",
+            )
+    i, j = (int(v) for v in np.unravel_index(off.argmax(), off.shape))
+    problem = f"must be symmetric; P[{j}, {i}] is {P[j, i]:g}; give (P + P.T) / 2 if that is meant"
+    raise InputError(problem, field=f"P[{i}, {j}]", value=float(P[i, j]))
+
+
+def _checked(name: str, array: Array, shape: tuple[int, ...]) -> Array:
+    """An array of that shape, whose numbers are finite, or the infinite one that it may hold."""
     if [k for k in array.shape if k != 1] == [k for k in shape if k != 1]:
         array = array.reshape(shape)  # a vector may be of one column, a matrix of one row
     if array.shape != shape and (array.size or 0 not in shape):
@@ -184,9 +232,14 @@ def _checked(name: str, value: Any, shape: tuple[int, ...]) -> Array:
         raise InputError(
             f"must be {words} numbers, as q, h and b say", field=name, value=array.shape
         )
-    wrong = ~np.isfinite(array) & (array != NO_LIMIT.get(name, 0.0))
+    free = NO_LIMIT.get(name, 0.0)
+    wrong = ~np.isfinite(array) & (array != free)
     if wrong.any():
         at = tuple(int(i) for i in np.argwhere(wrong)[0])
         where = f"{name}[{', '.join(map(str, at))}]"
-        raise InputError("must be a finite number", field=where, value=float(array[at]))
-    return array.reshape(shape) + 0.0
+        value = float(array[at])
+        problem = "must be a finite number"
+        if free and value == -free:
+            problem = f"must be a finite number, or {free:g} for no limit: {value:g} is none at all"
+        raise InputError(problem, field=where, value=value)
+    return array.reshape(shape)

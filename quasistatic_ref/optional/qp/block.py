@@ -1,0 +1,272 @@
+"""A part of a program in whole numbers: its cost, its rows, and which of them are independent."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, reduce
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
+
+import numpy as np
+from flint import arb, arb_mat, fmpq, fmpz
+
+from quasistatic_ref.certify.form import EXACT, MatrixForm, exact_matrix
+from quasistatic_ref.certify.groups import labels
+from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.modulo import independent_modulo, primes
+from quasistatic_ref.numbers.precision import working_precision
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.qp.program import QuadraticProgram
+
+Result = TypeVar("Result")
+Sparse: TypeAlias = "dict[int, fmpz]"
+"""The entries of a row that are not zero, by coordinate."""
+
+
+class Unlucky(Exception):
+    """A prime divides a determinant that is not zero: another prime decides."""
+
+
+class Row(NamedTuple):
+    """A row a x + c >= 0, or = 0, times a positive unit.
+
+    Parameters
+    ----------
+    entries : dict of int to fmpz
+        a; of a bound 1 or -1.
+    side : fmpq
+        c; a whole number but of a bound.
+    unit : fmpq
+        What both are multiplied by.
+    """
+
+    entries: Sparse
+    side: fmpq
+    unit: fmpq
+
+    @property
+    def bounded(self) -> int | None:
+        """The one coordinate of a bound; None of another row."""
+        return next(iter(self.entries)) if len(self.entries) == 1 else None
+
+
+@dataclass(frozen=True, eq=False)
+class Convex:
+    """The cost of a block as it is where its equations hold.
+
+    Parameters
+    ----------
+    P, q : list of dict of int to fmpz, list of fmpz
+        With P positive semidefinite, times `unit`.
+    unit : fmpq
+    definite : bool
+        Whether the block's own P is positive definite.
+    """
+
+    P: Sequence[Sparse]
+    q: Sequence[fmpz]
+    unit: fmpq
+    definite: bool
+
+
+class Block:
+    """A part of a program that nothing couples to the rest.
+
+    Parameters
+    ----------
+    program : QuadraticProgram
+    coordinates, rows : ndarray of int, shapes (n,) and (m,)
+        Which ones of the program these are.
+
+    Attributes
+    ----------
+    n, m, equations : int
+        Numbers of coordinates, of rows, and of equations, which are the first rows.
+    a, c : ndarray, shapes (m, n) and (m,)
+        Of the rows a x + c >= 0 in float64.
+    P, q : list of dict of int to fmpz, list of fmpz
+        The symmetric part of the cost, times `unit`.
+    unit : fmpq
+    square : ndarray, shape (n, n)
+        P in float64.
+    is_float : bool
+        Whether that is symmetric, and P itself.
+    """
+
+    def __init__(self, program: QuadraticProgram, coordinates: Indices, rows: Indices) -> None:
+        self.program, self.coordinates, self.rows = program, coordinates, rows
+        self.n, self.m = len(coordinates), len(rows)
+        self.equations = int((rows < program.rows.equations).sum())
+        self.a = program.rows.a[np.ix_(rows, coordinates)]
+        self.c = program.rows.c[rows]
+        n = self.n
+        self.square = program.P[np.ix_(coordinates, coordinates)]
+        there = (self.square != 0) | (self.square.T != 0)
+        i, j = np.nonzero(there)
+        exact_P, exact_q = (program.exact.get(name, {}) for name in ("P", "q"))
+        self.is_float = not exact_P and np.array_equal(self.square, self.square.T)
+        places = [*coordinates[i] * len(program.q) + coordinates[j]] if exact_P else []
+        others = {t: exact_P[k] for t, k in enumerate(places) if k in exact_P}
+        others |= {len(i) + t: exact_q[k] for t, k in enumerate(coordinates) if k in exact_q}
+        whole, unit = whole_numbers(np.append(self.square[i, j], program.q[coordinates]), others)
+        square, self.q = (
+            dict(zip(zip(i.tolist(), j.tolist(), strict=True), whole, strict=False)),
+            whole[len(i) :],
+        )
+        self.P: list[Sparse] = [{} for _ in range(n)]
+        if self.is_float:
+            for (k, t), v in square.items():
+                self.P[k][t] = v
+            self.unit = unit
+        else:
+            for (k, t), v in square.items():
+                self.P[k][t] = v + square[t, k]
+            self.q, self.unit = [2 * v for v in self.q], 2 * unit
+        self._kept: dict[int, Row] = {}
+        self._primes = primes()
+        self.prime = next(self._primes)
+
+    def lucky(self, decide: Callable[[], Result]) -> Result:
+        """What is decided by the first prime that does."""
+        while True:
+            try:
+                return decide()
+            except Unlucky:
+                self.prime = next(self._primes)
+
+    def row(self, i: int) -> Row:
+        """Row i in whole numbers."""
+        if i not in self._kept:
+            at = np.flatnonzero(self.a[i] != 0)
+            numbers = np.append(self.a[i, at], self.c[i])
+            others = self.program.rows.others(int(self.rows[i]), self.coordinates[at].tolist())
+            (*entries, side), unit = whole_numbers(numbers, others)
+            c = fmpq(side)
+            if len(entries) == 1:
+                size = abs(entries[0])
+                entries, c, unit = [fmpz(1 if entries[0] > 0 else -1)], c / size, unit / size
+            self._kept[i] = Row(dict(zip(at.tolist(), entries, strict=True)), c, unit)
+        return self._kept[i]
+
+    def split(self, W: Iterable[int]) -> tuple[dict[int, int], list[int]]:
+        """The bounds of some rows by coordinate, and the other rows."""
+        bounds: dict[int, int] = {}
+        general = []
+        for i in W:
+            j = self.row(i).bounded
+            if j is None or j in bounds:
+                general.append(i)
+            else:
+                bounds[j] = i
+        return bounds, general
+
+    def independent(self, W: Sequence[int]) -> list[int]:
+        """The rows, in order of preference, that do not depend on earlier ones, modulo a prime."""
+        if self.are_independent(W):
+            return [*W]
+        return [W[t] for t in independent_modulo(self._dense(W, range(self.n)), self.prime)]
+
+    def are_independent(self, W: Sequence[int]) -> bool:
+        """Whether rows are independent modulo a prime, and so in whole numbers."""
+        bounds, general = self.split(W)
+        rest = [j for j in range(self.n) if j not in bounds]
+        return len(independent_modulo(self._dense(general, rest), self.prime)) == len(general)
+
+    def _dense(self, rows: Sequence[int], columns: Sequence[int]) -> list[list[fmpz]]:
+        return [dense(self.row(i).entries, columns) for i in rows]
+
+    def free_coordinates(self, W: Sequence[int], P: Sequence[Sparse]) -> list[int]:
+        """One coordinate for each direction that P and the rows W leave free, modulo a prime."""
+        bounds, general = self.split(W)
+        rest = [j for j in range(self.n) if j not in bounds]
+        lines = [row for j in rest if (row := P[j])] + [self.row(i).entries for i in general]
+        columns = [[line.get(j, fmpz(0)) for line in lines] for j in rest]
+        held = {rest[t] for t in independent_modulo(columns, self.prime)}
+        return [j for j in rest if j not in held]
+
+    @cached_property
+    def form(self) -> MatrixForm:
+        """The program for the dual method, where P is positive definite."""
+        with working_precision(EXACT):
+            share = arb(2) ** -twos(self.unit)
+            H = arb_mat([dense(row, range(self.n)) for row in self.P]) * share
+            g = arb_mat(self.n, 1, [-v for v in self.q]) * share
+        return matrix_form(H, g, self.exact_rows, self.equations)
+
+    @cached_property
+    def exact_rows(self) -> list[list[arb]]:
+        """All rows [a, c], each times its `row_units`."""
+        rows = exact_matrix(np.column_stack([self.a, self.c])).tolist()
+        for i in self.row_units:
+            entries, side, _ = self.row(i)
+            rows[i] = [arb(v * side.q) for v in dense(entries, range(self.n))] + [arb(side.p)]
+        return rows
+
+    @cached_property
+    def row_units(self) -> dict[int, fmpq]:
+        """What `exact_rows` multiplies rows by that float64 does not hold."""
+        others = self.program.rows.others
+        odd = (i for i, k in enumerate(self.rows.tolist()) if others(k, self.coordinates.tolist()))
+        return {i: self.row(i).unit * self.row(i).side.q for i in odd}
+
+
+def matrix_form(
+    H: arb_mat, g: arb_mat, rows: Sequence[Sequence[arb]], equations: int
+) -> MatrixForm:
+    """A program of exact numbers; it may have no rows [a, c]."""
+    n = H.nrows()
+    return MatrixForm(H, g, arb_mat([*rows]) if rows else arb_mat(0, n + 1), equations=equations)
+
+
+def dense(entries: Mapping[int, fmpz], columns: Iterable[int]) -> list[fmpz]:
+    """Some entries of a sparse row, zeros included."""
+    return [entries.get(j, fmpz(0)) for j in columns]
+
+
+def whole_numbers(numbers: Array, others: Mapping[int, Fraction]) -> tuple[list[fmpz], fmpq]:
+    """Numbers times the positive unit that makes them whole, and that unit.
+
+    Parameters
+    ----------
+    numbers : ndarray, shape (k,)
+        [Any unit.]
+    others : mapping of int to Fraction
+        Those that float64 does not hold, by place.
+    """
+    if others:
+        pairs = [v.as_integer_ratio() for v in numbers.tolist()]
+        pairs = [others[k].as_integer_ratio() if k in others else v for k, v in enumerate(pairs)]
+        common = reduce(lambda u, v: u.lcm(v[1]), pairs, fmpz(1))
+        return [fmpz(p) * (common / q) for p, q in pairs], fmpq(common)
+    part, power = np.frexp(numbers)
+    m = np.ldexp(part, 53).astype(np.int64)
+    zeros = np.maximum(np.frexp((m & -m).astype(np.float64))[1] - 1, 0)
+    m, power = m >> zeros, power - 53 + zeros
+    least = int(power[m != 0].min(initial=2000)) if m.any() else 0
+    shift = np.where(m != 0, power - least, 0)
+    whole = [fmpz(v << k) for v, k in zip(m.tolist(), shift.tolist(), strict=True)]
+    return whole, fmpq(2) ** -least
+
+
+def shortest(v: Sequence[fmpz]) -> list[fmpz]:
+    """Whole numbers without a common factor; not all are zero."""
+    content = reduce(lambda a, b: a.gcd(b), v, fmpz(0))
+    return [(fmpq(a) / content).p for a in v]
+
+
+def twos(unit: fmpq) -> int:
+    """The power of two next to a positive number."""
+    return int(unit.p).bit_length() - int(unit.q).bit_length()
+
+
+def blocks_of(program: QuadraticProgram) -> list[Block]:
+    """The blocks of a program, in the order of their first coordinates."""
+    P, rows = program.P, program.rows
+    coupled = (P != 0) | (P.T != 0) | np.eye(len(P), dtype=bool)
+    coordinate, row = labels(np.concatenate([coupled, rows.a != 0]))
+    return [
+        Block(program, np.flatnonzero(coordinate == first), np.flatnonzero(row[len(P) :] == first))
+        for first in np.unique(coordinate)
+    ]
