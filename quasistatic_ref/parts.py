@@ -34,7 +34,7 @@ PARTS: Final = {
     "coal_witness": ("contact of curved solids", "optional.curved.by_coal:coal_witness"),
     "curve_crossings": ("a rim", "optional.curved.rims:curve_crossings"),
     "known_gaps": ("a curved solid", "optional.curved.ways_out:known_gaps"),
-    "compiled_method": ("compiled code", "optional.compiled.leaves:compiled_method"),
+    "compiled_function": ("compiled code", "optional.compiled.leaves:compiled_function"),
     "pairs_by_coal": ('distances = "coal"', "optional.curved.clouds_by_coal:pairs_by_coal"),
     # Of a step.
     "ellipsoid": ('cone = "ellipsoid"', "optional.ellipsoid.cone:ELLIPSOID_CONE"),

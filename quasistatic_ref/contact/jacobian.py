@@ -10,6 +10,7 @@ from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.numbers.arrays import Array, Indices, Scalar, read_only
+from quasistatic_ref.numbers.compiled import compiled
 from quasistatic_ref.numbers.ordered import YZX, ZXY, crossed, dot
 from quasistatic_ref.step.contacts import Contacts, friction_coefficients
 
@@ -30,11 +31,21 @@ class ContactGeometry:
     ----------
     column : ndarray of int, shape (n_c, w)
         The coordinates that can move each contact, ascending; n_v where it has fewer.
+    n_x : int
+        Number of columns of ``Kinematics``.
+    joint : ndarray of int, shape (n_c, x)
+        The columns of ``Kinematics`` that can.
+    sides : list of (str, float, ndarray)
+        Of beta's and alpha's body, if it can move: its sign in J, and whether each column moves it,
+        shape (n_c, 1, x) [-].
+    sums : list
+        Which columns are added to which coordinates; none where each is of one.
     """
 
     def __init__(self, layout: ContactLayout, column_map: ColumnMap) -> None:
         self.layout = layout
         self.n_v = column_map.n_v
+        self.n_x = column_map.moves.shape[-1]
         links = np.stack([layout.link_alpha, layout.link_beta])
         moves = column_map.moves[:, 0] > 0
         # The columns of pinocchio's or MuJoCo's Jacobian that move a contact, by coordinates.
@@ -43,32 +54,32 @@ class ContactGeometry:
         contact, mover = np.nonzero(moves[links].any(axis=0))
         some = np.lexsort((of_x[mover].min(axis=1, initial=self.n_v), contact))
         joint = padded(contact, mover[some], len(layout.rows), -1)
-        self._joint = np.maximum(joint, 0)
-        self._sides = []  # beta's, then alpha's, if any column moves it
+        self.joint = np.maximum(joint, 0)
+        self.sides = []  # beta's, then alpha's, if any column moves it
         for name, sign, link in (
             ("beta", 1.0, layout.link_beta),
             ("alpha", -1.0, layout.link_alpha),
         ):
-            moved = moves[link[:, None], self._joint] & (joint >= 0)
+            moved = moves[link[:, None], self.joint] & (joint >= 0)
             if moved.any():
-                self._sides.append((name, sign, moved[:, None] * 1.0))
+                self.sides.append((name, sign, moved[:, None] * 1.0))
         # A column mostly moves with one coordinate, as much as that.
-        of_joint = np.where(joint[..., None] >= 0, of_x[self._joint], self.n_v)
+        of_joint = np.where(joint[..., None] >= 0, of_x[self.joint], self.n_v)
         coordinate: Indices = of_joint.reshape(len(joint), joint.shape[1] * of_x.shape[1])
         ascending = np.sort(coordinate, axis=1)
         c, k = np.nonzero((np.diff(ascending, axis=1, prepend=-1) > 0) & (ascending < self.n_v))
         self.column = read_only(padded(c, ascending[c, k], len(joint), self.n_v))
-        self._sums: list[tuple[Indices, Indices, Indices, Array]] = []
+        self.sums: list[tuple[Indices, Indices, Indices, Array]] = []
         if not ((share == 1).all() and np.array_equal(self.column, coordinate)):
             c, t = np.nonzero(coordinate < self.n_v)
             place = (self.column[c] < coordinate[c, t, None]).sum(axis=1)
-            shares = padded(x, share, moves.shape[1], 0.0)[self._joint].reshape(coordinate.shape)
+            shares = padded(x, share, moves.shape[1], 0.0)[self.joint].reshape(coordinate.shape)
             same = coordinate[c] == coordinate[c, t, None]
             turn = (same & (np.arange(coordinate.shape[1]) < t[:, None])).sum(axis=1)
             for i in range(turn.max(initial=-1) + 1):
                 at = turn == i
                 k = t[at] // of_x.shape[1]
-                self._sums.append((c[at], place[at], k, shares[c, t][at, None]))
+                self.sums.append((c[at], place[at], k, shares[c, t][at, None]))
 
     def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
         """The contacts of one step, from the closest points of all pairs.
@@ -82,13 +93,12 @@ class ContactGeometry:
             At the same configuration.
         """
         layout = self.layout
-        d1, d2 = tangents(points.n)
-        own = self.jacobian(kinematics.columns, points.alpha, points.beta, points.n)
+        d1, d2, own = self.frames(kinematics.columns, points.alpha, points.beta, points.n)
         return Contacts.unchecked(
             name=layout.contact_names(points.point),
             phi=read_only(points.phi + 0.0),  # zero is 0.0, never -0.0
             n=read_only(points.n + 0.0),
-            d1=read_only(d1 + 0.0),
+            d1=read_only(d1),
             d2=read_only(d2),
             own=read_only(own),
             column=self.column,
@@ -103,6 +113,14 @@ class ContactGeometry:
     def _mu(self) -> Array:
         layout = self.layout
         return friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
+
+    @compiled
+    def frames(
+        self, columns: Array, alpha: Array, beta: Array, n: Array
+    ) -> tuple[Array, Array, Array]:
+        """Tangents d1 and d2, (n_c, 3), and J, of the arguments of :meth:`jacobian`."""
+        d1, d2 = tangents(n)
+        return d1 + 0.0, d2, self.jacobian(columns, alpha, beta, n)
 
     def jacobian(self, columns: Array, alpha: Array, beta: Array, n: Array) -> Array:
         """J of Eq. :eq:`eq-3`: relative velocity and spin, Eq. :eq:`eq-2`, per unit of delta_q.
@@ -123,13 +141,13 @@ class ContactGeometry:
             row 3: n'(omega_beta - omega_alpha) [rad].
         """
         points = {"alpha": alpha, "beta": beta}
-        own = columns.T[self._joint].transpose(0, 2, 1)  # (n_c, 6, w)
+        own = columns.T[self.joint].transpose(0, 2, 1)  # (n_c, 6, w)
         J = np.zeros((len(n), 4, own.shape[2]))
-        for name, sign, moved in self._sides:
+        for name, sign, moved in self.sides:
             J += sign * (moved * columns_at(own, points[name], n))  # Eq. (2)
-        if self._sums:  # a joint that mimics another moves with its coordinate
+        if self.sums:  # a joint that mimics another moves with its coordinate
             summed = np.zeros((len(n), 4, self.column.shape[1]))
-            for c, place, k, share in self._sums:
+            for c, place, k, share in self.sums:
                 summed[c, :, place] += share * J[c, :, k]
             J = summed
         return J + 0.0  # Eq. (3); zero is 0.0, never -0.0

@@ -1,4 +1,4 @@
-"""Methods in whose place compiled functions stand, where ``optional/compiled`` is installed.
+"""Functions in whose place compiled ones stand, where ``optional/compiled`` is installed.
 
 The NumPy function says what is computed: the compiled one has its arguments and its bits. What it
 declines, such as a sign that stays open, NumPy computes.
@@ -7,52 +7,59 @@ declines, such as a sign that stays open, NumPy computes.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial, update_wrapper
 from typing import Any, TypeVar, cast
 
 from quasistatic_ref.parts import is_there, part
 
-CompiledMethod = Callable[[str, Any], Callable[..., Any] | None]
-"""A word, ``Class.method``, and an instance -> the compiled function in its place, if any."""
+CompiledFunction = Callable[[Callable[..., Any], Any], Callable[..., Any] | None]
+"""A function, and the instance of a method or None -> what stands in its place, if anything."""
 
-Method = TypeVar("Method", bound=Callable[..., Any])
-
-
-def compiled(by_numpy: Method) -> Method:
-    """A method that each instance takes from compiled code, if that has it; `by_numpy` else."""
-    return cast(Method, _Method(by_numpy))
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
-class _Method:
-    """A method by NumPy, and for each instance that calls it the compiled one.
+def compiled(by_numpy: Function) -> Function:
+    """A function, or a method, that compiled code answers if it can; `by_numpy` else."""
+    return cast(Function, _ByEither(by_numpy))
+
+
+class _ByEither:
+    """A function by NumPy, and the compiled one: of a method for each instance.
 
     Parameters
     ----------
     by_numpy : callable
+        It is its ``__wrapped__``.
     """
 
-    def __init__(self, by_numpy: Callable[..., Any]) -> None:
-        self.by_numpy = by_numpy
-        self.__doc__ = by_numpy.__doc__
+    __wrapped__: Callable[..., Any]
 
-    def __set_name__(self, owner: type, name: str) -> None:
-        self._name = name
-        self._word = f"{owner.__name__}.{name}"
+    def __init__(self, by_numpy: Callable[..., Any]) -> None:
+        update_wrapper(self, by_numpy)
+        self._answer: Callable[..., Any] | None = None
 
     def __get__(self, instance: Any, owner: type) -> Any:
         if instance is None:
             return self
-        by_numpy = self.by_numpy.__get__(instance, owner)
-        by_c: Callable[..., Any] | None = None
-        if is_there("compiled_method"):
-            compiled_method: CompiledMethod = part("compiled_method")
-            by_c = compiled_method(self._word, instance)
-        method = _first_answer(by_c, by_numpy) if by_c else by_numpy
-        instance.__dict__[self._name] = method  # found there from now on
-        return method
+        answer = first_answer(self.__wrapped__, instance)
+        instance.__dict__[self.__wrapped__.__name__] = answer  # found there from now on
+        return answer
+
+    def __call__(self, *arguments: Any) -> Any:
+        if self._answer is None:
+            self._answer = first_answer(self.__wrapped__)
+        return self._answer(*arguments)
 
 
-def _first_answer(by_c: Callable[..., Any], by_numpy: Callable[..., Any]) -> Callable[..., Any]:
-    """A function that asks C, and NumPy for what C declines."""
+def first_answer(function: Callable[..., Any], instance: Any = None) -> Callable[..., Any]:
+    """A function that asks C, and NumPy for what C declines; bound, where there is an instance."""
+    by_numpy = function if instance is None else partial(function, instance)
+    by_c: Callable[..., Any] | None = None
+    if is_there("compiled_function"):
+        compiled_function: CompiledFunction = part("compiled_function")
+        by_c = compiled_function(function, instance)
+    if by_c is None:
+        return by_numpy
 
     def answer(*arguments: Any) -> Any:
         of_c = by_c(*arguments)

@@ -16,6 +16,7 @@ import numpy as np
 from quasistatic_ref.certify.groups import Groups, groups
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm, norm_of_hessian
 from quasistatic_ref.numbers.arrays import Array, Indices, all_finite, read_only
+from quasistatic_ref.numbers.compiled import compiled
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.hessian import Hessian
 from quasistatic_ref.step.standard_form import StandardForm, Units
@@ -32,20 +33,23 @@ class NaturalHessian(NamedTuple):
         The same of the own columns of each contact's rows.
     blocks : list of ndarray, shape (n, n)
         H of each group in these units [-].
-    inverses : list of (ndarray, ndarray), shapes (k, n) of int and (k, n, n)
-        Of all groups with n coordinates these, and the L^-1 that measures how far an impulse moves
-        them, L L' = H.
+    inverse, column : ndarray and ndarray of int, shapes (n_v, w)
+        Of each coordinate, group by group, a row of the L^-1 that measures how far an impulse moves
+        its group, L L' = H, and which coordinates its columns are; n_v stands for none.
     """
 
     unit: Array
     own_unit: Array
     blocks: list[Array]
-    inverses: list[tuple[Indices, Array]]
+    inverse: Array
+    column: Indices
 
     def free_length(self, g: Array) -> float:
         """||H^-1 g||_H of an impulse, shape (n_v,) [N s, N m s]: in (N m s)^0.5."""
-        each = [np.matmul(L, g[c][..., None]).ravel() for c, L in self.inverses]
-        return float(np.hypot.reduce(np.concatenate(each))) if each else 0.0
+        if not len(g):
+            return 0.0
+        moved = self.inverse * np.append(g, 0.0)[self.column]
+        return float(np.hypot.reduce(np.add.accumulate(moved, axis=1)[:, -1]))
 
 
 class Programs(NamedTuple):
@@ -105,6 +109,11 @@ class GroupLayout:
     ----------
     coordinates, rows : ndarray of int, shapes (n_v,) and (m,)
         Of all groups, one after the other.
+    column, place : ndarray of int, shape (m_c, w)
+        Of each row of the contacts its own columns, and where their numbers stand in A: `size` of
+        none.
+    size : int
+        Numbers of A of all groups.
     slices : list of (slice, slice, slice)
         Where g, A and b of each group stand.
     """
@@ -120,7 +129,7 @@ class GroupLayout:
         heights = np.array([len(group.rows) for group in every])
         sizes = widths * heights
         self.slices = [*zip(*map(_slices, (widths, sizes, heights)), strict=True)]
-        self._size = int(sizes.sum())
+        self.size = int(sizes.sum())
         number = np.arange(len(every))
         # Of each coordinate, and of none, and of each row: its group and its number in that.
         of_coordinate = np.full(n_v + 1, -1)
@@ -135,11 +144,11 @@ class GroupLayout:
 
         def place(some: Indices, rows: slice) -> Indices:
             inside = of_coordinate[some] == of_row[rows, None]
-            return np.where(inside, start[rows, None] + within[some], self._size)
+            return np.where(inside, start[rows, None] + within[some], self.size)
 
         m_c = len(of_row) - e
         self.column = np.repeat(column, counts, axis=0)
-        self._place = place(self.column, slice(0, m_c))
+        self.place = place(self.column, slice(0, m_c))
         self._place_extra = place(np.broadcast_to(np.arange(n_v), (e, n_v)), slice(m_c, None))
 
     def natural_hessian(self, hessian: Hessian) -> NaturalHessian:
@@ -159,19 +168,19 @@ class GroupLayout:
         units = [coordinate_units(H.diagonal()) for H in every]
         unit[self.coordinates] = np.concatenate(units)
         blocks = [H * np.outer(S, S) for H, S in zip(every, units, strict=True)]
-        of_width: dict[int, list[int]] = {}
-        for i, H in enumerate(every):
-            of_width.setdefault(len(H), []).append(i)
-        inverses = [
-            (
-                np.array([self.groups[i].coordinates for i in alike]),
-                np.array([norms[i].inverse * norms[i].unit for i in alike]),
-            )
-            for alike in of_width.values()
-        ]
-        own_unit = np.append(unit, 0.0)[self.column]
-        return NaturalHessian(read_only(unit), read_only(own_unit), blocks, inverses)
+        n_v = len(unit)
+        widest = max(map(len, every), default=0)
+        inverse = np.zeros((n_v, widest))
+        column = np.full((n_v, widest), n_v)
+        end = 0
+        for group, norm in zip(self.groups, norms, strict=True):
+            start, end = end, end + len(group.coordinates)
+            inverse[start:end, : end - start] = norm.inverse * norm.unit
+            column[start:end, : end - start] = group.coordinates
+        own_unit = read_only(np.append(unit, 0.0)[self.column])
+        return NaturalHessian(read_only(unit), own_unit, blocks, inverse, column)
 
+    @compiled
     def programs(self, step: StepData, A: Array, b: Array, g: Array, units: Units) -> Programs:
         """The groups' programs in natural units.
 
@@ -186,8 +195,8 @@ class GroupLayout:
         """
         S, ell, rho = units
         H = self.natural_hessian_of(step)
-        whole = np.zeros(self._size + 1)  # there is a place for what is in no group
-        whole[self._place] = A * (H.own_unit / ell)
+        whole = np.zeros(self.size + 1)  # there is a place for what is in no group
+        whole[self.place] = A * (H.own_unit / ell)
         if step.extra.names:
             whole[self._place_extra] = step.extra.A * (S / ell)
         g = (g * S / rho)[self.coordinates]

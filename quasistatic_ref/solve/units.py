@@ -14,6 +14,7 @@ conversion loses nothing, unless a number leaves the range of float64.
 
 import math
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from quasistatic_ref.certify.norm import energy_norm, joined, single_lengths
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array, Mask, all_finite
+from quasistatic_ref.numbers.compiled import compiled
 from quasistatic_ref.solve.by_group import GroupLayout, Programs, coordinate_units, layout_of
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
@@ -66,31 +68,58 @@ def units_of(form: StandardForm) -> Units:
         As :func:`~quasistatic_ref.certify.norm.energy_norm`.
     """
     coordinate = coordinate_units(np.diag(form.H))
-    squares = squared_lengths(form.A, coordinate)
-    return natural_units(coordinate, squares, energy_norm(form.H).of_impulse(form.g), form.b)
+    sizes = sizes_of(squared_lengths(form.A, coordinate), form.b)
+    return natural_units(coordinate, sizes, energy_norm(form.H).of_impulse(form.g))
 
 
-def natural_units(coordinate: Array, squares: Array, free_length: float, b: Array) -> Units:
+class Sizes(NamedTuple):
+    """How large the rows of a step are.
+
+    Parameters
+    ----------
+    median : float
+        Length of the rows of A S that are not zero; 1 if there are none [m per (N m s)^0.5].
+    most : float
+        Largest square of these lengths [m^2/(N m s)].
+    push_out : float
+        Largest entry of b, at least 0: of penetration [m].
+    """
+
+    median: float
+    most: float
+    push_out: float
+
+
+def sizes_of(squares: Array, b: Array) -> Sizes:
+    """The sizes of rows with these squared lengths and ends b, shapes (m,)."""
+    median = _median_length(squares[squares != 0])
+    return Sizes(median, float(squares.max(initial=0.0)), float(b.max(initial=0.0)))
+
+
+@compiled
+def row_sizes(A: Array, unit: Array, b: Array) -> Sizes:
+    """The sizes of rows of A S, both (m, w), and of b, shape (m,); units of columns as above."""
+    return sizes_of(squared_lengths(A, unit), b)
+
+
+def natural_units(coordinate: Array, sizes: Sizes, free_length: float) -> Units:
     """Natural units of a step; not finite where its numbers are not.
 
     Parameters
     ----------
     coordinate : ndarray, shape (n_v,)
         Diagonal of S [m or rad, per (N m s)^0.5].
-    squares : ndarray, shape (m,)
-        As of :func:`squared_lengths`.
+    sizes : Sizes
     free_length : float
         ||H^-1 g||_H [(N m s)^0.5].
-    b : ndarray, shape (m,)
-        [m]
     """
-    length = _power_of_two(_median_length(squares[squares != 0]))
-    push_out = float(b.max(initial=0.0)) / length  # from penetration
+    length = _power_of_two(sizes.median)
+    push_out = sizes.push_out / length
     size = max(free_length, push_out)
     softest = float(coordinate.max(initial=0.0))
     if size == 0:  # no load, no penetration: the optimum is zero
         size = UNMOVED / softest if coordinate.size else UNMOVED
-    if not math.isfinite(free_length + push_out + squares.max(initial=0.0)):
+    if not math.isfinite(free_length + push_out + sizes.most):
         size = math.nan
     size = _power_of_two(max(size, SMALLEST * max(1.0, softest)))
     return Units(coordinate, length, size)
@@ -198,9 +227,12 @@ class ScaledStep:
             If products of its numbers leave the range of float64.
         """
         natural = self.layout.natural_hessian_of(self.step)
-        _, b = self._own_inequalities
-        free_length = natural.free_length(self._g)
-        units = natural_units(natural.unit, self.squared_lengths, free_length, b)
+        A, b = self._own_inequalities
+        if self.step.extra.names:
+            sizes = sizes_of(self.squared_lengths, b)
+        else:
+            sizes = row_sizes(A, natural.own_unit, b)
+        units = natural_units(natural.unit, sizes, natural.free_length(self._g))
         if not (0 < units.length < math.inf and 0 < units.size < math.inf):
             raise out_of_range()
         return units

@@ -12,7 +12,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.compiled import compiled
 from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
@@ -86,10 +87,24 @@ def inequalities(step: StepData) -> tuple[Array, Array]:
 
 def own_inequalities(step: StepData) -> tuple[Array, Array]:
     """A of the contacts by their own columns, (m_c, w), and b of all rows, (m,): Eq. :eq:`eq-8`."""
-    mask = step.mask
-    A = friction_rows(step.contacts, step.cone, step.contacts.own)[mask]
-    b = -row_constants(step.contacts, step.cone)[mask]
+    A, b = contact_inequalities(step.contacts, step.cone, step.mask)
     return A, np.concatenate([b, step.extra.b]) if step.extra.names else b
+
+
+@compiled
+def contact_inequalities(contacts: Contacts, name: str, mask: Mask) -> tuple[Array, Array]:
+    """A by own columns, (m_c, w), and b, (m_c,), of the rows that a `mask` says: Eq. :eq:`eq-8`.
+
+    Parameters
+    ----------
+    contacts : Contacts
+    name : str
+        The cone.
+    mask : ndarray of bool, shape (n_c, R)
+        As of ``StepData.mask``.
+    """
+    A = friction_rows(contacts, name, contacts.own)[mask]
+    return A, -row_constants(contacts, name)[mask]
 
 
 def linear_term(step: StepData) -> Array:

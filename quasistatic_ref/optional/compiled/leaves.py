@@ -1,54 +1,55 @@
-"""Compiled functions in the place of methods, each tried on fixed inputs before it is used."""
+"""Compiled functions in the place of NumPy's, each tried on fixed inputs before it is used."""
 
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import cache
-from typing import Any, Final, NamedTuple
+from importlib import import_module
+from typing import Any, Final
 
 from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.optional.compiled import points, sums
-from quasistatic_ref.optional.compiled.library import missing, turned_off
+from quasistatic_ref.optional.compiled.library import missing
 
-
-class Leaf(NamedTuple):
-    """A compiled function.
-
-    Parameters
-    ----------
-    of : callable
-        Of an instance: a function with the arguments of the method, whose answer is None where it
-        declines; or None, if it knows nothing of this instance.
-    trials : callable
-        Fixed instances that it knows, each with arguments.
-    """
-
-    of: Callable[[Any], Callable[..., Any] | None]
-    trials: Callable[[], Sequence[tuple[Any, tuple[Any, ...]]]]
-
-
-LEAVES: Final[Mapping[str, Leaf]] = {
-    "Clouds.contacts": Leaf(points.contacts, points.trials),
-    "Sums.plus": Leaf(sums.plus, sums.trials_of_plus),
-    "Sums.change": Leaf(sums.change, sums.trials_of_change),
+LEAVES: Final[Mapping[str, str]] = {
+    "Clouds.contacts": "points:contacts",
+    "Sums.plus": "sums:plus",
+    "Sums.change": "sums:change",
+    "ContactGeometry.frames": "frames:frames",
+    "contact_inequalities": "rows:inequalities",
+    "row_sizes": "natural:row_sizes",
+    "GroupLayout.programs": "natural:programs",
 }
-"""By the method in whose place each stands."""
+"""By a function, or a method, ``module:name`` of what stands in its place.
+
+``name`` makes of an instance, or of None, a function with the same arguments, whose answer is None
+where it declines; or None, if it knows nothing of this instance. ``trials_of_name`` are instances
+that it knows, each with arguments."""
 
 
-def compiled_method(word: str, instance: Any) -> Callable[..., Any] | None:
-    """The compiled function in the place of a method of an instance; None where there is none."""
-    if turned_off() or missing() is not None or not is_right(word):
+def compiled_function(function: Callable[..., Any], instance: Any) -> Callable[..., Any] | None:
+    """What stands in the place of a function, or of a method of an instance; None if nothing."""
+    if missing() is not None or not is_right(function):
         return None
-    return LEAVES[word].of(instance)
+    made: Callable[..., Any] | None = leaf(function)[0](instance)
+    return made
+
+
+def leaf(function: Callable[..., Any]) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    """What stands in the place of a function, of each instance, and its trials."""
+    module, name = LEAVES[function.__qualname__].split(":")
+    loaded = import_module(f"{__package__}.{module}")
+    return getattr(loaded, name), getattr(loaded, f"trials_of_{name}")
 
 
 @cache
-def is_right(word: str) -> bool:
-    """Whether a compiled function has its method's bits on fixed inputs; it says if not."""
-    for instance, arguments in LEAVES[word].trials():
-        method = getattr(type(instance), word.partition(".")[2]).by_numpy
-        by_c = LEAVES[word].of(instance)
+def is_right(function: Callable[..., Any]) -> bool:
+    """Whether compiled code has a function's bits on fixed inputs; it says if not."""
+    of, trials = leaf(function)
+    for instance, arguments in trials():
+        by_c = of(instance)
         answer = by_c and by_c(*arguments)
-        if answer is not None and bits(answer) != bits(method(instance, *arguments)):
-            print(f"compiled code is left out: {word} has other bits", file=sys.stderr)
+        of_numpy = arguments if instance is None else (instance, *arguments)
+        if answer is not None and bits(answer) != bits(function(*of_numpy)):
+            name = function.__qualname__
+            print(f"compiled code is left out: {name} has other bits", file=sys.stderr)
             return False
     return True

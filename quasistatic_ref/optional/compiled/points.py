@@ -9,7 +9,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.normals import UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.numbers.arrays import Array, Mask, read_only
-from quasistatic_ref.optional.compiled.library import address, addresses, function
+from quasistatic_ref.optional.compiled.library import addresses, function
 from quasistatic_ref.shapes.placed_shape import (
     Box,
     Capsule,
@@ -25,7 +25,7 @@ def contacts(batch: Clouds) -> Callable[[Array, Array], tuple[Mask, ClosestPoint
     count = len(batch.links)
     shape = count, batch.n_c
     cloud_last = [1, 0] if batch.cloud_is_alpha else [0, 1]
-    kept = addresses(
+    fixed = (
         np.array([count, len(batch.points), batch.n_c, batch.cloud_is_alpha]),
         np.column_stack([batch.is_plane, batch.has_faces]).astype(np.int64),
         batch.sizes,
@@ -34,8 +34,9 @@ def contacts(batch: Clouds) -> Callable[[Array, Array], tuple[Mask, ClosestPoint
         batch.links[:, cloud_last],
         batch.poses[:, cloud_last],
         batch.points.T,
-        np.empty(len(batch.points)),
+        np.empty(len(batch.points)),  # distances
     )
+    kept = addresses(fixed)
     compiled = function("cloud_contacts")
     unique = read_only(np.full(shape, UNIQUE_NORMAL))
 
@@ -43,14 +44,14 @@ def contacts(batch: Clouds) -> Callable[[Array, Array], tuple[Mask, ClosestPoint
         known = np.empty(count, bool)
         index = np.empty(shape, np.int64)
         numbers = np.empty((10, *shape))
-        compiled(*kept, *map(address, (R, t, known, numbers, index)))
+        compiled(*kept, *addresses((R, t), (known, numbers, index)))
         alpha, beta, n = numbers[1:].reshape(3, *shape, 3)
         return known, ClosestPoints(numbers[0], alpha, beta, n, index, unique)
 
     return answer
 
 
-def trials() -> list[tuple[Clouds, tuple[Array, Array]]]:
+def trials_of_contacts() -> list[tuple[Clouds, tuple[Array, Array]]]:
     """A cloud on either side of three kinds of solids, near, far and through them."""
     grid = np.indices((5, 5, 5)).reshape(3, -1).T
     cloud = PointCloud(grid * [0.11, 0.07, 0.13] - 0.2)

@@ -12,7 +12,7 @@ from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.model.sums import Sums
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.compiled.library import address, addresses, function
+from quasistatic_ref.optional.compiled.library import addresses, function
 
 KINDS: dict[type[Joint], int] = {Floating: 0, Planar: 1, Continuous: 2, Revolute: 3, Prismatic: 3}
 """Their numbers in C."""
@@ -35,13 +35,13 @@ def _of_few(name: str, sums: Sums, size: int) -> Sum | None:
     if sums.many or not all(type(joint) in KINDS for joint in joints):
         return None
     starts = [[KINDS[type(joint)], joint.q.start, joint.v.start] for joint in joints]
-    kept = addresses(np.array([len(joints)]), np.reshape(np.array(starts, np.int64), (-1, 3)).T)
+    kept = addresses((np.array([len(joints)]), np.reshape(np.array(starts, np.int64), (-1, 3)).T))
     compiled = function(name)
 
     def answer(q: Array, other: Array) -> Array | None:
         written = np.empty(size)
-        arrays = np.ascontiguousarray(q), np.ascontiguousarray(other), written
-        return written if compiled(*kept, *map(address, arrays)) else None
+        answered = compiled(*kept, *addresses((q, other), (written,)))
+        return written if answered else None
 
     return answer
 

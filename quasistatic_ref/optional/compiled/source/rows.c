@@ -1,4 +1,4 @@
-/* The contacts of a step, its rows and its load: Eqs. (1)-(8). */
+/* The contacts of a step and its rows: Eqs. (1)-(8). */
 
 #include "vectors.h"
 
@@ -14,104 +14,66 @@ static void tangents(const double *n, double *d1, double *d2)
     double along = dot(n, a), length = sqrt(1 - along * along);
     double across[3] = {n[1] * a[2] - n[2] * a[1], n[2] * a[0] - n[0] * a[2], n[0] * a[1] - n[1] * a[0]};
     for (int i = 0; i < 3; i++) {
-        d1[i] = (a[i] - along * n[i]) / length;
+        d1[i] = (a[i] - along * n[i]) / length + 0.0;
         d2[i] = across[i] / length + 0.0;
     }
 }
 
-/* contact/jacobian, `columns_at`: [nu; n'omega] of a body that all columns move, at the point r. */
-static void columns_at(const double *col, int64_t n_x, const double *r, const double *n,
-                       double *restrict out)
+/* contact/jacobian, `columns_at`, of one column of a body that it moves so much: added to four numbers. */
+static void add_column(const double *column, int64_t n_x, const double *r, const double *n, double sign,
+                       double moves, double *out, int64_t stride)
 {
-    const double *w = col + 3 * n_x;
-    double r0 = r[0], r1 = r[1], r2 = r[2], n0 = n[0], n1 = n[1], n2 = n[2];
-    for (int64_t x = 0; x < n_x; x++) {
-        double w0 = w[x], w1 = w[n_x + x], w2 = w[2 * n_x + x];
-        out[x] = col[x] + (w1 * r2 - w2 * r1);
-        out[n_x + x] = col[n_x + x] + (w2 * r0 - w0 * r2);
-        out[2 * n_x + x] = col[2 * n_x + x] + (w0 * r1 - w1 * r0);
-        out[3 * n_x + x] = (n0 * w0 + n1 * w1) + n2 * w2;
-    }
+    double w0 = column[3 * n_x], w1 = column[4 * n_x], w2 = column[5 * n_x];
+    double turning[3] = {w1 * r[2] - w2 * r[1], w2 * r[0] - w0 * r[2], w0 * r[1] - w1 * r[0]};
+    for (int i = 0; i < 3; i++) /* Eq. (2) */
+        out[i * stride] += sign * (moves * (column[i * n_x] + turning[i]));
+    out[3 * stride] += sign * (moves * ((n[0] * w0 + n[1] * w1) + n[2] * w2));
 }
 
-/* contact/jacobian, `jacobian`: J of one contact, and of each of its joints the column of its coordinate.
-   Columns of joints that mimic others are added to theirs. */
-static void jacobian(const Rows *s, int64_t c, double *restrict col, double *sides, double *J)
+/* contact/jacobian, `frames`, where each column is of one coordinate. `sizes`: contacts, columns of one and of
+   all, whether columns move beta's body and alpha's. `moves_beta` and `moves_alpha` are given if they do. */
+int64_t frames(const int64_t *sizes, const int64_t *joint, const double *moves_beta, const double *moves_alpha,
+               const double *columns, const double *alpha, const double *beta, const double *n, double *d1,
+               double *d2, double *J)
 {
-    int64_t n_x = s->joints[c], first = c * s->most_joints;
-    const int64_t *coordinate = s->coordinate + first;
-    double *of_alpha = sides, *of_beta = sides + 4 * n_x;
-    for (int64_t x = 0; x < n_x; x++)
+    int64_t w = sizes[1], n_x = sizes[2];
+    for (int64_t c = 0; c < sizes[0]; c++) {
+        tangents(n + 3 * c, d1 + 3 * c, d2 + 3 * c);
+        for (int64_t k = c * w; k < (c + 1) * w; k++) {
+            double *out = J + 4 * c * w + (k - c * w);
+            for (int i = 0; i < 4; i++)
+                out[i * w] = 0.0;
+            if (sizes[3])
+                add_column(columns + joint[k], n_x, beta + 3 * c, n + 3 * c, 1.0, moves_beta[k], out, w);
+            if (sizes[4])
+                add_column(columns + joint[k], n_x, alpha + 3 * c, n + 3 * c, -1.0, moves_alpha[k], out, w);
+            for (int i = 0; i < 4; i++)
+                out[i * w] += 0.0; /* Eq. (3); zero is 0.0, never -0.0 */
+        }
+    }
+    return 1;
+}
+
+/* step/standard_form, `contact_inequalities`, in the pyramid: Eqs. (4)-(8). `sizes`: contacts, own columns. `axes`
+   are n, d1 and d2; `has` which of the six rows each contact has. */
+int64_t pyramid_rows(const int64_t *sizes, const double *n, const double *d1, const double *d2, const double *J,
+                     const double *mu, const double *phi, const unsigned char *has, double *A, double *b)
+{
+    int64_t w = sizes[1], row = 0;
+    for (int64_t c = 0; c < sizes[0]; c++, J += 4 * w) {
+        int64_t first = row;
         for (int i = 0; i < 6; i++)
-            col[i * n_x + x] = s->column[s->joint[first + x]][i];
-    columns_at(col, n_x, s->alpha + 3 * c, s->n + 3 * c, of_alpha);
-    columns_at(col, n_x, s->beta + 3 * c, s->n + 3 * c, of_beta);
-    for (int i = 0; i < 4; i++) { /* Eqs. (2)-(3) */
-        double *row = s->J + (4 * c + i) * s->most_joints;
-        for (int64_t x = 0; x < n_x; x++)
-            row[coordinate[x]] = 0.0;
-        for (int64_t x = 0; x < n_x; x++) /* added to 0.0, so that zero is never -0.0 */
-            row[coordinate[x]] += s->moves_beta[first + x] * of_beta[i * n_x + x]
-                                - s->moves_alpha[first + x] * of_alpha[i * n_x + x];
-        for (int64_t x = 0; x < n_x; x++)
-            J[i * n_x + x] = row[coordinate[x]];
-    }
-}
-
-/* step/friction, `frame_jacobian`, of one axis, times a coefficient of friction. */
-static void motion_along(const double *axis, const double *J, int64_t n, double mu, double *restrict out)
-{
-    double x = axis[0], y = axis[1], z = axis[2];
-    for (int64_t v = 0; v < n; v++)
-        out[v] = mu * ((x * J[v] + y * J[n + v]) + z * J[2 * n + v]);
-}
-
-/* contact/jacobian, `contacts`, and step/standard_form, `inequalities`: d1, d2, J, A and b. */
-void contact_rows(const Rows *s)
-{
-    int64_t row = 0;
-    double *col = s->work, *sides = col + 6 * s->most_joints, *J = sides + 8 * s->most_joints;
-    double *motion = J + 4 * s->most_joints, *restrict a = motion + 4 * s->most_joints;
-    for (int64_t c = 0; c < s->n_c; c++) {
-        int64_t n = s->joints[c];
-        const int64_t *coordinate = s->coordinate + c * s->most_joints;
-        double *d1 = s->d1 + 3 * c, *d2 = s->d2 + 3 * c;
-        tangents(s->n + 3 * c, d1, d2);
-        jacobian(s, c, col, sides, J);
-        motion_along(s->n + 3 * c, J, n, 1.0, motion);
-        motion_along(d1, J, n, s->mu_v[c], motion + n);
-        motion_along(d2, J, n, s->mu_v[c], motion + 2 * n);
-        for (int64_t v = 0; v < n; v++)
-            motion[3 * n + v] = s->mu_omega[c] * J[3 * n + v];
-        for (int64_t i = 0; i < s->rows[c]; i++, row++) { /* Eqs. (4)-(8) */
-            for (int64_t v = 0; v < n; v++)
-                a[v] = motion[v];
-            for (int k = 0; k < 3; k++) {
-                const double *along = motion + (k + 1) * n;
-                double coefficient = s->coefficient[3 * i + k];
-                for (int64_t v = 0, last = s->has[3 * i + k] ? n : 0; v < last; v++)
-                    a[v] = a[v] + coefficient * along[v];
-            }
-            for (int64_t v = 0; v < n; v++)
-                s->A[row * s->most_joints + coordinate[v]] = a[v];
-            s->b[row] = -s->phi[c];
+            if (has[6 * c + i])
+                b[row++] = -phi[c];
+        for (int64_t k = 0; k < w; k++) {
+            double nu[3] = {J[k], J[w + k], J[2 * w + k]};
+            double slip_1 = mu[3 * c] * dot(d1 + 3 * c, nu), slip_2 = mu[3 * c] * dot(d2 + 3 * c, nu);
+            double gap = dot(n + 3 * c, nu), spin = mu[3 * c + 2] * J[3 * w + k];
+            double rows[6] = {gap + slip_1, gap + slip_2, gap - slip_1, gap - slip_2, gap + spin, gap - spin};
+            for (int64_t i = 0, at = first; i < 6; i++)
+                if (has[6 * c + i])
+                    A[at++ * w + k] = rows[i];
         }
     }
-}
-
-/* simulate/simulator, `generalised_force`, and step/standard_form, `linear_term`: tau and g. */
-void load(const Rows *s)
-{
-    for (int64_t v = 0; v < s->n_v; v++) {
-        s->tau[v] = s->weighs[v] * (0.0 - *s->gravity[v]) + s->force[v];
-        double pull = s->tau[v];
-        if (v < s->n_a) { /* Eq. (1) */
-            const double *K = s->K_q + v * s->n_a, *to = s->delta_q_bar_a;
-            double tau_k = K[0] * to[0];
-            for (int64_t j = 1; j < s->n_a; j++)
-                tau_k = tau_k + K[j] * to[j];
-            pull = tau_k + pull;
-        }
-        s->g[v] = *s->h * pull;
-    }
+    return 1;
 }

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "fast.h"
 
 #if FLT_EVAL_METHOD != 0
 #error "float64 operations must be rounded to float64"
