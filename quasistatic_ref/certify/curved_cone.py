@@ -80,6 +80,7 @@ class CurvedCone(FrictionCone):
         active: Sequence[tuple[int, int]],
         lam: Array | None,
         claims: Certificate | None,
+        net: Array | None = None,
     ) -> Verdict:
         """As :func:`~quasistatic_ref.certify.verification.verify_answer`, its wrench left out."""
 

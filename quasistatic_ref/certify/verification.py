@@ -12,7 +12,7 @@ positive definite, and the decisions on degeneracy; it does not search for a wor
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Protocol, runtime_checkable
 
@@ -48,8 +48,9 @@ class HasVerdict(Protocol):
 def verify(solution: StepSolution | HasVerdict) -> Verdict:
     """Whether all that a solution claims is so, checked without a solver.
 
-    Its delta_q and multipliers, and all fields of its certificate, but its residuals. The kinds
-    ``"residual"`` and ``"none"``, which prove nothing, are refused.
+    Its delta_q, multipliers and net impulse, and all fields of its certificate; of residuals, which
+    are float64's, that they are numbers. The kinds ``"residual"`` and ``"none"``, which prove
+    nothing, are refused, and so is a solution that is not of its step alone.
 
     Parameters
     ----------
@@ -75,7 +76,16 @@ def verify(solution: StepSolution | HasVerdict) -> Verdict:
         check_kind(solution, HasVerdict, "solution", "what solve_step or load_solution returns")
         return solution.verdict()
     claims = solution.certificate
-    return verify_answer(solution.step, solution.delta_q, claims.active, solution.lam, claims)
+    if not solution.alone:
+        return Verdict(False, "costs or constraints that its step does not hold were solved, too")
+    return verify_answer(
+        solution.step,
+        solution.delta_q,
+        claims.active,
+        solution.lam,
+        claims,
+        net_impulse=solution.net_impulse,
+    )
 
 
 def verify_answer(
@@ -85,6 +95,7 @@ def verify_answer(
     lam: ArrayLike | None = None,
     claims: Certificate | None = None,
     wrench: ArrayLike | None = None,
+    net_impulse: ArrayLike | None = None,
 ) -> Verdict:
     """Whether delta_q is the exact optimum of a step, rounded correctly.
 
@@ -104,6 +115,8 @@ def verify_answer(
         refused, and so are the kinds ``"residual"`` and ``"none"``, which prove nothing.
     wrench : ndarray, shape (n_c, 4), optional
         What lam is claimed to add up to, as a solution file has it [N, N m]; every bit counts.
+    net_impulse : ndarray, shape (n_v,), optional
+        The claimed A'lam [N s, N m s]; every bit counts, of an enclosure as far as that is proved.
 
     Returns
     -------
@@ -112,7 +125,7 @@ def verify_answer(
     Raises
     ------
     StepDataError
-        If delta_q, lam or the wrench are no numbers.
+        If delta_q, lam, the wrench or the net impulse are no numbers.
     InputError
         If the wrench is given without lam, an argument is of another kind, or nothing can be proved
         in this thread: see :mod:`~quasistatic_ref.numbers.precision`.
@@ -131,15 +144,21 @@ def verify_answer(
         return Verdict(False, "the certificate is of another step")
     delta_q = checked_numbers(delta_q, "delta_q")
     lam = None if lam is None else checked_numbers(lam, "lam")
-    lengths = {"delta_q": (delta_q, step.n_v), "lam": (lam, step.m)}
+    net = None if net_impulse is None else checked_numbers(net_impulse, "net_impulse")
+    lengths = {
+        "delta_q": (delta_q, step.n_v),
+        "lam": (lam, step.m),
+        "net_impulse": (net, step.n_v),
+    }
     for name, (x, length) in lengths.items():
         if x is not None and np.shape(x) != (length,):
             return Verdict(False, f"{name} has shape {np.shape(x)}; the step wants ({length},)")
     problem = "" if wrench is None else _wrong_wrench(step, lam, wrench)
+    problem = problem or ("" if claims is None else _wrong_residuals(claims))
     if problem:
         return Verdict(False, problem)
     if not cone(step.cone).polyhedral:
-        return curved_cone(step).verdict(step, delta_q, active, lam, claims)
+        return curved_cone(step).verdict(step, delta_q, active, lam, claims, net)
     if claims is not None and claims.kind != "exact":
         return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing here")
     try:
@@ -151,6 +170,7 @@ def verify_answer(
         raise InputError(problem, field="active", value=active) from None
     delta_q_exact = np.zeros(step.n_v)
     lam_exact = np.zeros(step.m)
+    net_exact = np.zeros(step.n_v)
     reason = ""
     solved = []
     for group, part in group_steps(step):
@@ -165,6 +185,7 @@ def verify_answer(
             times_h = exact.denominator * form.h
         delta_q_exact[group.coordinates] = rounded_quotients(exact.x, exact.denominator)
         lam_exact[group.rows[working_rows]] = rounded_quotients(exact.y, times_h)
+        net_exact[group.coordinates] = rounded_quotients(exact.net.entries(), times_h)
         wrong = wrong_sign(form, working_rows, exact.y, slack)
         if wrong is not None and not reason:
             reason = _in_words(step, group.rows[wrong[0]], wrong[1])
@@ -172,6 +193,8 @@ def verify_answer(
     reason = reason or wrong_bits("delta_q", delta_q, delta_q_exact)
     if lam is not None and not reason:
         reason = wrong_bits("lam", lam, lam_exact)
+    if net is not None and not reason:
+        reason = wrong_bits("net_impulse", net, net_exact)
     if claims is not None and not reason:
         reason = _wrong_claim(solved, claims, lam_exact[list(working)])
     return Verdict(not reason, reason)
@@ -212,6 +235,16 @@ def _wrong_wrench(step: StepData, lam: Array | None, wrench: ArrayLike) -> str:
         return f"wrench has shape {np.shape(wrench)}; the step wants {right.shape}"
     wrong = (wrong_bits(f"wrench[{j}]", wrench[j], row) for j, row in enumerate(right))
     return next(filter(None, wrong), "")
+
+
+def _wrong_residuals(claims: Certificate) -> str:
+    """What is wrong with residuals, which prove nothing, as numbers; or empty."""
+    residuals = claims.residuals
+    if isinstance(residuals, Mapping) and all(
+        isinstance(value, float) and value >= 0 for value in residuals.values()
+    ):
+        return ""
+    return "residuals are not numbers of at least 0 by name"
 
 
 def wrong_sign(

@@ -2,7 +2,7 @@
 
 import json
 from collections import Counter
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -12,9 +12,11 @@ from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.files.solution import load_solution, solution_text
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
-from tests.cases import first
+from tests.cases import cases, first
 from tests.oracles.forged_scenes import between_walls, scenes
 from tests.oracles.forgeries import at_random, good_file, is_refused, outcomes
+from tests.oracles.grasp_steps import grasp_step
+from tests.oracles.random_steps import mixed_step
 from tests.oracles.records import places
 from tests.oracles.solution_truth import truth_of, wrenches
 
@@ -104,3 +106,39 @@ def test_a_force_between_walls_that_nothing_touches_is_refused(path):
         for error in (record["certificate"]["error_bound"], 1e9):
             reason = faults_of_forgeries(step, path, **both, gap=gap, error_bound=error)
             assert "error_bound is 1" in reason or "presses where nothing touches" in reason
+
+
+IN_MEMORY = {
+    "another net impulse": lambda s: {"net_impulse": s.net_impulse + 1e-3},
+    "the opposite one": lambda s: {"net_impulse": -s.net_impulse},
+    "one of NaN": lambda s: {"net_impulse": np.full(s.step.n_v, np.nan)},
+    "one of another length": lambda s: {"net_impulse": s.net_impulse[1:]},
+    "costs of an extension": lambda s: {"alone": False},
+    "residuals of None": lambda s: {"certificate": replace(s.certificate, residuals=None)},
+    "residuals of NaN": lambda s: {
+        "certificate": replace(s.certificate, residuals={"primal": np.nan})
+    },
+    "no step": lambda s: {"certificate": replace(s.certificate, step=None)},
+}
+"""What a solution claims that stands in no file."""
+
+
+@cases("change", IN_MEMORY)
+@pytest.mark.parametrize(("kind", "name"), [k for k in SCENES if k[0].startswith(("ex", "en"))])
+def test_no_claim_of_a_solution_in_memory_is_believed(kind, name, change):
+    """Without a net impulse it claims nothing of it."""
+    solution = solve_step(SCENES[kind, name])
+    assert verify(solution)
+    assert verify(replace(solution, net_impulse=None))
+    assert not verify(replace(solution, **change(solution)))
+
+
+def test_the_net_impulse_of_every_solution_holds(rng):
+    """That of grasps, of mixed steps and of rows of one's own, in either cone."""
+    grasps = [grasp_step(rng) for _ in range(3)]
+    steps = [*grasps, *map(mixed_step, range(6)), *(SCENES[k] for k in SCENES if k[0] == "exact")]
+    for step in steps:
+        for name in (PYRAMID, ELLIPSOID):
+            solution = solve_step(step.replace(cone=name))
+            assert solution.net_impulse is not None
+            assert verify(solution), verify(solution).reason

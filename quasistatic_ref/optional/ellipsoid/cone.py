@@ -9,16 +9,17 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from flint import fmpq
+from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.curved_cone import CurvedCone
 from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
 from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.minimiser import rounded_quotients
+from quasistatic_ref.certify.norm import error_length, norm_of, single_loads
 from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
-from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.numbers.precision import working_precision
+from quasistatic_ref.numbers.arrays import Array, Mask, without_warnings
+from quasistatic_ref.numbers.precision import nearest_fraction, working_precision
 from quasistatic_ref.optional.ellipsoid.apex import apex
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     BITS,
@@ -32,16 +33,19 @@ from quasistatic_ref.optional.ellipsoid.forces import compliant_forces
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.optional.ellipsoid.tolerances import ENCLOSED, IMPULSES
-from quasistatic_ref.optional.gap import duality_gap, fractions
+from quasistatic_ref.optional.gap import duality_gap, fractions, rational
 from quasistatic_ref.step.cones import ELLIPSOID, Claims, Judge, Rows, Violations
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import Certificate
+from quasistatic_ref.step.standard_form import linear_term
 
 if TYPE_CHECKING:
     import cvxpy as cp
 
 Active = tuple[tuple[int, int], ...]
 LARGEST = float(np.finfo(np.float64).max)
+ROUNDED = 2.0**-51
+"""Of an entry of A'lam: what rounding leaves of it."""
 UNSTATED = Certificate("exact", error_bound=0.0)
 """What an answer without a certificate counts as."""
 
@@ -133,6 +137,7 @@ class EllipsoidCone(CurvedCone):
         active: Sequence[tuple[int, int]],
         lam: Array | None,
         claims: Certificate | None,
+        net: Array | None = None,
     ) -> Verdict:
         """The verdict on an answer in the ellipsoid: whether all of its claims hold.
 
@@ -150,6 +155,8 @@ class EllipsoidCone(CurvedCone):
         lam : ndarray, shape (m,), optional
         claims : Certificate, optional
             Without one, the answer counts as exact.
+        net : ndarray, shape (n_v,), optional
+            A'lam [N s, N m s]: of an exact answer to the last bit, of an enclosure as near as that.
         """
         claims = UNSTATED if claims is None else claims
         if claims.kind not in ("exact", "enclosure"):
@@ -164,6 +171,8 @@ class EllipsoidCone(CurvedCone):
         judge = _not_exact if claims.kind == "exact" else _not_enclosed
         x, reason = judge(step, form, delta_q, tuple(active), lam, claims)
         reason = reason or _not_multipliers(step, form, x, lam, claims.gap)
+        if net is not None and not reason:
+            reason = _not_net(step, form, x, net, exact=claims.kind == "exact")
         return Verdict(not reason, reason)
 
 
@@ -233,6 +242,20 @@ def _not_enclosed(
     elif not claimed <= ENCLOSED:
         reason = f"error_bound is {claimed!r}; an enclosure has {ENCLOSED!r} at most"
     return point(pair), reason
+
+
+def _not_net(step: StepData, form: ExactForm, x: Sequence[fmpq], net: Array, *, exact: bool) -> str:
+    """What is wrong with A'lam = H x - g, at the optimum x or next to it; or empty."""
+    pull = rational(form.H) * fmpq_mat(form.n, 1, [*x]) - rational(form.g)
+    numbers = [v / fraction(form.h) for v in pull.entries()]
+    right = np.array([nearest_fraction(v) for v in numbers], dtype=np.float64)
+    if exact:
+        return wrong_bits("net_impulse", net, right)
+    off = np.maximum(np.abs(net - right) - ROUNDED * np.abs(right), 0.0)
+    moved = np.array([float(v) for v in x])
+    allowed = ENCLOSED * error_length(step.H, linear_term(step), moved, single_loads(step))
+    near = without_warnings(norm_of(step).of_impulse, off) <= allowed  # not: NaN
+    return "" if near else "net_impulse is not A'lam"
 
 
 def _not_multipliers(
