@@ -17,7 +17,7 @@ from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.files.npz import header_of, npz_arrays
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.files.table_reader import TableReader
-from quasistatic_ref.files.trajectory import FORMAT, VERSION, WHAT, save_trajectory
+from quasistatic_ref.files.trajectory import FORMAT, WHAT, save_trajectory
 from quasistatic_ref.parts import is_there, needing, part
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.header import Header
@@ -61,6 +61,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="print notes, the findings that are not grave, as sentences, too",
     )
     parser.add_argument(
+        "--replace", action="store_true", help="overwrite a run of another scene, or a longer one"
+    )
+    parser.add_argument(
         "--numbers",
         action="store_true",
         help="print the numbers of all bodies and joints, and a table of all pairs",
@@ -93,7 +96,10 @@ def run(options: argparse.Namespace) -> int:
     """
     scenario = scenario_of(options)
     path = options.out / f"{scenario.path.stem}.npz"
-    check_replaceable(path, scenario.steps)
+    if options.out.suffix == ".npz":
+        problem = f"is a folder, in which {path.name} is written; name a folder"
+        raise InputError(problem, field="--out", value=str(options.out))
+    check_replaceable(path, scenario, options.replace)
     writable_folder(options.out)
     tables = {"--table": options.table, "--contacts-table": options.contacts_table}
     tables = {option: file for option, file in tables.items() if file is not None}
@@ -197,8 +203,15 @@ def _print(summary: Mapping[str, Any]) -> None:
         )
 
 
-def check_replaceable(path: Path, steps: int) -> None:
-    """Refuse to overwrite a file, unless it is a run of no more steps than this one.
+def check_replaceable(path: Path, scenario: Scenario, replace: bool) -> None:
+    """Refuse to overwrite a file, unless it is a run of this scene that is no longer than its own.
+
+    Parameters
+    ----------
+    path : Path
+    scenario : Scenario
+    replace : bool
+        Whether any run may be overwritten.
 
     Raises
     ------
@@ -206,17 +219,21 @@ def check_replaceable(path: Path, steps: int) -> None:
     """
     if not isfile(path) or not path.stat().st_size:  # false of a name that is too long
         return
-    remedy = "choose another folder, or remove it"
     try:
         header = npz_arrays(path, WHAT, only="header").get("header")
         top = TableReader(header_of(path, WHAT, header))
-        top.check_format(FORMAT, VERSION)
+        top.text("format", choices=(FORMAT,))
         there = top.integer("steps", least=0)
+        of_scene = top.text("scene_sha256", "")
     except InputError as error:
-        problem = f"{error.problem}; it is not replaced by one; {remedy}"
+        problem = f"{error.problem}; it is not replaced by one; choose another folder, or remove it"
         raise InputError(problem, file=path) from None
-    if there > steps:
-        problem = f"holds a run of {there} steps, which one of {steps} does not replace; {remedy}"
+    if replace:
+        return
+    if of_scene != scenario.fingerprint or not of_scene:
+        raise InputError("is a run of another scene; --replace overwrites it", file=path)
+    if there > scenario.steps:
+        problem = f"is a longer run of this scene, of {there} steps; --replace overwrites it"
         raise InputError(problem, file=path)
 
 

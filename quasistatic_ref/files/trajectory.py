@@ -20,7 +20,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 
 FORMAT = "quasistatic-ref/trajectory"
-VERSION = 1
+VERSION = 2
 WHAT = "a trajectory written by this program"
 
 
@@ -127,8 +127,8 @@ def header_read(top: TableReader, n_q: int, n_c: int) -> Header:
         unanswered=_steps(top, "unanswered"),
         not_looked_at=top.text("not_looked_at", ""),
         ignore=tuple(top.words("ignore", [])),
+        scene_sha256=top.text("scene_sha256", ""),
     )
-    top.take("scene", None)  # of files from when accounts of runs were made of them
     top.close()
     return header
 

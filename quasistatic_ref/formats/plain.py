@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import struct
 from collections.abc import Mapping
 from dataclasses import Field, fields
@@ -149,3 +150,15 @@ def bits(value: Any) -> Any:
     if isinstance(value, slice):
         return slice, value.start, value.stop, value.step
     return type(value), value
+
+
+def fingerprint(value: object) -> str:
+    """SHA-256 of what :func:`bits` compares, in hexadecimal: the same in every process."""
+    return hashlib.sha256(repr(_in_order(bits(value))).encode()).hexdigest()
+
+
+def _in_order(value: Any) -> Any:
+    """Nested bits, of which mappings are in the order of their text."""
+    if isinstance(value, tuple):
+        return tuple(map(_in_order, value))
+    return sorted(map(repr, map(_in_order, value))) if isinstance(value, frozenset) else value

@@ -55,6 +55,8 @@ class Header(Plain):
         What the findings leave out, and why.
     ignore : tuple of str
         Names of findings that the user has asked not to hear.
+    scene_sha256 : str
+        Fingerprint of the scene, see :attr:`.Scenario.fingerprint`; empty for that of a simulator.
     """
 
     h: float
@@ -80,3 +82,4 @@ class Header(Plain):
     unanswered: tuple[int, ...] = ()
     not_looked_at: str = ""
     ignore: tuple[str, ...] = ()
+    scene_sha256: str = ""

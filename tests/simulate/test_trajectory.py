@@ -1,5 +1,6 @@
 """Trajectories: the same bits in and out, without pickles."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -112,10 +113,11 @@ def test_the_header_says_what_the_run_was(run):
     header = header_table(run.header)
     assert header.pop("quasi_dynamic_number") > 0  # their values: test_artifacts.py
     assert header.pop("largest_boundary_layer") > 0
+    assert re.fullmatch("[0-9a-f]{64}", header.pop("scene_sha256"))
     assert header.pop("findings") == [finding_table(found) for found in run.findings]
     assert header == {
         "format": "quasistatic-ref/trajectory",
-        "version": 1,
+        "version": 2,
         "h": 0.01,
         "backend": "daqp",
         "cone": "pyramid",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -40,7 +40,7 @@ from quasistatic_ref.files.scenario.paths import OwnWord, folders_in
 from quasistatic_ref.files.scenario.scenario_table import FORMAT, TOP, VERSION
 from quasistatic_ref.files.scenario.scene_words import HERE, scene_tables
 from quasistatic_ref.files.table_reader import TableReader
-from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.plain import Plain, fingerprint
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.system import Body, System
@@ -48,7 +48,7 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import Record
-from quasistatic_ref.simulate.observer import Observer
+from quasistatic_ref.simulate.observer import Observer, Recording
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.simulator import Simulator
@@ -69,6 +69,18 @@ ExtendedBodies = Callable[
 pairs with those of supports, and what else is added to each step."""
 FastBackend = Callable[[System, Sequence[ContactPair], str, str], str]
 """A system, its pairs, cone and law -> the backend of ``fast`` where none is named."""
+
+
+class NamesTheScene(Observer):
+    """Writes the fingerprint of a scene into the header of its run, also of one that fails."""
+
+    def __init__(self, fingerprint: str) -> None:
+        self.fingerprint = fingerprint
+
+    def end(self, recorder: Recording, trajectory: Trajectory, interrupted: bool) -> Trajectory:
+        """The trajectory with its fingerprint."""
+        header = trajectory.header.with_fields(scene_sha256=self.fingerprint)
+        return replace(trajectory, header=header)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -129,6 +141,27 @@ class Scenario(Settings, Plain, Shown):
         """External generalised force (t, q) -> (n_v,), or None where there is none."""
         return Loads(self.system, self.wrenches) if self.wrenches else None
 
+    @property
+    def fingerprint(self) -> str:
+        """SHA-256 of what runs of this scene have in common, in hexadecimal; empty if not known.
+
+        That is all but the number of steps, what is recorded and said, where a run ends early, and
+        the way to its answers: backend, accuracy, certify and fast.
+        """
+        system = self.system
+        driven = [(joint.name, joint.actuated) for joint in system.joints]
+        words = [str(word) for word in (self.cone, self.law, self.distances)]
+        physics = (self.h, self.K_q, self.gravity, self.gravity_acts, words)
+        tracks = [(one.joint.name, one.times, one.values) for one in self.targets.tracks]
+        model = (system.texts, driven, system.q_start, system.masses)
+        drives = (self.targets.q_a_start, tracks, self.wrenches, self.of_bodies)
+        sides = {side.name: side for pair in self.pairs for side in (pair.alpha, pair.beta)}
+        pairs = [
+            (one.name, one.alpha.name, one.beta.name, one.mu_v, one.mu_omega, one.rows, one.k)
+            for one in self.pairs
+        ]
+        return fingerprint((model, physics, sides, pairs, drives))
+
     def findings(self) -> tuple[Finding, ...]:
         """What is wrong with the scene where it starts; a run's findings have these, too.
 
@@ -179,7 +212,7 @@ class Scenario(Settings, Plain, Shown):
             findings=findings,
             notes=notes,
             ignore=self.ignored_findings,
-            observers=observers,
+            observers=[*observers, NamesTheScene(self.fingerprint)],
         )
 
 

@@ -14,7 +14,7 @@ from typing import Any
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.content import json_read, text_written
 from quasistatic_ref.formats.json_text import json_text
-from quasistatic_ref.lab.fingerprint import fingerprint
+from quasistatic_ref.formats.plain import fingerprint
 from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.machine import machine
 from quasistatic_ref.lab.parallel import results

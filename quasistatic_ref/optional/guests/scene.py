@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
@@ -17,6 +18,7 @@ from quasistatic_ref.files.scenario.overrides import Changes, about_changes, app
 from quasistatic_ref.files.scenario.scenario import FastBackend, Scenario
 from quasistatic_ref.files.scenario.scenario_table import TOP, fields_of
 from quasistatic_ref.files.table_reader import TableReader
+from quasistatic_ref.formats.plain import fingerprint
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.numbers.arrays import Array
@@ -76,6 +78,21 @@ class MujocoScenario(Scenario):
         system = self.drive.system
         rows = system.extension if system.rows.names or len(system.rises) else None
         return MujocoSimulator(**self.settings(), extension=rows)
+
+    @property
+    def fingerprint(self) -> str:
+        """As of :attr:`.Scenario.fingerprint`; empty if a function of the user's drives it."""
+        import mujoco  # it takes its time
+
+        system = self.drive.system
+        start = system.start
+        if not isinstance(self.drive.values, partial):
+            return ""
+        model = np.empty(mujoco.mj_sizeModel(system.model), dtype=np.uint8)
+        mujoco.mj_saveModel(system.model, None, model)
+        state = (start.qpos, start.qvel, start.act, start.ctrl)
+        settings = (self.h, self.K_q, self.cone, system.places.margin)
+        return fingerprint((model, *map(np.array, state), settings, self.drive.values.args))
 
     @property
     def target(self) -> Drive:
