@@ -73,7 +73,7 @@ def _figures(
 
     with figure_style():
         strip = grasp_strip(scenario, runs, INSTANTS, rotations_by_case())
-    paths = figure_written(strip, options.out, "bunny_grasp")
+    paths = figure_written(strip, options.out, "bunny_grasp", ["png"])
     return [path.name for path in paths]
 
 

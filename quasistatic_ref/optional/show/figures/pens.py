@@ -110,7 +110,7 @@ class Pen:
         x, y, depth = seen[seen[:, 2].argsort()].T
         self.axes.scatter(
             MILLI * x, MILLI * y, s=DOT * scaled(1) ** 2, c=by_depth(colour, depth), linewidths=0,
-            zorder=zorder,
+            zorder=zorder, rasterized=True,
         )  # fmt: skip
 
     def _floor(self, floor: HalfSpace, corners: Array) -> None:

@@ -135,8 +135,19 @@ def room(axes: Axes) -> tuple[float, float]:
     return float(width), float(height)
 
 
-def figure_written(figure: Figure, folder: str | Path, name: str) -> list[Path]:
-    """Write a figure as PNG and PDF, each whole or not at all, and close it.
+def figure_written(
+    figure: Figure, folder: str | Path, name: str, kinds: Sequence[str] = ("png", "pdf")
+) -> list[Path]:
+    """Write a figure in each format, whole or not at all, and close it.
+
+    Parameters
+    ----------
+    figure : Figure
+    folder : str or Path
+    name : str
+        Of the files, without their ends.
+    kinds : sequence of str
+        Of ``METADATA``; each format draws the figure once.
 
     Returns
     -------
@@ -144,8 +155,8 @@ def figure_written(figure: Figure, folder: str | Path, name: str) -> list[Path]:
     """
     paths = []
     with figure_style():
-        for kind, metadata in METADATA.items():
-            save = partial(figure.savefig, format=kind, metadata=metadata)
+        for kind in kinds:
+            save = partial(figure.savefig, format=kind, metadata=METADATA[kind])
             paths.append(written_whole(Path(folder) / f"{name}.{kind}", save))
     plt.close(figure)
     return paths

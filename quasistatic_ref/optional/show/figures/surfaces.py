@@ -3,7 +3,7 @@
 from functools import lru_cache
 
 import numpy as np
-import trimesh
+from scipy.spatial import ConvexHull
 
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.solids.polytope import polytope
@@ -36,8 +36,9 @@ def surface_points(shape: shapes.Shape, around: int = AROUND, up: int = UP) -> A
     flat = polytope(shape)
     if flat is not None and not flat.margin:
         return flat.vertices
-    directions = trimesh.creation.uv_sphere(count=(up, around // 2)).vertices
-    every = np.array([shape.support_point(direction) for direction in directions])
+    down, turn = np.meshgrid(np.linspace(0, np.pi, up), np.arange(around) * (2 * np.pi / around))
+    directions = [np.sin(down) * np.cos(turn), np.sin(down) * np.sin(turn), -np.cos(down)]
+    every = np.array([shape.support_point(d) for d in np.reshape(directions, (3, -1)).T])
     return np.unique(every.round(DECIMALS), axis=0)
 
 
@@ -52,4 +53,8 @@ def patch(floor: shapes.HalfSpace, centre: Array, half_width: float) -> Array:
 
 def triangles(points: Array) -> Array:
     """Corners of the convex hull's triangles, shape (3T, 3), counter-clockwise from outside."""
-    return np.asarray(trimesh.convex.convex_hull(points).triangles.reshape(-1, 3))
+    hull = ConvexHull(points)
+    one, two, three = points[hull.simplices.T]
+    outside = np.vecdot(np.cross(two - one, three - one), hull.equations[:, :3]) > 0
+    corners = np.where(outside[:, None, None], [one, two, three], [one, three, two])
+    return np.asarray(corners.transpose(1, 0, 2).reshape(-1, 3))
