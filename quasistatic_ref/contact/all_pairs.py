@@ -80,6 +80,10 @@ class AllPairs:
             )
             for batch, some in blocks
         ]
+        # One batch that has all pairs, in order: its contacts are those of all.
+        every = [*range(self.n_c)]
+        in_order = [batch for batch, _, rows in self._batches if rows.ravel().tolist() == every]
+        self._every = in_order[0] if in_order else None
 
     def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
         """The contacts of all pairs, in order, each pair's as they rank.
@@ -91,6 +95,12 @@ class AllPairs:
             answer with a distance of 0).
         """
         n_c = self.n_c
+        if self._every is not None:
+            check_finite(kinematics)
+            known, every = self._every.contacts(kinematics.R, kinematics.t)
+            if known.all():
+                points = ClosestPoints._make([one.reshape(n_c, *one.shape[2:]) for one in every])
+                return points._replace(phi=points.phi + 0.0, n=points.n + 0.0)  # never -0.0
         vectors = np.zeros((3, n_c, 3))
         contacts = ClosestPoints(np.zeros(n_c), *vectors, *np.zeros((2, n_c), dtype=np.int64))
         self.write(kinematics, contacts)
@@ -98,10 +108,9 @@ class AllPairs:
 
     def write(self, kinematics: Kinematics, contacts: ClosestPoints) -> None:
         """Write the contacts into arrays of shape (n_c, ...); ContactError as of closest_points."""
+        check_finite(kinematics)
         R = kinematics.R
         t = kinematics.t
-        if not (all_finite(R.ravel()) and all_finite(t.ravel())):
-            raise ContactError("must be finite", field="poses")
         left = [*self._singly]
         for batch, some, rows in self._batches:
             known, points = batch.contacts(R, t)
@@ -114,6 +123,12 @@ class AllPairs:
                 field[self._rows[i]] = values
         for field in (contacts.phi, contacts.n):
             field += 0.0  # zero is 0.0, never -0.0
+
+
+def check_finite(kinematics: Kinematics) -> None:
+    """Refuse poses that are not finite: ContactError."""
+    if not (all_finite(kinematics.R.ravel()) and all_finite(kinematics.t.ravel())):
+        raise ContactError("must be finite", field="poses")
 
 
 def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:

@@ -24,7 +24,13 @@ from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array, Mask, all_finite
 from quasistatic_ref.numbers.compiled import compiled
-from quasistatic_ref.solve.by_group import GroupLayout, Programs, coordinate_units, layout_of
+from quasistatic_ref.solve.by_group import (
+    GroupLayout,
+    NaturalHessian,
+    Programs,
+    coordinate_units,
+    layout_of,
+)
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import (
@@ -68,12 +74,13 @@ def units_of(form: StandardForm) -> Units:
         As :func:`~quasistatic_ref.certify.norm.energy_norm`.
     """
     coordinate = coordinate_units(np.diag(form.H))
-    sizes = sizes_of(squared_lengths(form.A, coordinate), form.b)
-    return natural_units(coordinate, sizes, energy_norm(form.H).of_impulse(form.g))
+    free_length = energy_norm(form.H).of_impulse(form.g)
+    sizes = sizes_of(squared_lengths(form.A, coordinate), form.b, free_length)
+    return natural_units(coordinate, sizes)
 
 
 class Sizes(NamedTuple):
-    """How large the rows of a step are.
+    """How large a step is, by its rows and its load.
 
     Parameters
     ----------
@@ -83,26 +90,29 @@ class Sizes(NamedTuple):
         Largest square of these lengths [m^2/(N m s)].
     push_out : float
         Largest entry of b, at least 0: of penetration [m].
+    free_length : float
+        ||H^-1 g||_H [(N m s)^0.5].
     """
 
     median: float
     most: float
     push_out: float
+    free_length: float
 
 
-def sizes_of(squares: Array, b: Array) -> Sizes:
-    """The sizes of rows with these squared lengths and ends b, shapes (m,)."""
+def sizes_of(squares: Array, b: Array, free_length: float) -> Sizes:
+    """The sizes of a step from squared lengths of rows and ends b, shapes (m,)."""
     median = _median_length(squares[squares != 0])
-    return Sizes(median, float(squares.max(initial=0.0)), float(b.max(initial=0.0)))
+    return Sizes(median, float(squares.max(initial=0.0)), float(b.max(initial=0.0)), free_length)
 
 
 @compiled
-def row_sizes(A: Array, unit: Array, b: Array) -> Sizes:
-    """The sizes of rows of A S, both (m, w), and of b, shape (m,); units of columns as above."""
-    return sizes_of(squared_lengths(A, unit), b)
+def step_sizes(A: Array, b: Array, g: Array, H: NaturalHessian) -> Sizes:
+    """The sizes of a step from its rows by own columns, (m, w), b and g."""
+    return sizes_of(squared_lengths(A, H.own_unit), b, H.free_length(g))
 
 
-def natural_units(coordinate: Array, sizes: Sizes, free_length: float) -> Units:
+def natural_units(coordinate: Array, sizes: Sizes) -> Units:
     """Natural units of a step; not finite where its numbers are not.
 
     Parameters
@@ -110,16 +120,14 @@ def natural_units(coordinate: Array, sizes: Sizes, free_length: float) -> Units:
     coordinate : ndarray, shape (n_v,)
         Diagonal of S [m or rad, per (N m s)^0.5].
     sizes : Sizes
-    free_length : float
-        ||H^-1 g||_H [(N m s)^0.5].
     """
     length = _power_of_two(sizes.median)
     push_out = sizes.push_out / length
-    size = max(free_length, push_out)
+    size = max(sizes.free_length, push_out)
     softest = float(coordinate.max(initial=0.0))
     if size == 0:  # no load, no penetration: the optimum is zero
         size = UNMOVED / softest if coordinate.size else UNMOVED
-    if not math.isfinite(free_length + push_out + sizes.most):
+    if not math.isfinite(sizes.free_length + push_out + sizes.most):
         size = math.nan
     size = _power_of_two(max(size, SMALLEST * max(1.0, softest)))
     return Units(coordinate, length, size)
@@ -229,10 +237,10 @@ class ScaledStep:
         natural = self.layout.natural_hessian_of(self.step)
         A, b = self._own_inequalities
         if self.step.extra.names:
-            sizes = sizes_of(self.squared_lengths, b)
+            sizes = sizes_of(self.squared_lengths, b, natural.free_length(self._g))
         else:
-            sizes = row_sizes(A, natural.own_unit, b)
-        units = natural_units(natural.unit, sizes, natural.free_length(self._g))
+            sizes = step_sizes(A, b, self._g, natural)
+        units = natural_units(natural.unit, sizes)
         if not (0 < units.length < math.inf and 0 < units.size < math.inf):
             raise out_of_range()
         return units

@@ -15,7 +15,7 @@ LEAVES: Final[Mapping[str, str]] = {
     "Sums.change": "sums:change",
     "ContactGeometry.frames": "frames:frames",
     "contact_inequalities": "rows:inequalities",
-    "row_sizes": "natural:row_sizes",
+    "step_sizes": "natural:step_sizes",
     "GroupLayout.programs": "natural:programs",
 }
 """By a function, or a method, ``module:name`` of what stands in its place.

@@ -20,7 +20,7 @@ ARGUMENTS: Final = {
     "change": 5,
     "frames": 11,
     "pyramid_rows": 10,
-    "row_sizes": 6,
+    "step_sizes": 9,
     "programs": 13,
 }
 """Numbers of arguments of each function, all of them addresses of arrays; it returns whether it

@@ -13,7 +13,7 @@ from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.model.sums import Sums
 from quasistatic_ref.optional.compiled import leaves
 from quasistatic_ref.solve.by_group import GroupLayout
-from quasistatic_ref.solve.units import row_sizes
+from quasistatic_ref.solve.units import step_sizes
 from quasistatic_ref.step.standard_form import contact_inequalities
 
 pytestmark = pytest.mark.extra("fast")
@@ -27,7 +27,7 @@ FUNCTIONS = [
         Sums.change,
         ContactGeometry.frames,
         contact_inequalities,
-        row_sizes,
+        step_sizes,
         GroupLayout.programs,
     )
 ]

@@ -1,4 +1,4 @@
-/* A step in natural units: solve/units, `row_sizes`, and solve/by_group, `programs`. */
+/* A step in natural units: solve/units, `step_sizes`, and solve/by_group, `programs`. */
 
 #include "vectors.h"
 
@@ -30,12 +30,14 @@ static double ranked(double *x, int64_t n, int64_t k)
     return x[k];
 }
 
-/* `sizes`: rows, own columns. Written: a workspace of as many numbers as rows; the median length, the largest
-   square, the largest entry of b. 0 where a number is not finite. */
-int64_t row_sizes(const int64_t *sizes, const double *A, const double *unit, const double *b, double *squares,
-                  double *written)
+/* `sizes`: rows, own columns, coordinates, columns of L^-1; `coordinate` says which these are, or that one is none.
+   Written: a workspace of as many numbers as rows; the median length, the largest square, the largest entry of b,
+   the free length. 0 where a number is not finite. */
+int64_t step_sizes(const int64_t *sizes, const double *A, const double *unit, const double *b, const double *g,
+                   const double *inverse, const int64_t *coordinate, double *squares, double *written)
 {
-    int64_t m = sizes[0], w = sizes[1], count = 0;
+    int64_t m = sizes[0], w = sizes[1], n = sizes[2], wide = sizes[3], count = 0;
+    double length = 0.0;
     double most = 0.0, push_out = 0.0;
     for (int64_t i = 0; i < m; i++) {
         double sum = 0.0;
@@ -58,7 +60,14 @@ int64_t row_sizes(const int64_t *sizes, const double *A, const double *unit, con
     }
     written[1] = most;
     written[2] = push_out;
-    return 1;
+    for (int64_t i = 0; i < n; i++) { /* `free_length` */
+        double sum = 0.0;
+        for (int64_t k = i * wide; k < (i + 1) * wide; k++)
+            sum += inverse[k] * (coordinate[k] < n ? g[coordinate[k]] : 0.0);
+        length = hypot(length, sum);
+    }
+    written[3] = length;
+    return length < INFINITY;
 }
 
 /* `sizes`: coordinates, rows, own columns, numbers of A. Of each group, one after the other, its coordinates and
