@@ -8,12 +8,24 @@ An error that carries a thing of a folder stands in that folder.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import wraps
+from inspect import signature
 from os import PathLike, fspath
 from types import UnionType
+from typing import ParamSpec, TypeVar
 
-from quasistatic_ref.formats.quoting import clipped, one_line, short_words, shown_value
+from quasistatic_ref.formats.quoting import (
+    clipped,
+    one_line,
+    short_words,
+    shown_value,
+    suggestion,
+)
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 
 class QuasistaticError(Exception):
@@ -198,6 +210,22 @@ def about_field(field: str) -> Iterator[None]:
     except InputError as error:
         error.field = field
         raise
+
+
+def keywords_named(function: Callable[P, R]) -> Callable[P, R]:
+    """The same function, which answers a wrong keyword with the right one: InputError."""
+    known = [word for word in signature(function).parameters if word != "self"]
+    name = function.__qualname__.removesuffix(".__init__")
+
+    @wraps(function)
+    def answering(*args: P.args, **kwargs: P.kwargs) -> R:
+        for word, value in kwargs.items():
+            if word not in known:
+                problem = f"is no argument of {name}{suggestion(word, known)}"
+                raise InputError(problem, field=word, value=value)
+        return function(*args, **kwargs)
+
+    return answering
 
 
 def check_kind(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.errors import InputError, QuasistaticError, check_kind
+from quasistatic_ref.errors import InputError, QuasistaticError, check_kind, keywords_named
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.finding import check_finding_name
 from quasistatic_ref.simulate.header import Record
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.result import StepResult
 
 
+@keywords_named
 def rollout(
     simulator: Simulator,
     q: ArrayLike,

@@ -19,7 +19,7 @@ from quasistatic_ref.contact.all_pairs import AllPairs
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, checked_pairs, contact_layout
-from quasistatic_ref.errors import InputError, StepDataError, check_kind
+from quasistatic_ref.errors import InputError, StepDataError, check_kind, keywords_named
 from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.kinematics import Kinematics
@@ -201,6 +201,7 @@ class Simulator(Settings, Shown):
 
     replaceable: ClassVar[tuple[str, ...]] = (DEFAULT, DAQP)
 
+    @keywords_named
     def __init__(
         self,
         system: System,

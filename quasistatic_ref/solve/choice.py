@@ -43,7 +43,7 @@ def solver_for(step: StepData, name: str | Callable[..., Any] | None = None) -> 
         function_solver: FunctionSolver = part("function_solver")
         return function_solver(step, name)
     name = DEFAULT if name is None else name
-    check_kind(name, str, "solver", "the name of a backend, a function or a Solver")
+    check_kind(name, str, "backend", "the name of a backend, a function or a Solver")
     check_backend(name, step.cone)
     if name == NONE:
         return NoSolver(step, name)

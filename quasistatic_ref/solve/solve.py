@@ -22,6 +22,7 @@ from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.norm import check_length, correct_digits
 from quasistatic_ref.certify.optimum import ExactOptimum, optimum_by_groups
+from quasistatic_ref.errors import keywords_named
 from quasistatic_ref.formats.plain import Late
 from quasistatic_ref.numbers.arrays import Array, all_finite, positive_number, without_warnings
 from quasistatic_ref.numbers.precision import check_arithmetic
@@ -50,9 +51,10 @@ WITHIN_RANGE = 1e100
 NOTHING_CLAIMED = Certificate("none")
 
 
+@keywords_named
 def solve_step(
     step: StepData,
-    solver: str | Callable[..., Any] | Solver | None = None,
+    backend: str | Callable[..., Any] | Solver | None = None,
     *,
     accuracy: float = ACCURACY,
     certify: Certify = "full",
@@ -64,7 +66,7 @@ def solve_step(
     ----------
     step : StepData
         SI units.
-    solver : str, callable or Solver, optional
+    backend : str, callable or Solver, optional
         A name from :func:`~quasistatic_ref.solve.backends.backend_names`, by default
         Clarabel's; ``"none"``, with ``certify="full"`` only, is the exact
         method from a cold start. Any other solver that CVXPY has installed, or qpsolvers behind
@@ -116,15 +118,16 @@ def solve_step(
     """
     check_step(step)
     accuracy = positive_number(accuracy, "accuracy")
-    name = solver.name if isinstance(solver, Solver) else solver
+    name = backend.name if isinstance(backend, Solver) else backend
     check_certify(name if isinstance(name, str) else None, certify)
     if extension is not None:
         extended_step: ExtendedStep = part("extended_step")
-        return extended_step(step, extension, solver, accuracy, certify)
-    if isinstance(solver, Solver):
+        return extended_step(step, extension, backend, accuracy, certify)
+    if isinstance(backend, Solver):
+        solver = backend
         solver.check(step)
     else:
-        solver = solver_for(step, solver)
+        solver = solver_for(step, backend)
     return without_warnings(solved, ScaledStep(step), solver, accuracy, certify)
 
 
@@ -142,7 +145,8 @@ def solved(
     Parameters
     ----------
     scaled : ScaledStep
-    solver, accuracy, certify
+    solver : Solver
+    accuracy, certify
         As of :func:`solve_step`.
     start : sequence of int
         Rows from which the exact method starts where no backend answers.
@@ -222,8 +226,9 @@ def proved(
     Parameters
     ----------
     scaled : ScaledStep
-    solver, accuracy
-        As of :func:`solve_step`.
+    solver : Solver
+    accuracy : float
+        In natural units [-].
     start : sequence of int
         Rows from which the exact method starts where the backend claims no solution.
 

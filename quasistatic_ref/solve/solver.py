@@ -147,7 +147,7 @@ class Solver(ABC):
         if not self.fits(step):
             what = ", ".join(self.differences(step))
             problem = f"was made for steps that differ from this one in {what}; make a new solver"
-            raise InputError(problem, field="solver", value=f"{self.name}, {self.interface}")
+            raise InputError(problem, field="backend", value=f"{self.name}, {self.interface}")
 
     def differences(self, step: StepData) -> list[str]:
         """Names of the fields in which a step differs from the one the problem was compiled for."""

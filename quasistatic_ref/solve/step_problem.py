@@ -14,18 +14,26 @@ import cvxpy.settings as words
 import numpy as np
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.errors import BackendError, InputError, StepDataError, check_kind
+from quasistatic_ref.errors import (
+    BackendError,
+    InputError,
+    StepDataError,
+    check_kind,
+    keywords_named,
+)
 from quasistatic_ref.numbers.arrays import Array, Mask, positive_number
 from quasistatic_ref.solve.backends import (
     DEFAULT,
     NONE,
     QPSOLVERS,
     Options,
-    backend,
     bare,
     check_takes_cones,
     greeting_silenced,
     is_function,
+)
+from quasistatic_ref.solve.backends import (
+    backend as entry_of,
 )
 from quasistatic_ref.solve.interruptible import INTERRUPTIBLE
 from quasistatic_ref.solve.solver import BackendSolver, Reply
@@ -114,6 +122,7 @@ class StepProblem:
     (0.001, 5.943)
     """
 
+    @keywords_named
     def __init__(self, template: StepData, additions: Additions | None = None) -> None:
         check_step(template, "template")
         self.template = template
@@ -202,7 +211,8 @@ class StepProblem:
         with np.errstate(over="ignore", invalid="ignore"):  # what overflows has no answer
             set_values(self.page, self.step, units)
 
-    def solve(self, solver: str = "clarabel", accuracy: float = ACCURACY) -> Array:
+    @keywords_named
+    def solve(self, backend: str = "clarabel", accuracy: float = ACCURACY) -> Array:
         """A solver's answer to ``problem``, found in natural units; with additions in SI units.
 
         It is the solver's: nothing is proved. The problem then has its status and value, the
@@ -210,8 +220,8 @@ class StepProblem:
 
         Parameters
         ----------
-        solver : str
-            A backend that CVXPY calls; upper case, as in CVXPY, is as good.
+        backend : str
+            One that CVXPY calls; upper case, as in CVXPY, is as good.
         accuracy : float
             Of the answer, in these units.
 
@@ -223,22 +233,22 @@ class StepProblem:
         Raises
         ------
         BackendError
-            If the solver is unknown or not installed, or not one that CVXPY calls, or does not take
-            the problem's cones.
+            If it is unknown, not installed or not one that CVXPY calls, or does not take the
+            problem's cones.
         InputError
             If another problem was put in place of this one.
         StepNotSolved
             If it claims anything but a full solution.
         """
-        check_kind(solver, str, "solver", "the name of a backend")
+        check_kind(backend, str, "backend", "the name of a backend")
         accuracy = positive_number(accuracy, "accuracy")
-        name = bare(solver.lower())
-        if solver.startswith(QPSOLVERS) or name == NONE or is_function(name):
-            raise BackendError("is not called through CVXPY", field="backend", value=solver)
+        name = bare(backend.lower())
+        if backend.startswith(QPSOLVERS) or name == NONE or is_function(name):
+            raise BackendError("is not called through CVXPY", field="backend", value=backend)
         if self.problem is not self._posed:
             words = "is another problem than that of this step; call its own solve()"
             raise InputError(words, field="StepProblem.problem")
-        entry = backend(name)
+        entry = entry_of(name)
         if name == "highs":
             greeting_silenced()
         if not self.problem.is_qp():

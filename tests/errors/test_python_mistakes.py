@@ -115,7 +115,10 @@ MISTAKES = {
         lambda: STEP.replace(cone=["pyramid"]),
     ],
     "law: is not a choice": [lambda: simulator(law=["convex"])],
-    "backend: must be the name of a backend": [lambda: simulator(backend=print)],
+    "backend: must be the name of a backend": [
+        lambda: simulator(backend=print),
+        lambda: qr.StepProblem(STEP).solve(3),
+    ],
     r"bodies: must be a list of bodies: System\(\[body\]\)": [lambda: qr.System(BLOCK)],
     "bodies: must be a list of bodies, each as Body makes it": [lambda: qr.System(["block"])],
     "b.positions: must be a mapping of joints": [lambda: qr.Body("b", "b.urdf", positions=[1])],
@@ -143,8 +146,18 @@ MISTAKES = {
         lambda: qr.coulomb_step(RUN),
         lambda: qr.StepProblem(STEP).fill(RUN),
     ],
-    "solver: must be the name of a backend, a function or": [lambda: qr.solve_step(STEP, 3)],
+    "backend: must be the name of a backend, a function or": [lambda: qr.solve_step(STEP, 3)],
     "extension: must be an Extension": [lambda: qr.solve_step(STEP, extension=3)],
+    "solver: is no argument of .*; did you mean 'backend'": [
+        lambda: qr.solve_step(STEP, solver="osqp"),
+        lambda: simulator(solver="osqp"),
+        lambda: qr.coulomb_step(STEP, solver="osqp"),
+        lambda: qr.StepProblem(STEP).solve(solver="OSQP"),
+    ],
+    "forces: is no argument of rollout; did you mean 'force'": [lambda: run(forces=None)],
+    "finding: is no argument of Scenario.run; did you mean 'findings'": [
+        lambda: qr.load_scenario("sphere_spin").run(finding=False)
+    ],
     "path: must be a path": [
         lambda: qr.load_step(3),
         lambda: qr.load_trajectory(3),
@@ -165,7 +178,6 @@ MISTAKES = {
     "active: must be a list of": [lambda: qr.verify_answer(STEP, np.zeros(12), 3)],
     "claims: must be a Certificate": [lambda: qr.verify_answer(STEP, [], [], claims=3)],
     "template: must be a StepData": [lambda: qr.StepProblem(RUN)],
-    "solver: must be the name of a backend": [lambda: qr.StepProblem(STEP).solve(3)],
     "by: must be names of parameters": [lambda: qr.derivatives(SIMULATOR, Q, Q_A, by=3)],
     "result: must be a StepResult": [lambda: qr.Recorder(SIMULATOR, Q).add(Q_A, STEP)],
     "observers: must be a list of Observer": [lambda: run(observers=[3]), lambda: run(observers=3)],

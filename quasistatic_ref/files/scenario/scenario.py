@@ -17,6 +17,7 @@ from quasistatic_ref.errors import (
     ScenarioError,
     about_file,
     check_kind,
+    keywords_named,
 )
 from quasistatic_ref.files.content import toml_read
 from quasistatic_ref.files.resources import scenario_path
@@ -125,6 +126,7 @@ class Scenario(Settings, Plain, Shown):
     ignored_findings: tuple[str, ...] = ()
     of_bodies: OfBodies | None = None
 
+    @keywords_named
     def simulator(self, extension: ExtensionOfQ | None = None) -> Simulator:
         """A new simulator of this scenario, with the user's own constraints and costs, if any."""
         if self.of_bodies is not None:
@@ -174,6 +176,7 @@ class Scenario(Settings, Plain, Shown):
         every = self.simulator().findings(force=force)
         return tuple(one for one in every if one.name not in self.ignored_findings)
 
+    @keywords_named
     def run(
         self,
         progress: bool = True,

@@ -36,7 +36,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.residuals import largest
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, keywords_named
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, all_finite, read_only
 from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
@@ -126,9 +126,10 @@ class CoulombSolution(StepSolution):
     posed: StepData
 
 
+@keywords_named
 def coulomb_step(
     step: StepData,
-    solver: str | Solver | None = None,
+    backend: str | Solver | None = None,
     *,
     accuracy: float = ACCURACY,
     start: ArrayLike | None = None,
@@ -140,7 +141,7 @@ def coulomb_step(
     ----------
     step : StepData
         SI units.
-    solver, accuracy
+    backend, accuracy
         As of :func:`~quasistatic_ref.solve.solve.solve_step`; each iterate is certified.
     start : array_like, shape (n_c,), optional
         The first s [m], >= 0; by default 0, with which the first iterate is the convex step. There
@@ -174,8 +175,7 @@ def coulomb_step(
         raise InputError("must have one length >= 0 for each contact", field="start", value=start)
     if most < 1:
         raise InputError("must be at least 1", field="most", value=most)
-    if not isinstance(solver, Solver):
-        solver = solver_for(step, solver)
+    solver = backend if isinstance(backend, Solver) else solver_for(step, backend)
     return fixed_point_from(step, s, solver, accuracy, most=most)
 
 

@@ -69,7 +69,7 @@ def extended_step(
         words = f"{solver.name}, {solver.interface}" if isinstance(solver, Solver) else "function"
         problem = "takes linear constraints and quadratic costs only; for other costs or a "
         problem += "nonlinear constraint pass the name of a backend"
-        raise BackendError(problem, field="solver", value=words)
+        raise BackendError(problem, field="backend", value=words)
     from quasistatic_ref.optional.extensions.by_cvxpy import extended_solution
 
     name = DEFAULT if solver is None else solver
