@@ -88,3 +88,9 @@ def test_driven_steps_are_measured_by_the_unconstrained_step(scene):
         g = qr.standard_form(step).g
         length = error_length(step.H, g, delta_q, single_loads(step))
         assert_relative(length, norm.of_impulse(g))
+
+
+def test_a_micrometre_is_one_of_the_softest_coordinate():
+    """1e-6 m is 2e-6 (N m s)^0.5 where H is 4, and 1e-3 where it is 1e6."""
+    zero = np.zeros(2)
+    assert_relative(error_length(np.diag([1e6, 4.0]), zero, zero), 2e-6)

@@ -193,3 +193,9 @@ def test_a_sweep_has_a_column_of_findings(tmp_path):
     assert [row["findings"] for row in rows] == [["lost-grip"], []]
     table = list(csv.DictReader((tmp_path / "map" / TABLE).read_text().splitlines()))
     assert [row["findings"] for row in table] == ["lost-grip", ""]
+
+
+def test_steps_that_are_judged_by_residuals_are_not_counted_as_exact(tmp_path):
+    values = {"solver.certify": ["full", "residual"], "steps": [1]}
+    rows = swept("block_incline", tmp_path, **values)
+    assert [row["measures"]["exact"] for row in rows] == [1.0, 0.0]

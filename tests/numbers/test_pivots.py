@@ -106,3 +106,10 @@ def test_a_cost_is_added_without_rounding_also_where_numbers_are_subnormal(
     else:
         with pytest.raises(StepDataError, match="a cost must be convex"):
             step.replace(extra=cost)
+
+
+def test_a_large_dense_matrix_that_is_indefinite_is_not_taken():
+    S = np.eye(MANY + 1) + 1e-3
+    assert positive_pivots(S)
+    S[0, 1] = S[1, 0] = 2.0
+    assert not positive_pivots(S)

@@ -3,8 +3,10 @@
 import cvxpy as cp
 import numpy as np
 
-from quasistatic_ref import standard_form
+from quasistatic_ref import Extra, standard_form
+from quasistatic_ref.lab.scenes.rigid import point_step
 from quasistatic_ref.solve.step_problem import StepProblem
+from quasistatic_ref.step.standard_form import Units, ends_within
 from tests.closeness import assert_close
 from tests.helpers import random_step
 from tests.tolerances import ROUNDING
@@ -21,3 +23,12 @@ def test_cvxpy_compiles_the_ellipsoid_to_one_second_order_cone_a_contact(rng):
     rows = np.column_stack([-data["A"].toarray(), -data["b"]])
     expected = mu * np.column_stack([form.A, form.b / step.h**2])
     assert_close(rows, expected, ROUNDING)
+
+
+def test_a_row_out_of_reach_is_put_at_its_reach_in_the_units_that_are_asked_for():
+    """In units of 2, 4 and 8 m the row (3, 0, 4) is 0.5 (6, 0, 32) long, with ell = 2 m."""
+    step = point_step(0.3, (0.0, 0.0, 0.0), 0.5, 0.0, 0.01)
+    rows = [[3.0, 0.0, 4.0]] * 2
+    step = step.replace(extra=Extra(("near", "far"), rows, [-8.0, -1e9]))
+    _, b = ends_within(step, Units(np.array([2.0, 4.0, 8.0]), 2.0, 4.0), 10.0)
+    assert b.tolist() == [-1.0, -10 * np.hypot(3.0, 16.0)]

@@ -8,6 +8,7 @@ from quasistatic_ref import Box, Cone, Cylinder
 from quasistatic_ref.contact.crossings import Crossings
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.optional.curved.rims import curve_crossings
+from quasistatic_ref.tolerances import SKEW
 from tests.closeness import assert_within
 from tests.contact.still import in_world
 
@@ -93,3 +94,11 @@ def test_an_edge_that_ends_on_a_rim_crosses_it_there():
     x = puck.t - 0.0625 * UP
     found = curve_crossings(table, puck, x, x, UP)
     assert sorted(found.alpha.tolist()) == [[0.25, 0.0, 0.0625], [0.25, 0.25, 0.0625]]
+
+
+@pytest.mark.parametrize(("share", "count"), [(2.0, 2), (0.5, 0)])
+def test_circles_of_one_size_cross_unless_their_centres_all_but_coincide(share, count):
+    away = share * SKEW * 0.08
+    low = in_world(Cylinder(0.08, 0.01))
+    top = in_world(Cylinder(0.08, 0.01), (away, 0.0, 0.02))
+    assert len(moved_crossings(low, top, np.array([0.0, 0.0, 0.01])).number) == count

@@ -383,3 +383,15 @@ def test_a_capsule_of_version_1_0_has_no_shape_in_pinocchio():
     text = robot(link("a"), rod, joint("j", "a", "b")).replace("1.1", "1.0", 1)
     assert read_by_pinocchio(text)[1].ngeoms == 0
     assert len(System([Body("r", text)]).shapes) == 1
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "limits"),
+    [(-1.0, np.inf, (-1.0, np.inf)), (-np.inf, np.inf, None), (0.0, 0.0, None), (1.0, -1.0, None)],
+)
+def test_a_joint_may_be_bounded_on_one_side(lower, upper, limits):
+    model = hand_made(pin.JointModelPZ())
+    model.lowerPositionLimit[:] = lower
+    model.upperPositionLimit[:] = upper
+    (joint,) = System([Body.of_pinocchio("r", model)]).joints
+    assert joint.limits == limits

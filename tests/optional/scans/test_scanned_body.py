@@ -163,3 +163,16 @@ def test_of_very_many_points_a_sample_is_covered_evenly_and_corners_stay_first(r
     assert {*kept[:8].tolist()} == {*range(60_000, 60_008)}
     away, _ = cKDTree(ball[kept[8:]]).query(ball)
     assert away.max() < 0.02  # 492 discs of that radius cover the ball's surface 4.9 times
+
+
+@pytest.mark.parametrize(
+    ("length", "taken"), [(0.0049, False), (0.0051, True), (2.9, True), (3.1, False)]
+)
+def test_what_is_as_long_as_a_thing_in_hand_needs_no_unit(tmp_path, length, taken):
+    points = on_surface(SOLIDS["can"], 3000, seed=1)
+    points = points * length / np.ptp(points, axis=0).max()
+    if taken:
+        assert body(tmp_path, points) is not None
+    else:
+        with pytest.raises(InputError, match="say its unit"):
+            body(tmp_path, points)

@@ -188,3 +188,21 @@ def test_a_film_has_as_many_frames_a_second_as_were_wanted(incline, tmp_path, mo
     with Image.open(path) as film:
         assert film.n_frames == 3  # 30 steps of 10 ms
         assert film.info["duration"] == 100
+
+
+@pytest.mark.parametrize(
+    ("parts", "mu_v", "wider"),
+    [
+        (("forces", "cones"), 0.5, True),
+        (("forces",), 0.5, False),
+        (("forces", "cones"), 0.0, False),
+    ],
+)
+def test_a_drawing_has_room_for_the_rim_of_a_cone_that_is_drawn(incline, page, parts, mu_v, wider):
+    of = moment(*incline, -1)
+    limits = []
+    for factor in (1.0, 100.0):
+        rims = [replace(c, rim=factor * c.rim, mu_v=mu_v) for c in of.contacts]
+        draw_scene(page, replace(of, contacts=tuple(rims)), parts=parts, metres_per_newton=0.01)
+        limits.append(page.get_xlim())
+    assert (limits[0] != limits[1]) == wider
