@@ -1,19 +1,47 @@
 """The progress of long work, on standard error where that is a terminal."""
 
-import shutil
-from collections.abc import Iterable
+from __future__ import annotations
 
-from tqdm import tqdm
+import shutil
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tqdm import tqdm
+
+
+class Unseen(AbstractContextManager["Unseen", None]):
+    """A progress bar where no terminal shows one: tqdm takes as long to import as a short run.
+
+    Parameters
+    ----------
+    items : iterable
+        What is gone through.
+    """
+
+    def __init__(self, items: Iterable[Any]) -> None:
+        self._items = items
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter(self._items)
+
+    def __exit__(self, *raised: object) -> None:
+        """Nothing is to be erased."""
+
+    def update(self, count: int = 1) -> None:
+        """Count some more."""
 
 
 def progress_bar(
-    items: Iterable[object] | None = None,
+    items: Iterable[Any] | None = None,
     *,
     unit: str,
     total: int | None = None,
     words: str | None = None,
     shown: bool = True,
-) -> tqdm:
+) -> tqdm | Unseen:
     """A progress bar that estimates the time left, and is erased at the end.
 
     Parameters
@@ -28,8 +56,11 @@ def progress_bar(
     shown : bool
         Whether a terminal is to show it.
     """
+    if not (shown and sys.stderr.isatty()):
+        return Unseen(() if items is None else items)
+    from tqdm import tqdm
+
     # tqdm by itself prints nothing on a terminal that does not know its size.
     size = shutil.get_terminal_size()
     return tqdm(items, desc=words, total=total, unit=unit, leave=False,
-                ncols=size.columns, nrows=size.lines,
-                disable=None if shown else True)  # fmt: skip
+                ncols=size.columns, nrows=size.lines)  # fmt: skip
