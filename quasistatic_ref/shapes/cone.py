@@ -1,5 +1,6 @@
 """The cone."""
 
+import math
 from functools import cached_property
 
 import numpy as np
@@ -83,6 +84,11 @@ class Cone(Revolved):
         beyond = p[:, 0] - self.radius
         above_side = beyond * self._side[0] + (p[:, 1] + self.half_length) * self._side[1]
         return above_side, -self.half_length - p[:, 1]
+
+    @property
+    def volume(self) -> float:
+        """A third of base times length [m^3]."""
+        return 2 * math.pi * self.radius**2 * self.half_length / 3
 
     def support_point(self, direction: Array) -> Array:
         """The tip or a point of the rim, by the `direction`; both of shape (3,), [m] and [-]."""

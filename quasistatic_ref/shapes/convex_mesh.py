@@ -35,8 +35,8 @@ class ConvexMesh(Shape):
     normals, offsets : ndarray, shapes (T, 3) and (T,)
         Outward unit normal [-] and offset [m] of each triangle's plane: x is inside where
         normals @ x <= offsets. Coplanar triangles share equal bits.
-    volume : float
-        [m^3].
+    hull_volume : float
+        What it encloses [m^3].
     excess : float
         How much more than the mesh that it stands for it holds, from 0 (that mesh is convex)
         to 1 [-]; see :func:`hull_of_mesh`.
@@ -48,7 +48,7 @@ class ConvexMesh(Shape):
     triangles: Indices
     normals: Array
     offsets: Array
-    volume: float
+    hull_volume: float
     excess: float = 0.0
     surface: Array | None = None
 
@@ -124,6 +124,11 @@ class ConvexMesh(Shape):
     def corners(self, towards: Array) -> tuple[Array, float]:
         """The mesh's vertices, shape (V, 3) [m], whatever the direction `towards` [-] is."""
         return self.vertices, 0.0
+
+    @property
+    def volume(self) -> float:
+        """What the hull encloses [m^3]."""
+        return self.hull_volume
 
     @property
     def edge_count(self) -> int:

@@ -1,5 +1,7 @@
 """The cylinder."""
 
+import math
+
 import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array
@@ -52,6 +54,11 @@ class Cylinder(Revolved):
         normals[:, 1, 2] = 1.0
         normals[:, 2, 2] = -1.0
         return heights, normals
+
+    @property
+    def volume(self) -> float:
+        """Base times length [m^3]."""
+        return 2 * math.pi * self.radius**2 * self.half_length
 
     def support_point(self, direction: Array) -> Array:
         """A point of a rim, mid-side or mid-cap, by `direction`; both (3,), [m] and [-]."""

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import dot, norm, total
 from quasistatic_ref.shapes.frozen import freeze_array, positive_lengths, set_half
-from quasistatic_ref.shapes.shape import Shape
+from quasistatic_ref.shapes.shape import BALL, Shape
 
 STEPS = 100
 """Most Newton steps to the root of an ellipsoid's sum; about ten are usual."""
@@ -93,6 +93,11 @@ class Ellipsoid(Shape):
         height = np.sqrt(direction @ (squares * direction))
         scaled = squares * direction / height
         return np.asarray((np.diag(squares) - np.outer(scaled, scaled)) / height)
+
+    @property
+    def volume(self) -> float:
+        """Volume [m^3]."""
+        return BALL * float(np.prod(self.half_axes))
 
     @property
     def sizes(self) -> dict[str, Any]:

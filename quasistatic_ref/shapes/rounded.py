@@ -1,10 +1,12 @@
 """A point, segment or cuboid with a ball about each of its points: sphere, capsule, box."""
 
+import math
+
 import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import dot
-from quasistatic_ref.shapes.shape import Shape
+from quasistatic_ref.shapes.shape import BALL, Shape
 
 _AXES = np.eye(3)
 
@@ -16,6 +18,14 @@ class Rounded(Shape):
     def core(self) -> tuple[Array, float]:
         """Half extents of the core, shape (3,) [m], and the ball's radius [m]."""
         raise self.lacks("has no core")
+
+    @property
+    def volume(self) -> float:
+        """Of the core, of what is over its faces, edges and corners (Steiner) [m^3]."""
+        (a, b, c), r = self.core
+        over_faces = 8 * r * (a * b + b * c + c * a)
+        over_edges = 2 * math.pi * r**2 * (a + b + c)
+        return float(8 * (a * b * c) + over_faces + over_edges + BALL * r**3)
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
         """Distances and normals of `points`, shape (N, 3) [m], less the radius."""

@@ -1,5 +1,6 @@
 """The questions that every shape answers, in its own frame; by default a shape refuses them."""
 
+import math
 from functools import cached_property
 from typing import Any, ClassVar, Self
 
@@ -10,6 +11,8 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 
 DIRECTIONS = np.concatenate([np.eye(3), -np.eye(3)])
+BALL = 4 / 3 * math.pi
+"""Volume of a ball over the third power of its radius [-]."""
 CHUNK = 1 << 17
 """Points times faces handled at once: some tens of megabytes."""
 
@@ -154,6 +157,17 @@ class Shape(Plain):
         """Longest edge of the bounding box along its own axes [m]; of a half-space, infinity."""
         reach = self.support_value(DIRECTIONS)
         return float((reach[:3] + reach[3:]).max())
+
+    @property
+    def volume(self) -> float:
+        """Volume [m^3].
+
+        Raises
+        ------
+        ContactError
+            If the shape is not bounded, or a cloud.
+        """
+        raise self.lacks("has no known volume")
 
     @property
     def sizes(self) -> dict[str, Any]:

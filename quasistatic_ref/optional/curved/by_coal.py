@@ -148,7 +148,7 @@ def _resized(shape: Shape, scale: float) -> Shape:
             vertices = scale * shape.vertices
             offsets = scale * shape.offsets
             return replace(
-                shape, vertices=vertices, offsets=offsets, volume=scale**3 * shape.volume
+                shape, vertices=vertices, offsets=offsets, hull_volume=scale**3 * shape.volume
             )
     raise shape.lacks("has no closest points with this solid")
 

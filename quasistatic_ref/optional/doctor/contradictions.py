@@ -1,6 +1,5 @@
 """Masses, inertias and sizes that contradict each other."""
 
-import math
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from itertools import product
@@ -13,15 +12,8 @@ from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.optional.doctor.telling import distance
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.shapes.placed_shape import (
-    Box,
-    Capsule,
-    Cone,
-    Ellipsoid,
     PlacedShape,
-    Shape,
-    Sphere,
 )
-from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.simulate.finding import Finding
 
 DENSITIES = 10.0, 25_000.0
@@ -36,8 +28,6 @@ OUTSIDE = 0.25
 a cloud may be a part of a surface."""
 FOOT = 0.2
 """Largest extent of a foot over that of all feet [-]."""
-BALL = 4 / 3 * math.pi
-"""Volume of a ball over the third power of its radius [-]."""
 RATIO = 1000.0
 """Of the largest and the smallest body or shape of a scene [-]."""
 
@@ -50,7 +40,7 @@ def density(start: Start) -> Iterator[Finding]:
     """
     for link, name, shapes in start.free_links:
         mass = float(start.system.masses[link])
-        alone = sum(_volume(placed.shape) for placed in shapes)
+        alone = sum(placed.shape.volume for placed in shapes)
         light = mass < DENSITIES[0] * alone
         if not light and mass <= DENSITIES[1] * alone:
             continue
@@ -90,23 +80,6 @@ def _are_feet(shapes: Sequence[PlacedShape], hull: ConvexMesh) -> bool:
     """Whether shapes are plainly no more than feet of a body: several small ones far apart."""
     largest = max(placed.shape.extent for placed in shapes)
     return len(shapes) > 2 and largest <= FOOT * hull.extent
-
-
-def _volume(shape: Shape) -> float:
-    """Volume [m^3]."""
-    match shape:
-        case Sphere():
-            return BALL * shape.radius**3
-        case Box():
-            return 8.0 * float(np.prod(shape.half_extents))
-        case Ellipsoid():
-            return BALL * float(np.prod(shape.half_axes))
-        case ConvexMesh():
-            return shape.volume
-    assert isinstance(shape, Revolved)
-    cylinder = 2 * math.pi * shape.radius**2 * shape.half_length
-    caps = BALL * shape.radius**3 if isinstance(shape, Capsule) else 0.0
-    return cylinder / 3 if isinstance(shape, Cone) else cylinder + caps
 
 
 def inertia(start: Start) -> Iterator[Finding]:

@@ -6,8 +6,12 @@ The sizes of a row are drawn from its fields, so a solid is tested by having a r
 import numpy as np
 import pytest
 
+from quasistatic_ref import Box
+from quasistatic_ref.contact.crossings import crossings
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.files.scenario.world_solids import SOLIDS
-from tests.closeness import assert_within
+from tests.closeness import assert_relative, assert_within
+from tests.contact.still import in_world
 
 UNBOUNDED = {"halfspace"}
 BOUNDED = sorted(SOLIDS.keys() - UNBOUNDED)
@@ -37,7 +41,7 @@ def directions(rng, count):
 
 
 @pytest.mark.parametrize("kind", BOUNDED)
-def test_the_farthest_point_is_on_the_surface_and_no_corner_is_farther(kind, tmp_path):
+def test_the_farthest_point_is_on_the_surface_and_the_farthest_corner_as_far(kind, tmp_path):
     rng = np.random.default_rng(0)
     for _ in range(10):
         solid = drawn(kind, rng, tmp_path)
@@ -49,5 +53,60 @@ def test_the_farthest_point_is_on_the_surface_and_no_corner_is_farther(kind, tmp
         assert_within(solid.signed_distance(farthest + 0.1 * n)[0], np.full(30, 0.1), REFINED)
         for one, far in zip(n, reach, strict=True):
             corners, radius = solid.corners(one)
-            assert (corners @ one + radius <= far + REFINED).all()
-            assert (solid.signed_distance(corners)[0] <= REFINED - radius).all()
+            if len(corners):
+                assert_within((corners @ one + radius).max(), far, REFINED)
+            assert_within(solid.signed_distance(corners)[0], [-radius] * len(corners), REFINED)
+
+
+@pytest.mark.parametrize("kind", SOLIDS)
+def test_a_point_less_its_distance_along_the_normal_is_on_the_surface(kind, tmp_path):
+    """Also of a point inside; and the distance grows along the normal."""
+    rng = np.random.default_rng(1)
+    inside = []
+    for _ in range(10):
+        solid = drawn(kind, rng, tmp_path)
+        p = rng.uniform(-0.5, 0.5, (200, 3)) * rng.uniform(size=(200, 1))
+        phi, n = solid.signed_distance(p)
+        inside += (phi < 0).tolist()
+        assert_within((n * n).sum(1), np.ones(200), REFINED)
+        assert_within(solid.signed_distance(p - phi[:, None] * n)[0], np.zeros(200), REFINED)
+        way = 0.1 * np.abs(phi)
+        assert_within(solid.signed_distance(p + way[:, None] * n)[0], phi + way, REFINED)
+    assert 0.01 < np.mean(inside) < 0.99
+
+
+@pytest.mark.parametrize("kind", SOLIDS)
+def test_heights_over_faces_grow_along_their_normals_and_are_no_larger_than_the_distance(
+    kind, tmp_path
+):
+    rng = np.random.default_rng(2)
+    for _ in range(10):
+        solid = drawn(kind, rng, tmp_path)
+        p = rng.uniform(-0.4, 0.4, (100, 3))
+        phi, _ = solid.signed_distance(p)
+        heights, normals = solid.faces(p)
+        assert (heights <= phi[:, None] + REFINED).all()
+        for k in range(heights.shape[1]):
+            higher, _ = solid.faces(p + 0.1 * normals[:, k])
+            assert_within(higher[:, k], heights[:, k] + 0.1, REFINED)
+
+
+@pytest.mark.parametrize("kind", BOUNDED)
+def test_the_volume_is_that_of_the_points_inside(kind, tmp_path):
+    solid = drawn(kind, np.random.default_rng(3), tmp_path)
+    low, high = -solid.support_value(-np.eye(3)), solid.support_value(np.eye(3))
+    cells = (np.stack(np.meshgrid(*[np.arange(60)] * 3), axis=-1).reshape(-1, 3) + 0.5) / 60
+    inside = solid.signed_distance(low + cells * (high - low))[0] < 0
+    assert_relative(solid.volume, inside.mean() * np.prod(high - low), 0.01)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in BOUNDED if kind not in ("sphere", "ellipsoid")])
+def test_the_crossings_with_a_bar_below_are_no_more_than_the_edges_allow(kind, tmp_path):
+    solid = drawn(kind, np.random.default_rng(4), tmp_path)
+    lies = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]) if kind == "capsule" else np.eye(3)
+    height = solid.support_value(-lies[2:])[0]
+    bar = in_world(Box((0.02, 2.0, 0.1)), (0.02, 0.0, -0.06))
+    above = in_world(solid, (0.0, 0.0, height), lies)
+    near = solid_pair("pair", bar, above)
+    found = crossings(bar, above, near.alpha, near.beta, near.n)
+    assert 0 < len(found.alpha) <= 2 * min(bar.shape.edge_count, solid.edge_count)
