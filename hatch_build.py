@@ -1,8 +1,9 @@
 """Compiles the C files of ``quasistatic_ref/optional/compiled`` when the package is installed.
 
 A wheel with the library is for one platform and any Python 3. An editable installation finds the
-library where it is made, next to its sources. Without a C compiler the installation goes on, and a
-file in the library's place says what was missing.
+library where it is made, next to its sources. Without a C compiler, or with the variable
+QUASISTATIC_REF_COMPILED=0, the installation goes on, and a file in the library's place says why:
+such a wheel is for any platform.
 """
 
 import runpy
@@ -15,7 +16,7 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 BUILD = "quasistatic_ref/optional/compiled/build.py"
 
 
-class CompiledSteps(BuildHookInterface):
+class CompiledCode(BuildHookInterface):
     """The hook that pyproject.toml names for wheels."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:

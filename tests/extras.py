@@ -28,14 +28,14 @@ def packages_of(extra):
 
 @cache
 def is_missing(extra):
-    """Whether a package of an extra is not installed; of ``fast``, whether C was not compiled."""
-    if extra == "fast":
+    """Whether a package of an extra is not installed; of ``compiled``, whether C was not."""
+    if extra == "compiled":
         return not_compiled() is not None
     return not all(map(_is_installed, packages_of(extra)))
 
 
 def not_compiled():
-    """Why steps are not compiled here, or None."""
+    """Why no compiled code is used here, or None."""
     if not (PACKAGE / "optional" / "compiled").is_dir():
         return "the part is not there"
     from quasistatic_ref.optional.compiled.library import missing
@@ -45,7 +45,7 @@ def not_compiled():
 
 def is_in_test(extra):
     """Whether README's line, which installs the extra ``test``, has an extra."""
-    return extra == "fast" or packages_of(extra) <= packages_of("test")
+    return extra == "compiled" or packages_of(extra) <= packages_of("test")
 
 
 def _is_installed(package):
@@ -58,8 +58,8 @@ def _is_installed(package):
 
 def reason(extra):
     """What pytest's summary says of a test that is skipped."""
-    if extra == "fast":
-        return f"needs compiled steps: {not_compiled()}"
+    if extra == "compiled":
+        return f"needs compiled code: {not_compiled()}"
     return f'needs the extra {extra}: pip install -e ".[test,{extra}]"'
 
 

@@ -380,7 +380,7 @@ def repeated(candidates: ClosestPoints, pair: Indices) -> Mask:
 
 
 def _cloud_on_solid(pair: ContactPair, solid: ShapeInWorld, cloud: ShapeInWorld) -> ClosestPoints:
-    """The k points of a cloud that are nearest to a solid, by rounded distance. In C: clouds.c."""
+    """The k points of a cloud that are nearest to a solid, by rounded distance."""
     assert isinstance(cloud.shape, PointCloud)
     relative = relative_pose(solid, cloud)
     near, x = near_points(solid.shape, cloud.shape, relative, pair.k, pair.resolution)

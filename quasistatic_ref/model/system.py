@@ -273,6 +273,6 @@ class SystemState(State):
         return system.actuated_sums.change(self.q, q_a)
 
     def plus(self, delta_q: ArrayLike) -> SystemState:
-        """The state at q (+) delta_q, of a change of shape (n_v,) [m, rad]. In C: screws.c."""
+        """The state at q (+) delta_q, of a change of shape (n_v,) [m, rad]."""
         change = with_shape(delta_q, "delta_q", (self.system.n_v,), ModelError)
         return SystemState(self.system, self.system.sums.plus(self.q, change))

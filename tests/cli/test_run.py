@@ -122,7 +122,6 @@ def test_a_run_in_another_cone_can_be_replayed_from_its_file(name, scene, tmp_pa
     assert load_step(out) == step
 
 
-@pytest.mark.extra("fast")
 def test_the_step_of_one_body_s_group_is_extracted_and_proved(scene, tmp_path, cli, monkeypatch):
     """A plate on a rail is in the ball's group; a wheel on that rail is not."""
     cli("run", scene, "--fast", "--set", "steps=2", "--set", "record=full", "--out", tmp_path)

@@ -12,7 +12,6 @@ from quasistatic_ref.lab.bench.timing import in_turn
 from tests.extras import is_missing
 
 
-@pytest.mark.extra("fast")
 def test_a_quick_run_measures_every_figure(tmp_path, cli):
     tables = json.loads(cli("bench --quick --json --out", tmp_path).out)
     assert json.loads((tmp_path / "bench.json").read_text()) == tables
@@ -54,7 +53,6 @@ def test_mujoco_s_box_between_fingers_has_the_contacts_that_the_page_says():
     assert of_boxes.qpos.reshape(3, 7)[:, :3].tolist() == boxes(3).q.reshape(3, 7)[:, :3].tolist()
 
 
-@pytest.mark.extra("fast")
 def test_a_profile_has_every_part_of_every_backend():
     taken = profiles(2)
     assert [profile.backend for profile in taken] == [*BACKENDS]

@@ -33,7 +33,7 @@ def test_a_file_that_is_skipped_whole_has_the_marker_by_which_ci_takes_it():
 
 def test_every_marker_names_an_extra(request):
     marks = [mark.args for item in request.session.items for mark in item.iter_markers("extra")]
-    assert {extra for (extra,) in marks} <= EXTRAS.keys() | {"fast"}  # compiled steps
+    assert {extra for (extra,) in marks} <= EXTRAS.keys() | {"compiled"}
     with pytest.raises(AssertionError, match="declares no extra nonsense"):
         is_missing("nonsense")
 
@@ -41,7 +41,7 @@ def test_every_marker_names_an_extra(request):
 def test_what_is_skipped_is_named_with_its_extra_and_left_to_ci(request, monkeypatch):
     monkeypatch.setattr(conftest, "is_missing", lambda extra: extra == "robots")
     items = []
-    for extra in ("robots", "engines", "fast"):
+    for extra in ("robots", "engines", "compiled"):
         item = pytest.Function.from_parent(request.node.parent, name=extra, callobj=lambda: None)
         item.add_marker(pytest.mark.extra(extra))
         items.append(item)

@@ -6,9 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.optional.compiled.library import missing
 from quasistatic_ref.solve.backends import QPSOLVERS
 
 DAQP = "daqp"
@@ -62,15 +60,7 @@ class Profile(NamedTuple):
 
 @cache
 def profiles(steps: int) -> tuple[Profile, ...]:
-    """Profiles of the first `steps` of the grasp, for every backend of ``BACKENDS``.
-
-    Raises
-    ------
-    InputError
-        If there are no compiled steps.
-    """
-    if (reason := missing()) is not None:
-        raise InputError(f"is measured where steps are compiled, but {reason}", field="fast")
+    """Profiles of the first `steps` of the grasp, for every backend of ``BACKENDS``."""
     runs = [_Run(name) for name in BACKENDS]
     for first in range(0, steps, TURN):
         for run in runs:

@@ -15,6 +15,9 @@ from pathlib import Path
 FOLDER = Path(__file__).parent
 SOURCE = FOLDER / "source"
 LIBRARY = FOLDER / "compiled.so"
+VARIABLE = "QUASISTATIC_REF_COMPILED"
+"""The variable of the environment that turns compiled code off, if it is 0: when the package is
+installed, or when it runs."""
 PROBLEM = FOLDER / "not_compiled.txt"
 """Why there is no library, in words; made in its place."""
 UNREAD = ("-fno-math-errno", "-fno-trapping-math")
@@ -32,7 +35,9 @@ def digest() -> str:
 
 
 def problem() -> str | None:
-    """Compile the library; return why this failed, in words, or None."""
+    """Compile the library; return why there is none, in words, or None."""
+    if os.environ.get(VARIABLE) == "0":
+        return f"{VARIABLE} was 0"
     try:
         compiler = shlex.split(os.environ.get("CC", "")) or [
             path for path in [shutil.which("cc")] if path

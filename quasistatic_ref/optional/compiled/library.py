@@ -9,10 +9,7 @@ import numpy as np
 from cffi import FFI
 from numpy.typing import NDArray
 
-from quasistatic_ref.optional.compiled.build import LIBRARY, PROBLEM, digest
-
-VARIABLE: Final = "QUASISTATIC_REF_COMPILED"
-"""The variable of the environment that turns compiled code off, if it is 0."""
+from quasistatic_ref.optional.compiled.build import LIBRARY, PROBLEM, VARIABLE, digest
 
 ARGUMENTS: Final = {
     "cloud_contacts": 14,

@@ -45,7 +45,7 @@ def test_a_function_runs_in_a_study_of_ten_problems(folder, capsys):
     assert "contacts/" in capsys.readouterr().out
 
 
-@pytest.mark.extra("fast")  # a C compiler
+@pytest.mark.extra("compiled")  # a C compiler
 def test_a_program_in_c_runs_in_a_study(folder, monkeypatch):
     for name in ("hildreth.c", "hildreth.py"):
         shutil.copy(EXAMPLES / name, folder)

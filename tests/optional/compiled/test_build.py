@@ -40,7 +40,7 @@ def test_without_a_compiler_the_reason_says_so(folder, monkeypatch):
     assert library.missing().endswith("there was no C compiler, cc or $CC")
 
 
-@pytest.mark.extra("fast")
+@pytest.mark.extra("compiled")
 def test_a_library_that_is_made_is_loaded_and_one_of_other_sources_is_not(folder, monkeypatch):
     assert build.build() == folder / "compiled.so"
     assert library.missing() is None

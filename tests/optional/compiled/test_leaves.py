@@ -16,7 +16,7 @@ from quasistatic_ref.solve.by_group import GroupLayout
 from quasistatic_ref.solve.units import step_sizes
 from quasistatic_ref.step.standard_form import contact_inequalities
 
-pytestmark = pytest.mark.extra("fast")
+pytestmark = pytest.mark.extra("compiled")
 
 
 FUNCTIONS = [

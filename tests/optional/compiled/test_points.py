@@ -12,7 +12,7 @@ from quasistatic_ref.contact.normals import TIED_FACES
 from quasistatic_ref.formats.plain import bits
 from tests.contact.still import placed_shape
 
-pytestmark = pytest.mark.extra("fast")
+pytestmark = pytest.mark.extra("compiled")
 
 SOLIDS = [
     HalfSpace((0.0, 0.0, 1.0), 0.0),
