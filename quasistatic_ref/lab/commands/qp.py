@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.quoting import listed
+from quasistatic_ref.formats.quoting import listed, one_line
+from quasistatic_ref.lab.qp_files.load import SUFFIXES, load_qp
 from quasistatic_ref.optional.qp.answer import NO_OPTIMUM, Answer, ExactQP
 from quasistatic_ref.optional.qp.exact import exact_qp
-from quasistatic_ref.optional.qp.files import SUFFIXES, load_qp
 
 if TYPE_CHECKING:
     from quasistatic_ref.lab.study.row import Row
@@ -47,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
     with about_file(options.file):
         answers = {name: _answer(program) for name, program in load_qp(options.file).items()}
     for name, answer in answers.items():
-        print(f"{name}: {_in_words(answer)}")
+        print(one_line(f"{name}: {_in_words(answer)}"))
     if options.output is not None:
         if len(answers) > 1:
             raise InputError("holds several programs; -o writes one", file=options.file)
@@ -77,7 +77,7 @@ def _study(options: argparse.Namespace) -> int:
     if not answers:
         raise InputError("holds no program with an answer", file=options.file)
     for name, answer in answers.items():
-        print(f"{name}: {_in_words(answer)}")
+        print(one_line(f"{name}: {_in_words(answer)}"))
     labels = _labels(options.solvers or ["*"])
     study(known(answers), labels, SETTINGS, options.out, progress=not options.quiet)
     print(

@@ -199,14 +199,14 @@ def program_of(P: Any, *arrays: Any, constant: Any = 0.0) -> QuadraticProgram:
         else _checked(name, pair[0], shape)
         for name, shape in shapes.items()
     }
-    _check_symmetric(values["P"])
+    check_symmetric(values["P"])
     numbers, of_constant = exact_numbers([constant], "constant")
     exact = {name: pair[1] for name, pair in given.items() if pair} | {"constant": of_constant}
     exact = {name: others for name, others in exact.items() if others}
     return QuadraticProgram(**values, constant=float(numbers[0]), exact=exact)
 
 
-def _check_symmetric(P: Array) -> None:
+def check_symmetric(P: Array) -> None:
     """Refuse one triangle, which others ask for: which one is meant cannot be guessed."""
     off = np.abs(P - P.T)
     if off.max() <= SYMMETRIC * np.abs(P).max():

@@ -1,0 +1,1 @@
+"""Quadratic programs of others in files."""
