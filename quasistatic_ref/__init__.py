@@ -27,6 +27,7 @@ _HOMES = {
     "simulate.result": "StepResult",
     "simulate.limits": "Limits",
     "simulate.simulator": "Simulator",
+    "simulate.steps": "Steps",
     "optional.derivatives.derivatives": "derivatives",
     "optional.derivatives.step_jax": "step_jax",
     "simulate.rollout": "rollout",
@@ -180,6 +181,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.simulate.result import StepResult as StepResult
     from quasistatic_ref.simulate.rollout import rollout as rollout
     from quasistatic_ref.simulate.simulator import Simulator as Simulator
+    from quasistatic_ref.simulate.steps import Steps as Steps
     from quasistatic_ref.simulate.trajectory import Trajectory as Trajectory
     from quasistatic_ref.files.trajectory import (
         load_trajectory as load_trajectory,

@@ -53,6 +53,7 @@ PARTS: Final = {
     "qpsolvers_names": ("qpsolvers", "optional.qpsolvers.through_qpsolvers:available_solvers"),
     "daqp_solver": ('backend = "daqp"', "optional.daqp.solver:DaqpSolver"),
     "bearing_rows": ("a refined start", "optional.daqp.bearing_rows:bearing_rows"),
+    "cold_answers": ('backend = "daqp"', "optional.daqp.solver:cold_answers"),
     "fast_backend": ("fast", "optional.daqp.default:default_backend"),
     # Of runs.
     "stands": ("stands", "optional.stands.stands:stands"),

@@ -357,6 +357,17 @@ class StepForm(ExactForm):
         with working_precision(EXACT):
             self.g = springs * shift + (force * self.h + pull) * self.h  # Eq. (1), times h^2
 
+    def with_rows_of(self, other: StepForm | None) -> StepForm:
+        """The form, with the rows that another one has formed if they are the same numbers."""
+        step = self._step
+        if other is not None and (
+            other._step.contacts is step.contacts and other._step.extra is step.extra
+        ):
+            self._factors = other._factors
+            self._rows = other._rows
+            self.inequalities = other.inequalities
+        return self
+
     @cached_property
     def inequalities(self) -> tuple[Array, Array]:
         """A, (m, n) [m] per unit of x, and b, (m,) [m], of Eq. :eq:`eq-8` in float64."""

@@ -156,7 +156,7 @@ def optimum_by_groups(
     for i, ((group, part), start) in enumerate(zip(parts, starts, strict=True)):
         optimum = proofs.kept(i, part, start)
         if optimum is None:
-            form = StepForm(part)
+            form = proofs.form(i, part)
             end = form_optimum(form, start)
             if isinstance(end, Combination):
                 raise StepInfeasible(step, farkas_vector(step, form, end, group.rows))
@@ -195,6 +195,12 @@ class Proofs:
     def __init__(self) -> None:
         # Of each group: what it was as a step, the rows that its search started from, the end.
         self._last: dict[int, tuple[StepData, list[int], ExactOptimum]] = {}
+        self._forms: dict[int, StepForm] = {}
+
+    def form(self, i: int, part: StepData) -> StepForm:
+        """The exact program of group i: with the rows of the last step's, if they are the same."""
+        self._forms[i] = form = StepForm(part).with_rows_of(self._forms.get(i))
+        return form
 
     def kept(self, i: int, part: StepData, start: Sequence[int]) -> ExactOptimum | None:
         """The kept optimum of group i, if its data and start equal those of the last step."""

@@ -111,7 +111,7 @@ class UnitParts:
         Parameters
         ----------
         q : ndarray
-            All entries of q, or the first of them, those of these joints.
+            All entries of q, or the first of them, those of these joints; perhaps of many q.
 
         Raises
         ------
@@ -120,10 +120,13 @@ class UnitParts:
         """
         if not self._joints:
             return
-        lengths = np.sqrt(np.add.reduceat(np.square(q.take(self._entries)), self._starts))
+        squares = np.square(q.take(self._entries, axis=-1))
+        lengths = np.sqrt(np.add.reduceat(squares, self._starts, axis=-1))
         wrong = np.abs(lengths - 1) > UNIT_QUATERNION
         if not wrong.any():
             return
+        if q.ndim > 1:
+            self.check(q[wrong.any(axis=1).argmax()])
         first = int(wrong.argmax())
         joint = self._joints[first]
         problem = (

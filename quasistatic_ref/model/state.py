@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.model.kinematics import Kinematics
@@ -33,6 +34,11 @@ class State(ABC):
     def M_u(self) -> Array:
         """Un-actuated block of the mass matrix, shape (n_u, n_u) [kg, kg m, kg m^2]."""
 
+    @property
+    def masses(self) -> Array:
+        """M_u, or its diagonal blocks, (k, n_u / k, n_u / k) [kg, kg m, kg m^2]."""
+        return self.M_u
+
     @abstractmethod
     def gravity(self, acceleration: ArrayLike) -> Array:
         """Generalised force of gravity, shape (n_v,) [N, N m].
@@ -52,6 +58,14 @@ class State(ABC):
         ModelError
             If the target has another shape, or a quaternion in it is not of length one.
         """
+
+    def changes_to(self, q_a: Array) -> Array:
+        """Changes to N targets, (N, n_q_a): shape (N, n_a); errors as of one."""
+        return np.array([self.change_to(target) for target in q_a])
+
+    def plus_each(self, delta_q: Array) -> Array:
+        """The configurations q (+) each of N changes (N, n_v): shape (N, n_q) [m, rad, -]."""
+        return np.array([self.plus(change).q for change in delta_q])
 
     @abstractmethod
     def plus(self, delta_q: ArrayLike) -> State:

@@ -44,6 +44,8 @@ class Sums:
         ]
         at_once = {type(joint) for joint, _, _ in self.many}
         self.few = [joint for joint in joints if type(joint) not in at_once]
+        self.joints = joints
+        self._by_entries = all(kind in BY_ENTRIES for kind in kinds)
         self.n_q: int = joints[-1].q.stop if joints else 0
         self.n_v: int = joints[-1].v.stop if joints else 0
 
@@ -71,6 +73,28 @@ class Sums:
         there = q_next.tolist()
         for joint in self.few:
             change[joint.v] = joint.change(here[joint.q], there[joint.q])
+        return change
+
+    def plus_each(self, q: Array, delta_q: Array) -> Array:
+        """Entries of q (+) each of N changes, (N, n_v): shape (N, n_q) [m, rad, -]."""
+        if not self._by_entries:
+            return np.reshape([self.plus(q, change) for change in delta_q], (-1, len(q)))
+        there = np.empty((len(delta_q), len(q)))
+        for joint in self.joints:
+            with np.errstate(all="ignore"):  # as plain arithmetic
+                moved = joint.moved(q[joint.q].tolist(), [*delta_q[:, joint.v].T.copy()])
+            there[:, joint.q] = np.stack(moved, axis=1)
+        return there
+
+    def changes(self, q: Array, q_next: Array) -> Array:
+        """Entries of q_next (-) q, of each of N q_next (N, n): shape (N, n_v) [m, rad]."""
+        if not self._by_entries:
+            return np.reshape([self.change(q, one) for one in q_next], (-1, self.n_v))
+        change = np.empty((len(q_next), self.n_v))
+        for joint in self.joints:
+            with np.errstate(all="ignore"):
+                apart = joint.change(q[joint.q].tolist(), [*q_next[:, joint.q].T.copy()])
+            change[:, joint.v] = np.stack(apart, axis=1)
         return change
 
 

@@ -258,6 +258,12 @@ class SystemState(State):
         mass = self.system.varying_mass
         return self.system.constant_M_u if mass is None else mass.at(self.kinematics)
 
+    @property
+    def masses(self) -> Array:
+        """M_u, or the blocks that it has at every q."""
+        constant = self.system.constant_mass_matrix
+        return self.system.mass_blocks if constant else self.M_u
+
     def gravity(self, acceleration: ArrayLike) -> Array:
         """Generalised force of gravity, (3,) [m/s^2], shape (n_v,) [N, N m]."""
         down = tuple(np.asarray(acceleration).tolist())
@@ -271,6 +277,15 @@ class SystemState(State):
         q_a = with_shape(q_a, "q_a", (system.n_q_a,), ModelError)
         system.actuated_units.check(q_a)
         return system.actuated_sums.change(self.q, q_a)
+
+    def changes_to(self, q_a: Array) -> Array:
+        """Changes to N targets, (N, n_q_a): shape (N, n_a); errors as of one."""
+        self.system.actuated_units.check(q_a)
+        return self.system.actuated_sums.changes(self.q, q_a)
+
+    def plus_each(self, delta_q: Array) -> Array:
+        """The configurations q (+) each of N changes (N, n_v): shape (N, n_q) [m, rad, -]."""
+        return self.system.sums.plus_each(self.q, delta_q)
 
     def plus(self, delta_q: ArrayLike) -> SystemState:
         """The state at q (+) delta_q, of a change of shape (n_v,) [m, rad]."""

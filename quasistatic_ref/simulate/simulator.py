@@ -39,15 +39,17 @@ from quasistatic_ref.numbers.pivots import positive_definite
 from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.distances import Distances, measured_pairs
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.law import COULOMB, Law
+from quasistatic_ref.simulate.law import CONVEX, COULOMB, Law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.standing import Standings
+from quasistatic_ref.simulate.steps import Steps, Ways, targets_and_loads
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.solve.backends import DAQP, DEFAULT, NONE, Certify, spares
 from quasistatic_ref.solve.by_group import GroupLayout
 from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.solve.many import KnownAnswers, ManyLoads
 from quasistatic_ref.solve.solve import solve_step, solved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import ScaledStep
@@ -355,6 +357,98 @@ class Simulator(Settings, Shown):
             lap("integrate")
             return StepResult(end.q, step, solution, points, times, here.q, self, end)
 
+    def steps(
+        self, q: ArrayLike | State, targets: ArrayLike, force: ArrayLike | None = None
+    ) -> Steps:
+        """Steps from one state towards many targets, or under many loads.
+
+        Contacts, J, H and A depend on q alone, and are formed once. Each step starts cold, so that
+        no answer depends on the order of the targets; what is certified is as :meth:`step` has it.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,); or State
+        targets : array_like, shape (N, n_q_a); or (n_q_a,), for all
+        force : array_like, shape (N, n_v); or (n_v,), for all; optional
+            External generalised forces, in addition to gravity [N, N m].
+
+        Returns
+        -------
+        Steps
+            Arrays ``q`` (N, n_q), ``delta_q`` (N, n_v) and ``lam`` (N, m); item i is a StepResult.
+
+        Raises
+        ------
+        QuasistaticError
+            As of :meth:`step`, of the first step that has no answer.
+        """
+        system = self.system
+        with by_one_thread(system):
+            here = system.at(q)
+            q_bar_a, loads = targets_and_loads(system, targets, force)
+            points = self.closest_points(here.kinematics)
+            contacts = self.geometry.contacts(points, here.kinematics)
+            tau = self.generalised_force(here, None) + loads
+            changes = here.changes_to(q_bar_a) + 0.0
+            bad = np.flatnonzero(~np.isfinite(np.hstack([changes, tau])).all(axis=1)).tolist()
+            if len(tau):
+                k = bad[0] if bad else 0
+                first = self.step_under(here, q_bar_a[k], tau[k], contacts)  # or its refusal
+            else:
+                q_a = here.q[: system.n_q_a]
+                first = self.step_under(here, q_a, np.zeros(system.n_v), contacts)
+            kept = self.solver, self.working_set
+            try:
+                answers = self._answers(ManyLoads(first, changes, tau), here)
+            finally:
+                self.solver, self.working_set = kept
+            return Steps(self, here, points, first, *answers)
+
+    def _answers(
+        self, many: ManyLoads, here: State
+    ) -> tuple[Array, Array, Callable[[int], StepSolution]]:
+        """delta_q (N, n_v), lam (N, m) of steps from one state, and what gives their solutions."""
+        first = many.first
+        scaled = self.scaled(first)
+        found: dict[int, StepSolution] = {}
+        known: KnownAnswers | None = None
+        if self.backend == DAQP and self.law == CONVEX and self.extension is None:
+            solver = solver_for(first, DAQP)
+            known = without_warnings(KnownAnswers, many, scaled, solver, self.accuracy)
+
+        def solution(k: int) -> StepSolution:
+            if k in found:
+                return found[k]
+            step = many.step(k)
+            if known is not None:
+                try:
+                    return self.solved(known.scaled(k, step), known.solver(k))
+                except StepNotSolved as failure:
+                    return self.otherwise_solved(step, failure)
+            self.start_cold()
+            return self.extended(step, here.q)
+
+        unproved = known is not None and self.certify == "off"
+        delta_q = known.delta_q if known is not None else np.zeros((len(many), first.n_v))
+        lam = known.lam if known is not None else np.zeros((len(many), first.m))
+        n_v = self.system.n_v
+        for k in known.failed if unproved and known is not None else range(len(many)):
+            found[k] = one = solution(k)
+            delta_q[k] = one.delta_q[:n_v]
+            if lam.shape[1] != len(one.lam):  # with rows of an extension
+                lam = np.zeros((len(many), len(one.lam)))
+            lam[k] = one.lam
+        self.limits.check_penetration(first)
+        bounds = self._ways.farthest(here.kinematics.t, delta_q)
+        for k in np.flatnonzero(~(bounds <= self.limits.reach)).tolist():
+            end = here.plus(delta_q[k]).kinematics
+            self.limits.check_reach(many.step(k), self.system.links, end.t)
+        return delta_q, lam, solution
+
+    @cached_property
+    def _ways(self) -> Ways:
+        return Ways(self.system)
+
     def start_cold(self) -> None:
         """Forget all that answers of later steps could depend on."""
         self.working_set = ()
@@ -402,7 +496,7 @@ class Simulator(Settings, Shown):
         """The problem of one step from its contacts and all generalised forces, (n_v,) [N, N m]."""
         system = self.system
         here = system.at(q)
-        masses = system.mass_blocks if system.constant_mass_matrix else here.M_u
+        masses = here.masses
         change = here.change_to(q_bar_a)  # q_bar_a(t + h) (-) q_a
         n_a = system.n_a
         loads: dict[str, Any] = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": change}

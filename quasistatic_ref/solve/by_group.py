@@ -44,12 +44,13 @@ class NaturalHessian(NamedTuple):
     inverse: Array
     column: Indices
 
-    def free_length(self, g: Array) -> float:
-        """||H^-1 g||_H of an impulse, shape (n_v,) [N s, N m s]: in (N m s)^0.5."""
-        if not len(g):
-            return 0.0
-        moved = self.inverse * np.append(g, 0.0)[self.column]
-        return float(np.hypot.reduce(np.add.accumulate(moved, axis=1)[:, -1]))
+    def free_lengths(self, g: Array) -> Array:
+        """||H^-1 g||_H of impulses, (..., n_v) [N s, N m s]: shape (...) [(N m s)^0.5]."""
+        if not g.shape[-1]:
+            return np.zeros(g.shape[:-1])
+        padded = np.concatenate([g, np.zeros((*g.shape[:-1], 1))], axis=-1)
+        moved = self.inverse * padded[..., self.column]
+        return np.asarray(np.hypot.reduce(np.add.accumulate(moved, axis=-1)[..., -1], axis=-1))
 
 
 class Programs(NamedTuple):

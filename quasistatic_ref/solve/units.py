@@ -12,6 +12,8 @@ N s; rho itself is in the unit of ||v||_H, (N m s)^0.5. All units are powers of 
 conversion loses nothing, unless a number leaves the range of float64.
 """
 
+from __future__ import annotations
+
 import math
 from functools import cached_property
 from typing import NamedTuple
@@ -109,7 +111,7 @@ def sizes_of(squares: Array, b: Array, free_length: float) -> Sizes:
 @compiled
 def step_sizes(A: Array, b: Array, g: Array, H: NaturalHessian) -> Sizes:
     """The sizes of a step from its rows by own columns, (m, w), b and g."""
-    return sizes_of(squared_lengths(A, H.own_unit), b, H.free_length(g))
+    return sizes_of(squared_lengths(A, H.own_unit), b, float(H.free_lengths(g)))
 
 
 def natural_units(coordinate: Array, sizes: Sizes) -> Units:
@@ -123,14 +125,28 @@ def natural_units(coordinate: Array, sizes: Sizes) -> Units:
     """
     length = _power_of_two(sizes.median)
     push_out = sizes.push_out / length
-    size = max(sizes.free_length, push_out)
+    if not math.isfinite(sizes.most):
+        push_out = math.nan
+    return Units(coordinate, length, natural_size(coordinate, sizes.free_length, push_out))
+
+
+def natural_size(coordinate: Array, free_length: float, push_out: float) -> float:
+    """The natural size rho of a step [(N m s)^0.5], NaN where its numbers are not finite.
+
+    Parameters
+    ----------
+    coordinate : ndarray, shape (n_v,)
+        Diagonal of S [m or rad, per (N m s)^0.5].
+    free_length, push_out : float
+        ||H^-1 g||_H, and the longest way out of a penetration [(N m s)^0.5].
+    """
+    size = max(free_length, push_out)
     softest = float(coordinate.max(initial=0.0))
     if size == 0:  # no load, no penetration: the optimum is zero
         size = UNMOVED / softest if coordinate.size else UNMOVED
-    if not math.isfinite(sizes.free_length + push_out + sizes.most):
-        size = math.nan
-    size = _power_of_two(max(size, SMALLEST * max(1.0, softest)))
-    return Units(coordinate, length, size)
+    if not math.isfinite(free_length + push_out):
+        return math.nan
+    return _power_of_two(max(size, SMALLEST * max(1.0, softest)))
 
 
 def natural_form(form: StandardForm, units: Units) -> StandardForm:
@@ -192,6 +208,7 @@ class ScaledStep:
         self, step: StepData, units: Units | None = None, layout: GroupLayout | None = None
     ) -> None:
         self.step = step
+        self._place: ScaledStep | None = None
         if units is not None:
             self.units = units
         if layout is not None:
@@ -237,7 +254,8 @@ class ScaledStep:
         natural = self.layout.natural_hessian_of(self.step)
         A, b = self._own_inequalities
         if self.step.extra.names:
-            sizes = sizes_of(self.squared_lengths, b, natural.free_length(self._g))
+            free_length = float(natural.free_lengths(self._g))
+            sizes = sizes_of(self.squared_lengths, b, free_length)
         else:
             sizes = step_sizes(A, b, self._g, natural)
         units = natural_units(natural.unit, sizes)
@@ -245,10 +263,24 @@ class ScaledStep:
             raise out_of_range()
         return units
 
+    def under(self, step: StepData) -> ScaledStep:
+        """A step from the same place under other targets or loads: it differs in g alone."""
+        other = ScaledStep(step, layout=self.layout)
+        other.__dict__.update(
+            _own_inequalities=self._own_inequalities, squared_lengths=self.squared_lengths,
+            _finer=self._finer, _place=self,
+        )  # fmt: skip
+        return other
+
     def check_range(self) -> None:
         """Refuse a step that its natural units take out of the range of float64: StepDataError."""
         if not self.programs.finite:
             raise out_of_range()
+
+    @property
+    def deepest(self) -> float:
+        """The largest b of a row, and at least 0 [m]."""
+        return float(self._own_inequalities[1].max(initial=0.0))
 
     @cached_property
     def natural(self) -> StandardForm:
@@ -273,7 +305,20 @@ class ScaledStep:
     @cached_property
     def groups(self) -> list[tuple[Group, StepData]]:
         """The groups of the step, each as a step of its own in SI units."""
-        return [(group, group_step(self.step, group)) for group in self._finer.groups]
+        step = self.step
+        if self._place is None:
+            return [(group, group_step(step, group)) for group in self._finer.groups]
+        parts = []
+        for group, part in self._place.groups:
+            a = group.coordinates[: part.n_a]
+            u = group.coordinates[part.n_a :] - step.n_a
+            loads = {"tau_a": step.tau_a[a], "tau_u": step.tau_u[u]}
+            change = step.delta_q_bar_a[a]
+            whole = part is self._place.step
+            parts.append(
+                (group, step if whole else part.with_fields(**loads, delta_q_bar_a=change))
+            )
+        return parts
 
     @cached_property
     def natural_by_group(self) -> list[StandardForm]:

@@ -134,7 +134,7 @@ def test_r38_coulombs_law_leaves_a_rigid_guide_open(rng, both):
         F = log(rng, 0.1, 1e3)
         start = mu * h**2 * F / m * rng.choice([0.0, 0.3, 2.0])
         rail = contacts_of(0.0, np.eye(3), [[[1.0], [0.0], [0.0], [0.0]]], mu)
-        answer = coulomb_step(free_step([[m]], [F], rail, h), fast=True, start=[start])
+        answer = coulomb_step(free_step([[m]], [F], rail, h), "daqp", start=[start])
         slid = min(start / mu, h**2 * F / m)
         both(slid > 0)
         assert answer.converged

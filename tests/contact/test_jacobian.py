@@ -12,14 +12,8 @@ from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.step.contacts import spread
 from tests.closeness import assert_within
-from tests.files.urdf.urdf_texts import inertial, joint, link, mimic, robot
+from tests.model.mechanisms import WHEELS
 
-WHEELS = robot(
-    *(link(name, "", inertial("1", ("0.1",) * 3)) for name in ("axle", "wheel", "near", "far")),
-    joint("turn", "axle", "wheel", "continuous", "0 0 1"),
-    joint("open", "axle", "near", "prismatic", "1 0 0"),
-    joint("shut", "axle", "far", "prismatic", "-1 0 0", mimic("open")),
-)
 TIED = """<mujoco><worldbody><body name="a"><joint name="one" type="slide" axis="1 0 0"/>
 <geom size=".1"/><body name="b"><joint name="two" axis="0 1 0"/><geom size=".1" pos="1 0 0"/></body>
 </body><body name="c" pos="3 0 0"><freejoint/><geom size=".1"/></body></worldbody>

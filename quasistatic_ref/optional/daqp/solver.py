@@ -14,6 +14,7 @@ import numpy as np
 from quasistatic_ref.numbers.arrays import Array, all_finite
 from quasistatic_ref.solve.backends import DAQP, Options
 from quasistatic_ref.solve.by_group import GroupLayout, Programs
+from quasistatic_ref.solve.many import ManyAnswers
 from quasistatic_ref.solve.solver import BackendSolver, Reply
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.data import StepData
@@ -89,6 +90,14 @@ class Workspace:
         self._warm = answer.flag == 1
         return answer
 
+    def cold(self, H: Array) -> Answer:
+        """Solve the program as it stands, from no active set; H and A are those of the last."""
+        if not len(self._cold):
+            return self.answer(H)
+        f, _, b = self._program.values()
+        self._model.update(f=f, blower=b, sense=self._cold)
+        return self._result()
+
     def _solved(self, H: Array, *, warm: bool) -> Answer:
         if warm and H is self._H:  # DAQP keeps its factor, with the same bits
             self._model.update(**self._program)
@@ -97,6 +106,9 @@ class Workspace:
         else:
             self._model.update(H=H, sense=self._cold, **self._program)
         self._H = H
+        return self._result()
+
+    def _result(self) -> Answer:
         x, _, flag, info = self._model.solve()
         lam = 0.0 - info["lam"]  # those of lower bounds are negative
         return Answer(x, lam, flag, info["iterations"], info["solve_time"])
@@ -111,21 +123,27 @@ class Workspaces:
         Of a step.
     options : dict
         DAQP's own.
+
+    Attributes
+    ----------
+    program : Programs
+        What is solved, with f = -g in the place of g.
+    each : list of Workspace
     """
 
     def __init__(self, programs: Programs, options: Options) -> None:
         self.layout: GroupLayout = programs.layout
-        f, A, b = map(np.zeros_like, (programs.g, programs.A, programs.b))
-        self._program = programs._replace(g=f, A=A, b=b)
-        forms = zip(self._program.forms, programs.blocks, strict=True)
-        self._each = [Workspace(H, form.g, form.A, form.b, options) for form, H in forms]
+        f = -programs.g
+        self.program = programs._replace(g=f, A=programs.A.copy(), b=programs.b.copy())
+        forms = zip(self.program.forms, programs.blocks, strict=True)
+        self.each = [Workspace(H, form.g, form.A, form.b, options) for form, H in forms]
 
     def reply(self, programs: Programs) -> Reply:
         """Solve the programs of a step: solved if all are."""
-        np.negative(programs.g, out=self._program.g)
-        self._program.A[:] = programs.A
-        self._program.b[:] = programs.b
-        both = zip(self._each, programs.blocks, strict=True)
+        np.negative(programs.g, out=self.program.g)
+        self.program.A[:] = programs.A
+        self.program.b[:] = programs.b
+        both = zip(self.each, programs.blocks, strict=True)
         answers = [one.answer(H) for one, H in both]
         flag = next((one.flag for one in answers if one.flag != 1), 1)
         x = programs.joined([one.x for one in answers])
@@ -134,6 +152,52 @@ class Workspaces:
         iterations = sum(one.iterations for one in answers)
         seconds = sum(one.seconds for one in answers)
         return Reply(x, lam, flag == 1, STATUS.get(flag) or str(flag), iterations, seconds)
+
+
+def cold_answers(scaled: ScaledStep, g: Array, sizes: Array, options: Options) -> ManyAnswers:
+    """Answers to N programs that differ from a step's in g alone, each from a cold start.
+
+    So that none depends on the order in which they are asked for.
+
+    Parameters
+    ----------
+    scaled : ScaledStep
+    g : ndarray, shape (N, n_v)
+        [N s, N m s]
+    sizes : ndarray, shape (N,)
+        Their natural sizes [(N m s)^0.5].
+    options : dict
+        DAQP's own.
+    """
+    programs = scaled.programs
+    layout = programs.layout
+    workspaces = Workspaces(programs, options)
+    N = len(g)
+    x = np.zeros((N, len(programs.g)))
+    lam = np.zeros((N, len(programs.b)))
+    status = ["optimal"] * N
+    iterations = np.zeros(N, np.int64)
+    with_size = programs.b * scaled.units.size
+    f = -(g * scaled.units.coordinate / sizes[:, None])[:, layout.coordinates]
+    each = [
+        (one, H, n, m)
+        for one, H, (n, _, m) in zip(workspaces.each, programs.blocks, layout.slices, strict=True)
+    ]
+    last = None
+    for i, size in enumerate(sizes.tolist()):
+        workspaces.program.g[:] = f[i]
+        if size != last:
+            workspaces.program.b[:] = with_size / size
+            last = size
+        for one, H, n, m in each:
+            answer = one.cold(H)
+            x[i, n] = answer.x
+            lam[i, m] = answer.lam
+            iterations[i] += answer.iterations
+            if answer.flag != 1:
+                status[i] = STATUS.get(answer.flag) or str(answer.flag)
+    in_order = np.argsort(layout.coordinates), np.argsort(layout.rows)
+    return ManyAnswers(x[:, in_order[0]], lam[:, in_order[1]], status, iterations)
 
 
 class DaqpSolver(BackendSolver):

@@ -93,7 +93,8 @@ class Nearby:
         self._origin = system.at(system.neutral())
         self._end = self._origin.plus(self.result.solution.delta_q)
 
-        units = ScaledStep(step).units
+        self._scaled = ScaledStep(step)
+        units = self._scaled.units
         coordinate = units.size * units.coordinate
         mu_v, mu_omega = np.array([(p.mu_v, p.mu_omega) for p in simulator.pairs]).reshape(-1, 2).T
         masses = system.masses
@@ -126,7 +127,9 @@ class Nearby:
 
     def _proved(self, step: StepData) -> StepSolution:
         """The exact optimum of a step, from the rows of the one that all are near to."""
-        scaled = ScaledStep(step)
+        here = self._step
+        of_loads = step.contacts is here.contacts and step.hessian is here.hessian
+        scaled = self._scaled.under(step) if of_loads else ScaledStep(step)
         accuracy = self.simulator.accuracy
         return without_warnings(solved, scaled, self._solver, accuracy, "full", self._rows)
 
@@ -149,6 +152,16 @@ class Nearby:
         mu_v = np.repeat(change["mu_v"], of_pair)
         mu_omega = np.repeat(change["mu_omega"], of_pair)
 
+        none = np.zeros(system.n_u)
+        target = self._origin.plus(np.append(step.delta_q_bar_a, none))
+        target = target.plus(np.append(change["q_bar_a"], none))
+        delta_q_bar_a = self._origin.change_to(target.q[: system.n_q_a])
+        if changes.keys() <= {"q_bar_a", "tau"}:  # g alone differs
+            tau = np.concatenate([step.tau_a, step.tau_u]) + change["tau"] + 0.0
+            loads = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a + 0.0}
+            changed: StepData = step.with_fields(**loads)
+            return changed
+
         arms = np.einsum("lab,lb->la", kinematics.R, system.centres)
         centres = kinematics.J[:, :3] + crossed(kinematics.J[:, 3:], arms[:, :, None])
         M = np.einsum("l,lai,laj->ij", change["masses"], centres, centres)
@@ -156,9 +169,6 @@ class Nearby:
         weights[:n_a] *= simulator.gravity_acts
         tau = weights + change["tau"]
 
-        none = np.zeros(system.n_u)
-        target = self._origin.plus(np.append(step.delta_q_bar_a, none))
-        target = target.plus(np.append(change["q_bar_a"], none))
         return step.replace(
             contacts=replace(
                 contacts,
@@ -170,5 +180,5 @@ class Nearby:
             M_u=step.M_u + M[n_a:, n_a:],
             tau_a=step.tau_a + tau[:n_a],
             tau_u=step.tau_u + tau[n_a:],
-            delta_q_bar_a=self._origin.change_to(target.q[: system.n_q_a]),
+            delta_q_bar_a=delta_q_bar_a,
         )

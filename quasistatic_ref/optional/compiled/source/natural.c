@@ -60,7 +60,7 @@ int64_t step_sizes(const int64_t *sizes, const double *A, const double *unit, co
     }
     written[1] = most;
     written[2] = push_out;
-    for (int64_t i = 0; i < n; i++) { /* `free_length` */
+    for (int64_t i = 0; i < n; i++) { /* `free_lengths` */
         double sum = 0.0;
         for (int64_t k = i * wide; k < (i + 1) * wide; k++)
             sum += inverse[k] * (coordinate[k] < n ? g[coordinate[k]] : 0.0);

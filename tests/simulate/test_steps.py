@@ -1,0 +1,159 @@
+"""Many steps from one state: each is the step that a cold simulator takes."""
+
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.simulate.steps import Ways
+from tests.model.mechanisms import every_joint
+
+N = 5
+
+
+def place(name, *settings, **more):
+    """A simulator some steps into a scene, the state there, N targets and N loads."""
+    scenario = qr.load_scenario(name, settings)
+    simulator = scenario.simulator(**more)
+    here = scenario.system.at(scenario.system.q_start)
+    for k in range(3):
+        here = simulator.step(here, scenario.targets((k + 1) * simulator.h)).end
+    rng = np.random.default_rng(0)
+    moves = 1e-4 * rng.normal(size=(N, scenario.system.n_v))
+    targets = here.plus_each(moves)[:, : scenario.system.n_q_a]
+    return simulator, here, targets, 0.1 * rng.normal(size=(N, scenario.system.n_v))
+
+
+KINDS = {
+    "daqp": ("bunny_grasp", "solver.backend=daqp"),
+    "daqp, several bodies": ("stack", "solver.backend=daqp"),
+    "daqp, unproved": ("two_finger_pinch", "solver.backend=daqp", "solver.certify=off"),
+    "daqp, residuals": ("door", "solver.backend=daqp", "solver.certify=residual"),
+    "clarabel": ("block_push",),
+    "clarabel, unproved": ("arm_push", "solver.certify=off"),
+    "none": ("stack", "solver.backend=none"),
+    "the ellipsoid": ("sphere_spin", "cone=ellipsoid"),
+    "Coulomb's law": ("block_push", "law=coulomb"),
+}
+
+
+def same(one, other):
+    """Whether two results have the same bits, times and statistics left out."""
+    parts = [(r.q, r.step, r.points, r.solution.delta_q, r.solution.lam) for r in (one, other)]
+    claims = [r.solution.certificate.kind for r in (one, other)]
+    return bits(parts[0]) == bits(parts[1]) and claims[0] == claims[1]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_each_is_the_step_of_a_cold_simulator_and_the_order_does_not_matter(kind):
+    simulator, here, targets, loads = place(*KINDS[kind])
+    kept = simulator.solver
+    results = simulator.steps(here, targets, loads)
+    assert simulator.solver is kept
+    for k in range(N):
+        simulator.start_cold()
+        expected = simulator.step(here, targets[k], loads[k])
+        assert same(results[k], expected)
+        assert bits(results.q[k]) == bits(expected.q)
+        assert bits((results.delta_q[k], results.lam[k])) == bits(
+            (expected.solution.delta_q, expected.solution.lam)
+        )
+    backwards = simulator.steps(here, targets[::-1], loads[::-1])
+    assert bits(backwards.delta_q[::-1].copy()) == bits(results.delta_q)
+    assert len(results[1:3]) == 2
+    assert repr(results) == "<Steps: 5 steps from one state>"
+
+
+def test_rows_of_an_extension_are_those_of_each_step():
+    scenario = qr.load_scenario("two_finger_pinch", ["solver.backend=daqp"])
+    n_v = scenario.system.n_v
+    rows = qr.Extra(("guide",), np.ones((1, n_v)), np.array([1e-6]))
+    simulator = scenario.simulator(lambda q: qr.Extension(rows=rows))
+    q = scenario.system.q_start
+    loads = np.linspace(0, 1, 3)[:, None] * np.ones(n_v)
+    results = simulator.steps(q, scenario.targets(0.01), loads)
+    for k in range(3):
+        assert same(results[k], simulator.step(q, scenario.targets(0.01), loads[k]))
+    assert results[0].step.extra.names == ("guide",)
+
+
+def test_sums_of_forces_are_those_of_each_step():
+    simulator, here, targets, loads = place("two_finger_pinch", "solver.backend=daqp")
+    results = simulator.steps(here, targets, loads)
+    pairs = results.pair_forces()
+    for k in range(N):
+        assert bits(results.forces_on("held")[k]) == bits(results[k].forces_on("held"))
+        assert all(bits(pairs[name][k]) == bits(f) for name, f in results[k].pair_forces().items())
+
+
+def test_what_is_refused_is_refused_as_by_a_step():
+    simulator, here, targets, loads = place("bunny_grasp", "solver.backend=daqp")
+    for field, where in (("target", targets), ("load", loads)):
+        wrong = where.copy()
+        wrong[2, 0] = np.nan
+        both = (wrong, loads) if field == "target" else (targets, wrong)
+        with pytest.raises(qr.QuasistaticError) as of_step:
+            simulator.step(here, both[0][2], both[1][2])
+        with pytest.raises(type(of_step.value)) as of_steps:
+            simulator.steps(here, *both)
+        assert str(of_steps.value) == str(of_step.value)
+    with pytest.raises(qr.ModelError, match=r"^targets: must have shape \(N, n_q_a\) = \(5, 8\)"):
+        simulator.steps(here, targets[:, :3])
+    with pytest.raises(qr.StepDataError, match=r"^force: must have shape \(N, n_v\)"):
+        simulator.steps(here, targets[:, :], loads[:, :3])
+    with pytest.raises(qr.QuasistaticError, match=r"must have shape .*, or \(8,\) for all"):
+        simulator.steps(here, targets[:2], loads)
+    far = loads.copy()
+    far[3, 0] = 1e9
+    with pytest.raises(qr.QuasistaticError, match=r"limits\.reach"):
+        simulator.steps(here, targets, far)
+    none = simulator.steps(here, targets[:0])
+    assert (none.q.shape, none.delta_q.shape) == ((0, here.q.size), (0, simulator.system.n_v))
+
+
+def test_a_step_that_daqp_does_not_solve_is_replaced_as_by_a_step(monkeypatch):
+    from quasistatic_ref.optional.daqp.solver import Workspace
+
+    simulator, here, targets, loads = place("sphere_spin", "solver.backend=daqp",
+                                            "solver.certify=off")  # fmt: skip
+    honest = Workspace.cold
+    turns = iter(range(N))
+
+    def cold(self, H):
+        answer = honest(self, H)
+        return answer._replace(flag=-4) if next(turns) == 1 else answer
+
+    monkeypatch.setattr(Workspace, "cold", cold)
+    results = simulator.steps(here, targets, loads)
+    backends = [result.solution.backend for result in results]
+    assert backends == ["daqp", "clarabel", "daqp", "daqp", "daqp"]
+    assert results[1].solution.statistics.unanswered
+    assert bits(results.delta_q[1]) == bits(results[1].solution.delta_q)
+
+
+def test_sums_of_many_changes_have_the_bits_of_each(rng):
+    system = every_joint()
+    here = system.at(system.integrate(system.q_start, rng.normal(size=system.n_v)))
+    changes = rng.normal(size=(7, system.n_v)) * 10.0 ** rng.integers(-9, 1, size=(7, 1))
+    changes[0] = 0.0
+    ends = here.plus_each(changes)
+    assert bits(ends) == bits(np.array([here.plus(one).q for one in changes]))
+    targets = ends[:, : system.n_q_a]
+    apart = np.array([here.change_to(one) for one in targets])
+    assert bits(here.changes_to(targets)) == bits(apart)
+    with pytest.raises(qr.ModelError, match="length one"):
+        here.changes_to(2 * targets)
+
+
+def test_no_link_comes_farther_than_the_bound_of_its_ways(rng):
+    system = every_joint()
+    ways = Ways(system)
+    for size in (1e-3, 0.1, 1.0, 10.0):
+        here = system.at(system.integrate(system.q_start, rng.normal(size=system.n_v)))
+        changes = size * rng.normal(size=(20, system.n_v))
+        bounds = ways.farthest(here.kinematics.t, changes)
+        for change, bound in zip(changes, bounds, strict=True):
+            far = np.linalg.norm(here.plus(change).kinematics.t, axis=1).max()
+            assert far <= bound
+        still = np.linalg.norm(here.kinematics.t, axis=1).max()
+        assert ways.farthest(here.kinematics.t, np.zeros((1, system.n_v)))[0] <= still * (1 + 1e-8)
