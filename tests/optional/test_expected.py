@@ -43,6 +43,7 @@ from quasistatic_ref.simulate.simulator import (
 from quasistatic_ref.simulate.trajectory import StandsAfter, Table, TimeFindings
 from quasistatic_ref.solve.backends import SolverNames
 from quasistatic_ref.solve.choice import FunctionSolver, NamedSolver
+from quasistatic_ref.solve.many import ColdAnswers
 from quasistatic_ref.solve.solve import ExtendedStep
 from quasistatic_ref.step.cones import FrictionCone
 from quasistatic_ref.step.extension import Posed
@@ -73,6 +74,7 @@ class Expected:
     qpsolvers_solver: NamedSolver = through_qpsolvers.QpsolversSolver
     qpsolvers_names: SolverNames = through_qpsolvers.available_solvers
     daqp_solver: NamedSolver = solver.DaqpSolver
+    cold_answers: ColdAnswers = solver.cold_answers
     bearing_rows: BearingRows = bearing_rows.bearing_rows
     fast_backend: scenario.FastBackend = default.default_backend
     stands: StandingsOf = stands.stands
