@@ -19,8 +19,9 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 import quasistatic_ref  # noqa: E402 the path has to be there first
-from docs.fields_page import arrays_page, reference_page  # noqa: E402 the path has to be there first
+from docs.fields_page import arrays_page, options_page, reference_page  # noqa: E402 the path has to be there first
 from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
+from quasistatic_ref.cli.main import COMMANDS, _actions, command_parser  # noqa: E402 the path has to be there first
 from quasistatic_ref.files.scenario.scenario_table import TABLES as SCENARIO  # noqa: E402 the path has to be there first
 
 project = "quasistatic_ref"
@@ -226,6 +227,8 @@ def _expanded(app, docname, source):
     text = text.replace(f"]({up}gallery/README.md)", f"]({up}scripts/index.rst)")
     text = text.replace("\n<!-- fields of a scenario -->\n", "\n" + reference_page(SCENARIO))
     text = text.replace("\n<!-- arrays of a trajectory -->\n", "\n" + arrays_page())
+    options = options_page(_actions(command_parser(COMMANDS)))
+    text = text.replace("\n<!-- options of commands -->\n", "\n" + options)
     if docname in CLOSED_FORMS:
         text = RESULT.sub(lambda r: f"[**({r[1]}){r[2]}**]{{#{r[1].lower()}}}", text)
     source[0] = _results_linked(text)

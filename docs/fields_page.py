@@ -1,4 +1,7 @@
-"""The fields and arrays of files, as the pages about them list them."""
+"""The fields and arrays of files, and the options of commands, as pages about them list them."""
+
+import argparse
+from collections.abc import Iterable
 
 from quasistatic_ref.files.declared import Field, Tables
 from quasistatic_ref.files.table_reader import REQUIRED
@@ -27,6 +30,20 @@ def arrays_page() -> str:
         for name, kept in ARRAYS.items()
     ]
     return "\n".join(markdown_table(("array", "shape", "records", "holds"), rows)) + "\n"
+
+
+def options_page(commands: Iterable[argparse.ArgumentParser]) -> str:
+    """Every option of each command, as ``--help`` has it, as a table in Markdown."""
+    rows = []
+    for command in commands:
+        name = f"`{command.prog.partition(' ')[2]}`"
+        for action in command._actions:
+            if "--help" not in action.option_strings and action.option_strings:
+                words = ", ".join(f"`{word}`" for word in action.option_strings)
+                says = str(action.help).replace("%%", "%").replace("|", "\\|")
+                rows.append((name, words, says))
+                name = ""
+    return "\n".join(markdown_table(("command", "option", "says"), rows)) + "\n"
 
 
 def _heading(kind: str) -> str:

@@ -147,7 +147,17 @@ def test_every_claim_is_registered():
     )
 
 
-def test_every_option_says_what_it_does():
+def test_every_command_is_on_a_page_that_people_write():
+    pages = [ROOT / "README.md", *ROOT.glob("docs/*.md"), *ROOT.glob("docs/guides/*.md")]
+    every = "\n".join(page.read_text("utf-8") for page in pages)
+    assert_among(
+        [leaf.prog for leaf in leaves(command_parser(COMMANDS)) if leaf.prog not in every],
+        (),
+        "No page says `{}`: add it to the page of docs/ on what it is for",
+    )
+
+
+def test_every_option_says_what_it_does_in_help_and_so_on_the_page_of_options():
     silent = [
         f"{leaf.prog} {action.option_strings[-1]}"
         for leaf in leaves(command_parser(COMMANDS))

@@ -4,12 +4,13 @@ import tomllib
 from functools import cache
 from pathlib import Path
 
+FILE = "exit_codes.toml"
 SOLVED, INFEASIBLE, OTHER = SAYINGS = ("solved", "infeasible", "other")
 
 
 @cache
 def _table() -> dict[str, dict[str, dict[str, list[str]]]]:
-    text = (Path(__file__).parent / "exit_codes.toml").read_text("utf-8")
+    text = (Path(__file__).parent / FILE).read_text("utf-8")
     return tomllib.loads(text)
 
 
@@ -27,5 +28,6 @@ def saying(door: str, solver: str, status: str) -> str:
     ('infeasible', 'other')
     """
     of_door = _table()[door]
-    codes = of_door.get(solver) or of_door["every"]
+    codes = of_door.get(solver, of_door.get("every"))
+    assert codes, f"{FILE} does not say what {solver} says: add {solver} = ... to its [{door}]"
     return next((says for says, words in codes.items() if status in words), OTHER)

@@ -79,7 +79,8 @@ def test_what_is_said_is_right_by_hand(case):
     for name, numbers in hand.items():
         for key, value in numbers.items():
             if isinstance(value, str):  # words of the cause, or of the remedy
-                assert any(value in getattr(x, key) for x in findings if x.name == name)
+                texts = [getattr(one, key) for one in findings if one.name == name]
+                assert [text for text in texts if value in text], f"not in the {key} of {texts}"
             else:
                 number, off = value
                 right = pytest.approx(number, rel=off, abs=0.0 if number else off)
