@@ -16,7 +16,6 @@ import numpy as np
 from quasistatic_ref.certify.groups import Groups, groups
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm, norm_of_hessian
 from quasistatic_ref.numbers.arrays import Array, Indices, all_finite, read_only
-from quasistatic_ref.numbers.compiled import compiled
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.hessian import Hessian
 from quasistatic_ref.step.standard_form import StandardForm, Units
@@ -110,11 +109,8 @@ class GroupLayout:
     ----------
     coordinates, rows : ndarray of int, shapes (n_v,) and (m,)
         Of all groups, one after the other.
-    column, place : ndarray of int, shape (m_c, w)
-        Of each row of the contacts its own columns, and where their numbers stand in A: `size` of
-        none.
-    size : int
-        Numbers of A of all groups.
+    column : ndarray of int, shape (m_c, w)
+        Of each row of the contacts its own columns.
     slices : list of (slice, slice, slice)
         Where g, A and b of each group stand.
     """
@@ -130,7 +126,7 @@ class GroupLayout:
         heights = np.array([len(group.rows) for group in every])
         sizes = widths * heights
         self.slices = [*zip(*map(_slices, (widths, sizes, heights)), strict=True)]
-        self.size = int(sizes.sum())
+        self._size = int(sizes.sum())
         number = np.arange(len(every))
         # Of each coordinate, and of none, and of each row: its group and its number in that.
         of_coordinate = np.full(n_v + 1, -1)
@@ -145,11 +141,11 @@ class GroupLayout:
 
         def place(some: Indices, rows: slice) -> Indices:
             inside = of_coordinate[some] == of_row[rows, None]
-            return np.where(inside, start[rows, None] + within[some], self.size)
+            return np.where(inside, start[rows, None] + within[some], self._size)
 
         m_c = len(of_row) - e
         self.column = np.repeat(column, counts, axis=0)
-        self.place = place(self.column, slice(0, m_c))
+        self._place = place(self.column, slice(0, m_c))
         self._place_extra = place(np.broadcast_to(np.arange(n_v), (e, n_v)), slice(m_c, None))
 
     def natural_hessian(self, hessian: Hessian) -> NaturalHessian:
@@ -181,7 +177,6 @@ class GroupLayout:
         own_unit = read_only(np.append(unit, 0.0)[self.column])
         return NaturalHessian(read_only(unit), own_unit, blocks, inverse, column)
 
-    @compiled
     def programs(self, step: StepData, A: Array, b: Array, g: Array, units: Units) -> Programs:
         """The groups' programs in natural units.
 
@@ -196,8 +191,8 @@ class GroupLayout:
         """
         S, ell, rho = units
         H = self.natural_hessian_of(step)
-        whole = np.zeros(self.size + 1)  # there is a place for what is in no group
-        whole[self.place] = A * (H.own_unit / ell)
+        whole = np.zeros(self._size + 1)  # there is a place for what is in no group
+        whole[self._place] = A * (H.own_unit / ell)
         if step.extra.names:
             whole[self._place_extra] = step.extra.A * (S / ell)
         g = (g * S / rho)[self.coordinates]

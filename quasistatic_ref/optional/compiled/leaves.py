@@ -16,7 +16,6 @@ LEAVES: Final[Mapping[str, str]] = {
     "ContactGeometry.frames": "frames:frames",
     "contact_inequalities": "rows:inequalities",
     "step_sizes": "natural:step_sizes",
-    "GroupLayout.programs": "natural:programs",
 }
 """By a function, or a method, ``module:name`` of what stands in its place.
 

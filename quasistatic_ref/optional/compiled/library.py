@@ -18,7 +18,6 @@ ARGUMENTS: Final = {
     "frames": 11,
     "pyramid_rows": 10,
     "step_sizes": 9,
-    "programs": 13,
 }
 """Numbers of arguments of each function, all of them addresses of arrays; it returns whether it
 has answered."""

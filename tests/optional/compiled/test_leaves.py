@@ -12,7 +12,6 @@ from quasistatic_ref.contact.batches.clouds import Clouds
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.model.sums import Sums
 from quasistatic_ref.optional.compiled import leaves
-from quasistatic_ref.solve.by_group import GroupLayout
 from quasistatic_ref.solve.units import step_sizes
 from quasistatic_ref.step.standard_form import contact_inequalities
 
@@ -28,7 +27,6 @@ FUNCTIONS = [
         ContactGeometry.frames,
         contact_inequalities,
         step_sizes,
-        GroupLayout.programs,
     )
 ]
 

@@ -1,4 +1,4 @@
-/* A step in natural units: solve/units, `step_sizes`, and solve/by_group, `programs`. */
+/* How large a step is: solve/units, `step_sizes`. */
 
 #include "vectors.h"
 
@@ -68,23 +68,4 @@ int64_t step_sizes(const int64_t *sizes, const double *A, const double *unit, co
     }
     written[3] = length;
     return length < INFINITY;
-}
-
-/* `sizes`: coordinates, rows, own columns, numbers of A. Of each group, one after the other, its coordinates and
-   rows; where each own column of a row stands in A, which has a place more; the units of these. {length, size}. */
-int64_t programs(const int64_t *sizes, const int64_t *coordinate, const int64_t *row, const int64_t *place,
-                 const double *A, const double *b, const double *g, const double *own_unit, const double *unit,
-                 const double *units, double *natural_g, double *natural_A, double *natural_b)
-{
-    int64_t n = sizes[0], m = sizes[1], w = sizes[2];
-    double ell = units[0], rho = units[1];
-    for (int64_t k = 0; k < n; k++)
-        natural_g[k] = g[coordinate[k]] * unit[coordinate[k]] / rho;
-    for (int64_t k = 0; k <= sizes[3]; k++)
-        natural_A[k] = 0.0;
-    for (int64_t k = 0; k < m * w; k++)
-        natural_A[place[k]] = A[k] * (own_unit[k] / ell);
-    for (int64_t i = 0; i < m; i++)
-        natural_b[i] = b[row[i]] / (rho * ell);
-    return 1;
 }

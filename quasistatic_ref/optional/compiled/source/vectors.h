@@ -18,13 +18,6 @@ static inline double dot(const double *a, const double *b)
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
-/* a + s b. */
-static inline void moved_by(const double *a, double s, const double *b, double *out)
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = a[i] + s * b[i];
-}
-
 /* R v, and R v + t. */
 static inline void turned(const double *pose, const double *v, double *out)
 {
