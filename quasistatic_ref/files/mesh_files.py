@@ -1,5 +1,6 @@
 """Mesh files: which file a URI means, what it holds, and the convex hull of that."""
 
+import shlex
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -69,7 +70,7 @@ def mesh_path(
     else:
         relative = uri.removeprefix(FILE)
         places = [folder / relative]
-        packages += _package(relative, folder.resolve()) if is_of_file else []
+        packages += readable_folders(relative, folder.resolve()) if is_of_file else []
     try:
         path = next((place.resolve() for place in places if place.is_file()), None)
     except (OSError, ValueError, RuntimeError):  # a NUL, a name too long, a ring of links
@@ -82,8 +83,8 @@ def mesh_path(
         raise ModelError(f"no such file (looked for in {where}; {remedy})", value=uri)
     if not any(path.is_relative_to(allowed.resolve()) for allowed in [folder, *packages]):
         problem = (
-            f"leads to {path}, outside the folder of this file and of package_dirs; "
-            "move the mesh, or name its folder: --root FOLDER, or package_dirs of the body"
+            f"leads to {path}, outside the folder of this file and of package_dirs; move the "
+            f"mesh, or name its folder: {root_option(uri, path)}, or package_dirs of the body"
         )
         raise ModelError(problem, value=uri)
     size = path.stat().st_size
@@ -93,15 +94,26 @@ def mesh_path(
     return path
 
 
-def _package(uri: str, folder: Path) -> list[Path]:
-    """Where a relative URI may lead besides `folder`: the package of that, and ../NAME/."""
+def readable_folders(uri: str, folder: Path) -> list[Path]:
+    """Where a relative URI of a file may lead besides its `folder`, an absolute path.
+
+    It is the package of that, or its repository; and ../NAME/, which is a folder and no link.
+    """
     above = _repository(folder)
     marks = ("package.xml", ".git")
     packages = [each for each in above if any((each / mark).exists() for mark in marks)]
     match Path(uri).parts:
-        case ("..", name, *_, _) if name != "..":
+        case ("..", name, *_, _) if name != ".." and not (folder.parent / name).is_symlink():
             packages.append(folder.parent / name)
     return packages
+
+
+def root_option(uri: str, path: Path) -> str:
+    """The option that lets a URI lead to a path, and others that leave the same folder alike."""
+    below = [part for part in Path(uri).parts if part != ".."]
+    inside = not Path(uri).is_absolute() and path.parts[-len(below) :] == tuple(below)
+    folder = path.parents[max(len(below) - 2, 0)] if inside else path.parent
+    return f"--root {shlex.quote(str(folder))}"
 
 
 def _repository(folder: Path) -> list[Path]:

@@ -90,8 +90,18 @@ def test_a_relative_path_leads_anywhere_in_its_package(tmp_path, uri, place, mar
             mesh_path(uri, urdf)
         (tmp_path / mark).touch()
     assert mesh_path(uri, urdf) == mesh.resolve()
-    with pytest.raises(ModelError, match="outside the folder of this file"):
+    with pytest.raises(ModelError, match="outside the folder of this file") as refused:
         mesh_path(uri, urdf, is_of_file=False)
+    (root,) = (one for one in mesh.parents if one.name == uri.replace("../", "").split("/")[0])
+    assert f"name its folder: --root {root}, or package_dirs" in str(refused.value)
+
+
+def test_a_link_beside_the_folder_is_no_folder_beside_it(tmp_path):
+    text_written(tmp_path / "elsewhere/a.obj", TETRAHEDRON)
+    (tmp_path / "arm/urdf").mkdir(parents=True)
+    (tmp_path / "arm/meshes").symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(ModelError, match="outside the folder of this file"):
+        mesh_path("../meshes/a.obj", tmp_path / "arm/urdf")
 
 
 def test_a_relative_path_leads_anywhere_in_the_folder_of_its_scenario(tmp_path):

@@ -1,11 +1,13 @@
 """What an MJCF file may read, checked before MuJoCo sees it, and which element a refusal means.
 
-A model reads only from its own folder, and from the folders that its user names. MuJoCo looks for a
-file in several places; each of them at which there is one is checked.
+A model reads from where a URDF may: its own folder, its package or repository, a folder beside its
+own that it names; and from the folders that its user names. MuJoCo looks for a file in several
+places; each of them at which there is one is checked.
 """
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -15,6 +17,7 @@ from xml.parsers import expat
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.files.content import bytes_read, text_of
+from quasistatic_ref.files.mesh_files import readable_folders, root_option
 from quasistatic_ref.files.urdf.file import LARGEST_FILE
 
 MOST_FILES = 1000
@@ -81,7 +84,7 @@ class Fence:
                     for name in FOLDERS
                     for folder in tuple(folders)
                 }
-                for element, attribute, inside in _files(tree, folders, allowed):
+                for element, attribute, inside in _files(tree, path.parent, folders, allowed):
                     self.costs.append((inside.stat().st_size, element, attribute))
                     if element.tag in ("include", "model") and inside not in files:
                         files.append(inside)
@@ -152,9 +155,12 @@ def _refuse_doctype(*_: object) -> NoReturn:
 
 
 def _files(
-    tree: Element, folders: set[Path], allowed: Sequence[Path]
+    tree: Element, home: Path, folders: set[Path], allowed: list[Path]
 ) -> Iterator[tuple[Element, str, Path]]:
-    """Each element and attribute that name a file that is there, and that file, if allowed."""
+    """Each element and attribute that name a file that is there, and that file, if allowed.
+
+    A folder beside `home` that one of them names is allowed from then on.
+    """
     for element in tree.iter():
         for attribute, value in element.attrib.items():
             if not attribute.startswith("file"):
@@ -168,10 +174,12 @@ def _files(
                         inside = place.resolve()
                     except (OSError, ValueError, RuntimeError):
                         raise _about(element, attribute, "cannot be a path") from None
+                    uri = os.path.relpath(place, home)
+                    allowed += readable_folders(uri, home.resolve())
                     if not any(inside.is_relative_to(root) for root in allowed):
                         problem = (
                             f"leads to {inside}, outside the folder of the model; move it there, "
-                            "or name its folder: --root FOLDER"
+                            f"or name its folder: {root_option(value, inside)}"
                         )
                         raise _about(element, attribute, problem)
                     if not inside.is_file():

@@ -8,8 +8,11 @@ import pytest
 
 from quasistatic_ref import ModelError
 from quasistatic_ref.errors import InputError, about_file
+from quasistatic_ref.files.content import text_written
 from quasistatic_ref.optional.guests import compiler
+from tests.cases import cases
 from tests.files.urdf.urdf_texts import urdf_of_text
+from tests.oracles.shape_files import TETRAHEDRON
 
 BODY = '<mujoco><worldbody><body name="b"><joint/><geom size="0.1"/></body></worldbody></mujoco>'
 
@@ -47,7 +50,7 @@ MESH = '<asset><mesh name="m" file="outside.xml"/></asset>'
 REFUSED = {
     # name: (the model, words of the sentence)
     "an include": ('<include file="../outside.xml"/>', "include.file: leads to "),
-    "an absolute include": ('<include file="{home}/../outside.xml"/>', "folder: --root FOLDER"),
+    "an absolute include": ('<include file="{home}/../outside.xml"/>', "folder: --root "),
     "a link": ('<include file="link.xml"/>', "include.file: leads to "),
     "an attached model": (
         '<asset><model name="m" file="../outside.xml"/></asset>', "model[m].file: leads to "
@@ -119,6 +122,38 @@ def test_a_folder_that_is_named_may_be_read(home, tmp_path, cli):
     assert compiled(path, [tmp_path]).body(1).name == "b"
     assert "m.xml: include.file: leads to " in cli("opinion", path, status=2).err
     cli("opinion", path, "--settle 0 --root", tmp_path)
+
+
+TETRAHEDRA = '<asset><mesh name="m" file="{}"/></asset>'
+BESIDE = {
+    # name: (the model, where the mesh is, what else is there, the folder to name or None)
+    "a mesh's folder beside": ('<compiler meshdir="../meshes"/>', "m.obj", "meshes/m.obj", None),
+    "an asset's": ('<compiler assetdir="../assets"/>', "a/m.obj", "assets/a/m.obj", None),
+    "a path": ("", "../meshes/m.obj", "meshes/m.obj", None),
+    "the folder above": ('<compiler meshdir=".."/>', "m.obj", "m.obj", "."),
+    "a folder above that": ('<compiler meshdir="../../up"/>', "m.obj", "../up/m.obj", "../up"),
+    "in a repository": ('<compiler meshdir="../.."/>', "m.obj", "../m.obj", ".git"),
+    "a link beside": ('<compiler meshdir="../link"/>', "m.obj", "far/off/m.obj", "far/off"),
+}
+
+
+@cases("inside, file, place, named", BESIDE)
+def test_a_model_reads_where_a_urdf_reads(tmp_path, inside, file, place, named):
+    """Where it does not, the sentence prints the option that suffices."""
+    home = tmp_path / "top" / "robot" / "xml"
+    home.mkdir(parents=True)
+    text_written(home.parent / place, TETRAHEDRON)
+    (home.parent / "link").symlink_to(home.parent / "far" / "off")
+    if named == ".git":
+        (tmp_path / "top" / ".git").mkdir()
+    path = urdf_of_text(home, model(inside + TETRAHEDRA.format(file)), "m.xml")
+    if named in (None, ".git"):
+        assert compiled(path).nmesh == 1
+        return
+    root = (home.parent / named).resolve()
+    assert f"mesh[m].file: leads to {root / 'm.obj'}, outside the folder" in refusal(path)
+    assert f"name its folder: --root {root} " in refusal(path) + " "
+    assert compiled(path, [root]).nmesh == 1
 
 
 def test_a_model_has_the_numbers_that_mujoco_compiles(tmp_path):
