@@ -19,10 +19,13 @@ _HOMES = {
     # A scene.
     "model.system": "System",
     "model.body": "Body",
+    "model.state": "State",
     "shapes.placed_shape": "Sphere Box Cylinder Capsule Cone Ellipsoid HalfSpace PointCloud "
     "PlacedShape",
     "shapes.convex_mesh": "convex_hull",
     "contact.pairs": "ContactPair",
+    "contact.distance": "ClosestPoints",
+    "simulate.target": "Targets",
     # Steps in sequence.
     "simulate.result": "StepResult",
     "simulate.limits": "Limits",
@@ -42,7 +45,7 @@ _HOMES = {
     "step.data": "StepData Contacts Extra",
     "files.step": "load_step save_step",
     "solve.step_problem": "StepProblem",
-    "step.standard_form": "standard_form",
+    "step.standard_form": "StandardForm standard_form",
     "optional.extensions.extension": "Extension Symbols",
     "step.solution": "Certificate ContactForces SolverStatistics StepSolution",
     "files.solution": "SolutionFile load_solution save_solution",
@@ -52,6 +55,7 @@ _HOMES = {
     "optional.guests.scene": "mujoco_scenario",
     "optional.coulomb.fixed_point": "coulomb_step CoulombSolution NoFixedPoint",
     "certify.verification": "verify verify_answer",
+    "certify.farkas": "FarkasVector",
     "certify.verdict": "Verdict",
     "certify.residuals": "Residuals optimality_residuals",
     "optional.forces.forces": "contact_forces",
@@ -88,6 +92,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         SolverStatistics as SolverStatistics,
         StepSolution as StepSolution,
     )
+    from quasistatic_ref.certify.farkas import FarkasVector as FarkasVector
     from quasistatic_ref.certify.residuals import (
         Residuals as Residuals,
         optimality_residuals as optimality_residuals,
@@ -102,6 +107,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         load_solution as load_solution,
         save_solution as save_solution,
     )
+    from quasistatic_ref.contact.distance import ClosestPoints as ClosestPoints
     from quasistatic_ref.contact.pairs import ContactPair as ContactPair
     from quasistatic_ref.errors import (
         BackendError as BackendError,
@@ -114,6 +120,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         StepDataError as StepDataError,
     )
     from quasistatic_ref.model.body import Body as Body
+    from quasistatic_ref.model.state import State as State
     from quasistatic_ref.model.system import System as System
     from quasistatic_ref.optional.coulomb.fixed_point import (
         CoulombSolution as CoulombSolution,
@@ -182,6 +189,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.simulate.rollout import rollout as rollout
     from quasistatic_ref.simulate.simulator import Simulator as Simulator
     from quasistatic_ref.simulate.steps import Steps as Steps
+    from quasistatic_ref.simulate.target import Targets as Targets
     from quasistatic_ref.simulate.trajectory import Trajectory as Trajectory
     from quasistatic_ref.files.trajectory import (
         load_trajectory as load_trajectory,
@@ -191,7 +199,10 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.solve.step_problem import StepProblem as StepProblem
     from quasistatic_ref.step.data import Contacts as Contacts, Extra as Extra, StepData as StepData
     from quasistatic_ref.files.step import load_step as load_step, save_step as save_step
-    from quasistatic_ref.step.standard_form import standard_form as standard_form
+    from quasistatic_ref.step.standard_form import (
+        StandardForm as StandardForm,
+        standard_form as standard_form,
+    )
 else:
 
     def __getattr__(name: str) -> object:

@@ -85,13 +85,20 @@ names: list[str] = [finding.name.upper() for finding in run.findings]
 if not (verdict := qr.verify(solution)):
     print(verdict.reason.upper())
 q_start: Array = scenario.system.q_start
+depth: Array = run.phi.min(axis=0)
+point: qr.ClosestPoints = simulator.step(q_start, [0.1]).points
+form: qr.StandardForm = qr.standard_form(step)
+state: qr.State = scenario.system.at(q_start)
+targets: qr.Targets = scenario.targets
+run.phy  # type: ignore[attr-defined]  # no array of a trajectory
+solution.certificate.kind == "exakt"  # type: ignore[comparison-overlap]  # no kind of proof
 qr.solve_step(step, certify="exact")  # type: ignore[arg-type]  # no such word
 qr.Simulator(system, [], h=0.01, law="coloumb")  # type: ignore[arg-type]  # misspelt
 qr.rollout(simulator, q_start, [], 1, record="all")  # type: ignore[arg-type]  # no such word
 solution.delta_qq  # type: ignore[attr-defined]  # misspelt: mypy has to see it
 qr.solve_stepp  # type: ignore[attr-defined]  # misspelt: mypy has to see it
 """
-"""What users write: the last five lines are needed errors, so that nothing here is of any type."""
+"""What users write: the last seven lines are needed errors, so nothing here is of any type."""
 
 
 def test_the_names_are_those_that_dir_shows():
@@ -154,6 +161,11 @@ def test_a_user_s_file_has_types(tmp_path):
     (tmp_path / "readme.py").write_text(example, "utf-8")
     (tmp_path / "users.py").write_text(USERS, "utf-8")
     python("-m", "mypy", "--strict", "--config-file=", "readme.py", "users.py", cwd=tmp_path)
+    (tmp_path / "users.py").write_text(USERS.replace("# type: ignore", "#"), "utf-8")
+    call = ("-m", "basedpyright", "--pythonpath", sys.executable, "users.py")
+    found = python(*call, cwd=tmp_path, status=1).stdout
+    assert 'Cannot access attribute "phy" for class "Trajectory"' in found
+    assert "\"Literal['exakt']\" have no overlap" in found
 
 
 @pytest.mark.parametrize("name", marked_parameters([*NAMES, *FIGURES], EXTRAS))

@@ -37,6 +37,17 @@ class FarkasVector(Plain):
         b'y [m] > 0, rounded.
     owners : dict of str to list of str
         The contacts with a positive entry of y, each with the names of these rows.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> walls = qr.Extra(("left", "right"), [[1, 0, 0, 0, 0, 0], [-1, 0, 0, 0, 0, 0]], [1.0, 1.0])
+    >>> try:
+    ...     qr.solve_step(step.replace(extra=walls))
+    ... except qr.StepInfeasible as error:
+    ...     proof: qr.FarkasVector = error.farkas
+    >>> proof.exact[-2:], proof.contradiction
+    (('1', '1'), 2.0)
     """
 
     y: Array

@@ -90,6 +90,14 @@ class ClosestPoints(NamedTuple):
         one is kept; contacts that fill the number follow the closest pair's.
     tie : ndarray of int, shape (n_c,)
         How the normal was chosen, as :mod:`~quasistatic_ref.contact.normals` counts it.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin")
+    >>> result = scenario.simulator().step(scenario.system.q_start)
+    >>> points: qr.ClosestPoints = result.points
+    >>> points
+    <ClosestPoints of 1 contact, phi from 0 m>
     """
 
     phi: Array

@@ -13,6 +13,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.numbers.arrays import Array, Indices, checked_array
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
@@ -25,7 +26,7 @@ Distances of what lies still change by some 1e-17 m from step to step, by 1e-16 
 that is left out for another of the same rank is at most that much nearer."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ContactPair(Plain):
     """Two shapes that may touch.
 
@@ -68,6 +69,10 @@ class ContactPair(Plain):
     rows: int = 6
     k: int = 1
     hull: bool = False
+
+    def __repr__(self) -> str:
+        friction = f"mu_v = {self.mu_v:g}, mu_omega = {self.mu_omega:g} m"
+        return f"<ContactPair {clipped(self.name)}: {friction}, {self.rows} rows, k = {self.k}>"
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):

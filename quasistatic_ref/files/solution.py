@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, get_type_hints
+from typing import Any, cast, get_type_hints
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, check_step
-from quasistatic_ref.step.solution import Certificate, StepSolution
+from quasistatic_ref.step.solution import Certificate, Kind, StepSolution
 from quasistatic_ref.step.text import step_sha256
 
 UNPROVED = ("residual", "none")
@@ -201,7 +201,7 @@ def _nested(top: TableReader, step: StepData) -> Array:
 
 def _certificate(table: TableReader, step: StepData) -> Certificate:
     known = cone(step.cone).claims
-    kind = table.text("kind", choices=tuple(known))
+    kind = cast("Kind", table.text("kind", choices=tuple(known)))
     claims: dict[str, Any] = {
         name: _claim(table, name, (kind, name) in MAY_BE_NULL) for name in known[kind]
     }

@@ -3,12 +3,13 @@
 from dataclasses import dataclass
 from functools import cached_property
 
+from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import crossed
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Kinematics:
     """Where every link is, and how it moves with delta_q; link 0 is the world.
 
@@ -31,6 +32,9 @@ class Kinematics:
     t: Array
     columns: Array
     column_map: ColumnMap
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {counted(len(self.t) - 1, 'link')}>"
 
     @cached_property
     def J(self) -> Array:

@@ -7,6 +7,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 from numpy.typing import ArrayLike
 
+from quasistatic_ref.formats.quoting import shown_value
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.numbers.arrays import Array
 
@@ -20,9 +21,20 @@ class State(ABC):
     ----------
     q : ndarray, shape (n_q,)
         The configuration [m, rad, -]; a copy, read-only.
+
+    Examples
+    --------
+    >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
+    >>> system = qr.System([ball])
+    >>> state: qr.State = system.at(system.q_start)
+    >>> state.plus([0.001, 0, 0, 0, 0, 0]).q[0]
+    np.float64(0.001)
     """
 
     q: Array
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} at q = {shown_value(self.q.tolist())}>"
 
     @property
     @abstractmethod

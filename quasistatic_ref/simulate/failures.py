@@ -28,7 +28,7 @@ class LimitExceeded(StepNotSolved):
     >>> system = qr.System([ball])
     >>> storm = qr.Simulator(system, [], h=0.01, gravity=(0, 0, -1e7))
     >>> try:
-    ...     storm.step(system.q_start, np.zeros(0))
+    ...     storm.step(system.q_start)
     ... except qr.LimitExceeded as error:
     ...     print(error.status)
     limit exceeded

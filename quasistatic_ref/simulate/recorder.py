@@ -97,7 +97,7 @@ class Recorder:
     >>> scenario = qr.load_scenario("sphere_spin")
     >>> simulator, q = scenario.simulator(), scenario.system.q_start
     >>> recorder = qr.Recorder(simulator, q)
-    >>> recorder.add(np.zeros(0), simulator.step(q, np.zeros(0)))
+    >>> recorder.add(np.zeros(0), simulator.step(q))
     >>> len(recorder.trajectory())
     1
     """

@@ -53,7 +53,7 @@ class StepResult(Plain, Shown):
     --------
     >>> scenario = qr.load_scenario("sphere_spin")
     >>> simulator, q = scenario.simulator(), scenario.system.q_start
-    >>> result = simulator.step(q, np.zeros(0))
+    >>> result = simulator.step(q)
     >>> result.solution.wrench[0, 2].round(6)  # the weight [N]
     np.float64(2.943)
     """

@@ -197,7 +197,7 @@ class Simulator(Settings, Shown):
     --------
     >>> scenario = qr.load_scenario("sphere_spin")
     >>> simulator, q = scenario.simulator(), scenario.system.q_start
-    >>> simulator.step(q, np.zeros(0)).q.round(6)  # place [m] and quaternion
+    >>> simulator.step(q).q.round(6)  # place [m] and quaternion
     array([0.  , 0.  , 0.05, 0.  , 0.  , 0.  , 1.  ])
     """
 
@@ -303,7 +303,7 @@ class Simulator(Settings, Shown):
         return _remade, (type(self), self.settings() | chosen)
 
     def step(
-        self, q: ArrayLike | State, q_bar_a: ArrayLike, force: ArrayLike | None = 0.0
+        self, q: ArrayLike | State, q_bar_a: ArrayLike = (), force: ArrayLike | None = 0.0
     ) -> StepResult:
         """One step from q towards the target q_bar_a.
 
@@ -312,7 +312,8 @@ class Simulator(Settings, Shown):
         q : array_like, shape (n_q,); or State
             A state is not computed again: the ``end`` of the last step, ``system.at(q)``.
         q_bar_a : array_like, shape (n_q_a,)
-            Target of the actuated coordinates at the end of the step.
+            Target of the actuated coordinates at the end of the step; left out where there are
+            none.
         force : array_like, shape (n_v,), optional
             External generalised force, in addition to gravity [N, N m]; `system.load` makes it.
 

@@ -118,6 +118,12 @@ class Targets(Plain):
     q_a_start : ndarray, shape (n_q_a,)
         Held by every joint that has no track [m, rad, -].
     tracks : sequence of JointTrack
+
+    Examples
+    --------
+    >>> targets: qr.Targets = qr.load_scenario("two_finger_pinch").targets
+    >>> targets(0.0).shape
+    (4,)
     """
 
     q_a_start: Array

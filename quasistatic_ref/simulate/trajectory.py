@@ -14,7 +14,7 @@ from quasistatic_ref.errors import InputError, MissingKey, check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import HasPage
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.parts import is_there, part
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding
@@ -34,8 +34,54 @@ Table = Callable[["Trajectory"], "DataFrame"]
 StandsAfter = Callable[["Trajectory", int, "Scene", str], Standings]
 
 
+class RecordArrays:
+    """The arrays of a record as attributes with types; which of them there are, the record says.
+
+    ``forces`` and ``imbalance`` are not among them: a trajectory forms them where they are missing.
+    """
+
+    q: Array
+    t: Array
+    delta_q: Array
+    q_bar_a: Array
+    phi: Array
+    alpha: Array
+    beta: Array
+    n: Array
+    d1: Array
+    d2: Array
+    point: Indices
+    lam: Array
+    wrench: Array
+    certificate: NDArray[np.str_]
+    worst_residual: Array
+    digits: Array
+    H: Array
+    g: Array
+    A: Array
+    b: Array
+    J: Array
+    K_q: Array
+    M_u: Array
+    tau_a: Array
+    tau_u: Array
+    delta_q_bar_a: Array
+    motion: Array
+    lam_extra: Array
+    extra_A: Array
+    extra_b: Array
+    extra_H: Array
+    extra_g: Array
+    s: Array
+    s_residual: Array
+    s_iterations: Indices
+    mu_v: Array
+    mu_omega: Array
+    rows: Indices
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class Trajectory(Plain, HasPage):
+class Trajectory(RecordArrays, Plain, HasPage):
     """A run, or the part of it that succeeded.
 
     Parameters
@@ -90,12 +136,14 @@ class Trajectory(Plain, HasPage):
             raise MissingKey(f"is not an array of this trajectory{near}", field=str(name))
         return self.arrays[name]
 
-    def __getattr__(self, name: str) -> NDArray[Any]:
-        arrays = self.__dict__.get("arrays", {})  # not there yet while it is unpickled
-        if name not in arrays:
-            hint = nearest_name(name, arrays)
-            raise AttributeError(f"this trajectory has no {name!r}{hint}")
-        return np.asarray(arrays[name])
+    if not TYPE_CHECKING:  # it would answer any name
+
+        def __getattr__(self, name: str) -> NDArray[Any]:
+            arrays = self.__dict__.get("arrays", {})  # not there yet while it is unpickled
+            if name not in arrays:
+                hint = nearest_name(name, arrays)
+                raise AttributeError(f"this trajectory has no {name!r}{hint}")
+            return np.asarray(arrays[name])
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self.arrays})

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Literal
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
@@ -18,6 +19,8 @@ from quasistatic_ref.step.text import step_sha256
 ForcesOfStep = Callable[[StepData, None, tuple[Array, Array] | None], "ContactForces"]
 """A step, compliances (its own), and delta_q (n_v,) [m, rad] and wrenches (n_c, 4) [N, N m] to
 begin from -> the forces of its contacts."""
+Kind = Literal["exact", "enclosure", "residual", "none"]
+"""What is proved of an answer."""
 UNKNOWN = "are not known: a step holds no costs or nonlinear constraints"
 
 
@@ -222,7 +225,7 @@ class Certificate(Plain, HasPage):
     'exact'
     """
 
-    kind: str
+    kind: Kind
     residuals: Mapping[str, float] = field(default_factory=dict)
     active: tuple[tuple[int, int], ...] = ()
     multipliers_unique: bool | None = None

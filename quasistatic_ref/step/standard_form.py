@@ -39,12 +39,22 @@ class StandardForm(NamedTuple):
         Contact-major; the user's extra rows come last. A contact in the ellipsoid has four rows,
         J_n, J_1, J_2 and J_w: A delta_q - b is (gap, sliding along d1 and d2, rotation about n).
     b : ndarray, shape (m,)
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> form: qr.StandardForm = qr.standard_form(step)
+    >>> form
+    <StandardForm of 6 variables, 6 rows>
     """
 
     H: Array
     g: Array
     A: Array
     b: Array
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {len(self.g)} variables, {len(self.b)} rows>"
 
     def free(self) -> Array:
         """The minimiser without rows, H^-1 g, shape (n_v,)."""

@@ -2,9 +2,11 @@
 
 import re
 from dataclasses import replace
+from typing import get_type_hints
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from quasistatic_ref import (
     Body,
@@ -25,8 +27,11 @@ from quasistatic_ref import (
 from quasistatic_ref.cli.run import worst_residual
 from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.files.trajectory import header_table
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.parts import part
 from quasistatic_ref.simulate import recorder
+from quasistatic_ref.simulate.record import ARRAYS
+from quasistatic_ref.simulate.trajectory import RecordArrays
 from tests.closeness import assert_same
 from tests.scenes import written_scenario
 
@@ -107,6 +112,13 @@ def test_a_file_read_back_is_the_same_bits(tmp_path, run):
     for name, array in run.arrays.items():
         assert back[name].dtype == array.dtype
         assert back[name].tobytes() == np.ascontiguousarray(array).tobytes()
+
+
+def test_the_attributes_of_a_trajectory_have_the_types_of_its_arrays():
+    types = {np.float64: Array, np.int64: Indices, np.str_: NDArray[np.str_]}
+    formed = {"forces", "imbalance"}  # where a record has none
+    table = {name: types[one.dtype] for name, one in ARRAYS.items() if name not in formed}
+    assert get_type_hints(RecordArrays) == table
 
 
 def test_the_header_says_what_the_run_was(run):

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.quoting import clipped, counted
 from quasistatic_ref.model.screw import Vector
 from quasistatic_ref.numbers.angles import Number
 
@@ -54,7 +55,7 @@ class Position(NamedTuple):
         return f"{self.name} [{self.unit}]"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Joint(Plain, ABC):
     """One joint with coordinates of its own.
 
@@ -92,6 +93,11 @@ class Joint(Plain, ABC):
     lengths: ClassVar[int]
     unit_vector: ClassVar[str | None] = None
     free: ClassVar[bool] = False
+
+    def __repr__(self) -> str:
+        driven = "actuated, " if self.actuated else ""
+        count = counted(self.v.stop - self.v.start, "coordinate")
+        return f"<{type(self).__name__} {clipped(self.name)}: {driven}{count}>"
 
     @property
     @abstractmethod

@@ -17,7 +17,7 @@ from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.formats.plain import Plain, field_values
-from quasistatic_ref.formats.quoting import listed
+from quasistatic_ref.formats.quoting import counted, listed
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import nearest_fraction
@@ -82,6 +82,10 @@ class ExactQP(Plain, Shown):
     multipliers_unique: bool
     least_norm: tuple[str, ...] = ()
     direction: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        rows = counted(len(self.active), "active row")
+        return f"<{type(self).__name__}: exact, {rows}, obj {self.obj:.5g}>"
 
     @property
     def x_unique(self) -> bool:
