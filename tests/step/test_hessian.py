@@ -1,0 +1,84 @@
+"""H kept by K_q and the blocks of M_u: formed when it is read, what follows from it once."""
+
+import copy
+import pickle
+
+import numpy as np
+
+import quasistatic_ref as qr
+from quasistatic_ref.certify import form
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.lab.bench.scenes import boxes
+from quasistatic_ref.model import system as system_module
+from quasistatic_ref.step import contacts
+from quasistatic_ref.step import hessian as hessian_module
+from quasistatic_ref.step.hessian import Hessian, hessian
+
+BLOCKS = np.array([np.diag([1.0, 2.0]), [[3.0, 0.5], [0.5, 4.0]]])
+WHOLE = np.block([[BLOCKS[0], np.zeros((2, 2))], [np.zeros((2, 2)), BLOCKS[1]]])
+K_Q = np.array([[5.0, 1.0], [1.0, 6.0]])
+
+
+def test_blocks_stand_for_the_whole_matrix():
+    by_blocks, whole = Hessian(0.5, K_Q, BLOCKS), Hessian(0.5, K_Q, WHOLE)
+    assert bits(by_blocks.M_u) == bits(WHOLE)
+    assert bits(by_blocks.matrix) == bits(hessian(0.5, K_Q, WHOLE)) == bits(whole.matrix)
+    assert bits(by_blocks.entries) == bits(whole.entries)
+    for some in ([0, 1], [1, 2, 5], [3, 4], [5], []):
+        at = np.array(some, np.int64)
+        part = by_blocks.part(at)
+        assert bits(part.matrix) == bits(whole.part(at).matrix)
+        assert bits(part.matrix) == bits(whole.matrix[np.ix_(at, at)].copy())
+        assert by_blocks.part(at) is part
+    assert by_blocks.once(np.size) is by_blocks.once(np.size)
+    for again in (pickle.loads(pickle.dumps(by_blocks)), copy.deepcopy(by_blocks)):
+        assert again == by_blocks
+        assert not again.__dict__.keys() & {"_parts", "_formed"}
+
+
+def test_what_is_exact_is_formed_once_a_run_for_each_of_many_bodies(monkeypatch):
+    """Of more bodies of different masses than any cache of recent ones would hold."""
+    formed = []
+    inverse = form.inverse
+    monkeypatch.setattr(form, "inverse", lambda H: formed.append(1) or inverse(H))
+    shape = qr.Box((0.02, 0.02, 0.02))
+    masses = np.linspace(0.2, 0.3, 40)
+    bodies = [
+        qr.Body.of_shape(f"b{i}", shape, mass, xyz=(0.1 * i, 0, 0.02))
+        for i, mass in enumerate(masses)
+    ]
+    system = qr.System(bodies)
+    floor = qr.PlacedShape.in_world("floor", qr.HalfSpace((0, 0, 1), 0.0))
+    pairs = [
+        qr.ContactPair(one.name, floor, one, mu_v=0.5, mu_omega=0.0, rows=4, k=1)
+        for one in system.shapes
+    ]
+    simulator = qr.Simulator(system, pairs, h=0.02, backend="none")
+    here = simulator.step(system.q_start, np.zeros(0)).end
+    assert len(formed) == 40
+    simulator.step(here, np.zeros(0), np.tile([1.0, 0, 0, 0, 0, 0], 40))
+    assert len(formed) == 40
+
+
+def test_runs_of_many_bodies_form_no_whole_arrays(monkeypatch):
+    """J has 4 n_c n_v entries, and M_u n_u^2: of 1000 boxes that is 0.8 and 0.3 GB."""
+    scene = boxes(50)
+    n_v = len(scene.force)
+    wholes = []
+    places = ((contacts, "spread"), (hessian_module, "whole"), (system_module, "whole"))
+    for module, name in places:
+        formed = getattr(module, name)
+
+        def noted(*arguments, formed=formed):
+            array = formed(*arguments)
+            wholes.extend([array.shape] if array.shape[-1] == n_v else [])
+            return array
+
+        monkeypatch.setattr(module, name, noted)
+    plain = scene.simulator("full", False)
+    for more in ({"backend": "daqp", "certify": "off"}, {"backend": "daqp"}, {"backend": "none"}):
+        simulator = qr.Simulator(plain.system, plain.pairs, h=plain.h, **more)
+        options = {"force": scene.force, "record": "light", "progress": False, "findings": False}
+        qr.rollout(simulator, scene.q, np.zeros(0), 2, **options)
+    assert not wholes
+    monkeypatch.undo()
