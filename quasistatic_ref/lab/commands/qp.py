@@ -1,6 +1,7 @@
 """``qp FILE``: the exact answer of a quadratic program, and what solvers make of it."""
 
 import argparse
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -54,9 +55,10 @@ def run(options: argparse.Namespace) -> int:
         for answer in answers.values():
             print(f"wrote {answer.save(options.output)}")
     if options.solvers:
-        from quasistatic_ref.lab.study.foreign import rows_of
+        from quasistatic_ref.lab.study.foreign import known, rows_of
 
-        shared.print_rows(_table(rows_of(answers, _labels(options.solvers), SETTINGS)))
+        if known(answers):
+            shared.print_rows(_table(rows_of(answers, _labels(options.solvers), SETTINGS)))
     return 0 if all(isinstance(answer, ExactQP) for answer in answers.values()) else 3
 
 
@@ -74,10 +76,11 @@ def _study(options: argparse.Namespace) -> int:
             answers |= {name: _answer(program) for name, program in programs.items()}
         except InputError as error:  # the others are a study all the same
             print(f"{path.name}: left out: {error}")
-    if not answers:
-        raise InputError("holds no program with an answer", file=options.file)
     for name, answer in answers.items():
         print(one_line(f"{name}: {_in_words(answer)}"))
+    if not known(answers):
+        problem = "holds no program with an optimum, or proved to have no solution"
+        raise InputError(problem, file=options.file)
     labels = _labels(options.solvers or ["*"])
     study(known(answers), labels, SETTINGS, options.out, progress=not options.quiet)
     print(
@@ -88,7 +91,8 @@ def _study(options: argparse.Namespace) -> int:
 
 def _answer(program: object) -> Answer:
     try:
-        return exact_qp(program)  # type: ignore[arg-type]  # a program has all arrays
+        with warnings.catch_warnings(action="ignore"):  # a remark is printed
+            return exact_qp(program)  # type: ignore[arg-type]  # a program has all arrays
     except NO_OPTIMUM as proof:
         return proof
 
@@ -106,7 +110,9 @@ def _in_words(answer: Answer) -> str:
     x, multipliers = (
         "unique" if only else "not unique" for only in (answer.x_unique, answer.multipliers_unique)
     )
-    return f"proved: objective {answer.obj!r}; active: {active}; x {x}; multipliers {multipliers}"
+    remark = f"; {answer.remark}" if answer.remark else ""
+    proved = f"proved: objective {answer.obj!r}; active: {active}"
+    return f"{proved}; x {x}; multipliers {multipliers}{remark}"
 
 
 def _table(rows: list["Row"]) -> list[tuple[str, ...]]:
@@ -119,5 +125,6 @@ def _table(rows: list["Row"]) -> list[tuple[str, ...]]:
         digits = "-" if row.digits is None else f"{row.digits:.1f}"
         seconds = "-" if row.seconds is None else f"{row.seconds:.2g}"
         reached = {True: "yes", False: "no", None: "-"}[row.reached]
-        lines.append((row.solver, accuracy, row.says, *residuals, reached, digits, seconds))
+        name = f"{row.door}:{row.solver}"
+        lines.append((name, accuracy, row.says, *residuals, reached, digits, seconds))
     return lines

@@ -11,9 +11,10 @@ from quasistatic_ref.lab.study.row import Row
 from quasistatic_ref.lab.study.run import measured, plan
 from quasistatic_ref.lab.study.solvers import settings_of, solvers_of
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.qp.answer import Answer, ExactQP
+from quasistatic_ref.numbers.pivots import surely_positive
+from quasistatic_ref.optional.qp.answer import Answer, ExactQP, QPInfeasible
 from quasistatic_ref.solve.units import units_of
-from quasistatic_ref.step.standard_form import StandardForm, Units
+from quasistatic_ref.step.standard_form import StandardForm, Units, si_units
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,9 @@ class Foreign:
 
     @cached_property
     def units(self) -> Units:
-        """The program's natural units."""
+        """The program's natural units; its own where P is not positive definite."""
+        if not surely_positive(self.program.H):
+            return si_units(len(self.program.g))
         return units_of(StandardForm(*self.program[:4]))
 
     def digits(self, x: Array) -> float:
@@ -64,8 +67,9 @@ class Foreign:
 
 
 def known(answers: Mapping[str, Answer]) -> list[Foreign]:
-    """Answers by name as problems of a study."""
-    return [Foreign(name, answer) for name, answer in answers.items()]
+    """Answers by name as problems of a study; without those that only fall without end, or bend."""
+    kinds = ExactQP, QPInfeasible
+    return [Foreign(name, a) for name, a in answers.items() if isinstance(a, kinds)]
 
 
 def rows_of(

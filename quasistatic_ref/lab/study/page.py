@@ -77,8 +77,8 @@ def page(table: Any) -> str:
         "",
         "## What solvers say",
         "",
-        "**Calls at a setting with an accuracy**, by what the solver says, whether its residuals "
-        "reached the accuracy, and whether there is a solution.",
+        "**All calls**, by what the solver says, whether its residuals reached the accuracy, if "
+        "one was asked for, and whether there is a solution.",
         "",
         *_sayings(table),
         "",
@@ -110,9 +110,9 @@ def _natural(table: Any) -> Any:
 
 def _sayings(table: Any) -> list[str]:
     """How often each solver gave each answer: a line for each solver and one for all."""
-    asked = _natural(table)[lambda rows: rows["accuracy"].notna()]
+    asked = _natural(table)
     truth = asked["feasible"].map({True: ", a solution", False: ", no solution"})
-    arrived = asked["reached"].map({True: ", reached", False: ", not reached"})
+    arrived = asked["reached"].map({True: ", reached", False: ", not reached"}).fillna("")
     words = asked["says"] + arrived.where(asked["says"] == SOLVED, "") + truth
     kinds = words.where(asked["says"] != OTHER, OTHER)
     counts = asked.pivot_table("n", "solver", kinds.rename("said"), aggfunc="size", fill_value=0)

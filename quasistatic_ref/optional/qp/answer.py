@@ -30,6 +30,8 @@ QP_FORMAT: Final = "quasistatic-ref/qp"
 VERSION: Final = 2
 MOST_NAMES: Final = 8
 """Names of rows that a sentence lists."""
+FAR: Final = 1e20
+"""What other solvers take for infinite [any unit]."""
 MOST_TERMS: Final = 6
 """Terms of a direction that a sentence shows."""
 
@@ -91,6 +93,16 @@ class ExactQP(Plain, Shown):
     def x_unique(self) -> bool:
         """Whether x is the only optimum."""
         return not self.direction
+
+    @property
+    def remark(self) -> str:
+        """What a limit means that holds x and that other solvers take for none; mostly empty."""
+        rows = self.problem.rows
+        far = {name: abs(c) for name, c in zip(rows.names, rows.c, strict=True) if abs(c) >= FAR}
+        held = [name for name in (*self.active, *self.least_norm) if name in far]
+        if not held:
+            return ""
+        return f"{held[0]} holds x: {far[held[0]]:g} is a number here; write inf for no limit"
 
     def digits(self, x: ArrayLike) -> float:
         """Correct digits of an x, shape (n,): 0 to 16, and 0 for what is not finite.

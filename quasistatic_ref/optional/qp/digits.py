@@ -97,10 +97,9 @@ def multiplier_digits(
             np.where(np.isfinite(limit), z_box * (optimum - limit), 0.0),
         )
     worth = np.abs(optimum) @ terms
-    most = np.abs(np.concatenate([z, y, z_box])).max(initial=0.0)
     errors = [
         _ratio(left, terms.max()),
-        _ratio(wrong.max(initial=0.0), most),
+        _ratio(float((wrong @ np.abs(np.concatenate([problem.G, eye]))).max()), terms.max()),
         _ratio(float(np.abs(gaps).max(initial=0.0)), worth),
     ]
     return digits_of_error(max(errors) if not np.isnan(errors).any() else math.nan)

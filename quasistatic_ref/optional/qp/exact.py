@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from warnings import warn
 
 import numpy as np
 from flint import fmpq, fmpq_mat
@@ -93,6 +94,11 @@ def exact_qp(
     InputError
         If an array is not what it should be; if the answer is beyond the range of float64; or if
         nothing can be proved in this thread.
+
+    Warns
+    -----
+    UserWarning
+        If a limit of 1e20 or more, which others take for infinite, holds x.
 
     Examples
     --------
@@ -244,7 +250,10 @@ def _answer(program: QuadraticProgram, initvals: Any) -> ExactQP:
         if not np.isfinite(fields[name]).all():
             problem = f"{name} of the optimum is beyond the range of float64; choose other units"
             raise InputError(problem)
-    return ExactQP(program, **fields)
+    answer = ExactQP(program, **fields)
+    if answer.remark:
+        warn(answer.remark, stacklevel=3)
+    return answer
 
 
 def _convex(program: QuadraticProgram, block: Block) -> Convex:

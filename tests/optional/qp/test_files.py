@@ -194,10 +194,11 @@ def test_the_command_proves_saves_and_grades(tmp_path, cli):
     assert head.split() == columns.split()
     words = [row.split() for row in rows]
     accuracies = ("-", "1e-09")
-    asked = [(name, accuracy) for name in ("clarabel", "daqp") for accuracy in accuracies]
+    solvers = "qpsolvers:clarabel", "qpsolvers:daqp"
+    asked = [(name, accuracy) for name in solvers for accuracy in accuracies]
     assert [tuple(line[:3]) for line in words] == [(*one, "solved") for one in asked]
     digits = {tuple(line[:2]): float(line[-2]) for line in words}
-    assert digits["clarabel", "1e-09"] < 8 < digits["daqp", "1e-09"]
+    assert digits["qpsolvers:clarabel", "1e-09"] < 8 < digits["qpsolvers:daqp", "1e-09"]
     assert "verified" in cli("verify", answer).out
     assert cli("qp", answer).out.splitlines()[0][8:] == first[7:]
 
@@ -209,6 +210,17 @@ def test_the_command_says_that_there_is_no_solution(tmp_path, cli):
     assert "verified" in cli("verify", proof).out
     proof.write_text(proof.read_text().replace('"G[0]": "1"', '"G[0]": "-1"'))
     assert "refuted: the factor of G[0] is negative" in cli("verify", proof, status=1).out
+
+
+def test_solvers_are_graded_where_p_is_singular_and_not_where_there_is_no_optimum(tmp_path, cli):
+    said = cli("qp", DATA / "HS51.mat", "--solvers qpsolvers:clarabel cvxpy:clarabel").out
+    rows = [line.split() for line in said.splitlines()[2:]]
+    assert [row[0] for row in rows] == ["qpsolvers:clarabel"] * 2 + ["cvxpy:clarabel"] * 2
+    assert min(float(row[-2]) for row in rows) > 6
+    (tmp_path / "endless.qps").write_text("NAME\nROWS\n N o\nCOLUMNS\n x o -1\nENDATA\n")
+    said = cli("qp", tmp_path / "endless.qps", "--solvers clarabel", status=3).out
+    assert said == "endless: the cost falls without end along x_0 (proved without rounding)\n"
+    assert "no program with an optimum" in one_sentence(cli("qp", tmp_path, status=2).err)
 
 
 def test_a_folder_is_a_study_of_what_can_be_proved(tmp_path, cli):
@@ -226,6 +238,10 @@ def test_a_folder_is_a_study_of_what_can_be_proved(tmp_path, cli):
     emptied = rows["LIPMWALK10", "high"]
     assert (emptied.feasible, emptied.digits, emptied.says) == (False, None, "solved")
     assert "summary.md" in cli("study report", out, "--out", tmp_path / "page").out
+    table = (tmp_path / "page" / "summary.md").read_text().partition("## Who")[0].splitlines()
+    head, _, clarabel, _ = [line.strip("| ").split(" | ") for line in table if line[:1] == "|"]
+    counts = dict(zip(head, clarabel, strict=True))
+    assert int(counts["solved, no solution"]) == 1  # a false one, without an accuracy
 
 
 LIGHT = """
