@@ -4,7 +4,7 @@ A reader takes each field once, checks it, and refuses in :meth:`TableReader.clo
 not taken: a misspelt name is an error, never a default.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any, Final
 
 import numpy as np
@@ -26,6 +26,10 @@ class TableReader:
         Dotted name of the table itself, ``""`` at the top.
     error : type
         The :class:`~quasistatic_ref.errors.InputError` to raise.
+    keys : tuple of str
+        The keys that lead to the table: a name may hold dots itself.
+    of_user : callable, optional
+        Of the keys that lead to a value: whether it is the user's own, and no file's.
 
     Attributes
     ----------
@@ -34,10 +38,17 @@ class TableReader:
     """
 
     def __init__(
-        self, table: object, where: str = "", error: type[InputError] = InputError
+        self,
+        table: object,
+        where: str = "",
+        error: type[InputError] = InputError,
+        keys: tuple[str, ...] = (),
+        of_user: Callable[[tuple[str, ...]], bool] = lambda _: False,
     ) -> None:
         self.where = where
         self.error = error
+        self.keys = keys
+        self._of_user = of_user
         if not isinstance(table, dict):
             raise error("must be a table of named fields", field=where or None, value=table)
         self.fields: dict[str, Any] = table
@@ -47,6 +58,10 @@ class TableReader:
     def name(self, field: str) -> str:
         """The full dotted name of a field."""
         return f"{self.where}.{field}" if self.where else field
+
+    def is_of_user(self, field: str) -> bool:
+        """Whether what a field holds is the user's own, and no file's."""
+        return self._of_user((*self.keys, field))
 
     def error_about(self, field: str, problem: str, value: object = None) -> InputError:
         """The error about one field, for the caller to raise."""
@@ -195,7 +210,8 @@ class TableReader:
 
     def table(self, field: str, default: Any = REQUIRED) -> "TableReader":
         """The reader of a field that is a table."""
-        return TableReader(self.take(field, default), self.name(field), self.error)
+        table = self.take(field, default)
+        return TableReader(table, self.name(field), self.error, (*self.keys, field), self._of_user)
 
     def check_format(self, name: str, *versions: int) -> int:
         """Take ``format`` and ``version`` of a file, refuse others than these: the version."""

@@ -104,3 +104,11 @@ def test_tables_of_others_read_from_folders_that_the_user_names(folder, tmp_path
     with pytest.raises(InputError, match="is outside the scenario's folder"):
         load_scenario(scene, of_others=True)
     assert load_scenario(scene, {"roots": [str(tmp_path)]}, of_others=True).steps == SCENE["steps"]
+
+
+def test_a_name_that_holds_a_dot_is_not_where_the_user_s_change_leads(folder):
+    (folder.parent / "out.xyz").touch()
+    ball = SCENE["bodies"]["ball"]
+    scene = changed(SCENE, ("bodies/ball.cloud", {**ball, "cloud": "../out.xyz"}))
+    with pytest.raises(InputError, match=r"bodies\.ball\.cloud\.cloud: is outside the scenario"):
+        load_scenario(scene, {"bodies.ball.cloud": "cloud.xyz"}, of_others=True)

@@ -11,7 +11,7 @@ from typing import Any
 from quasistatic_ref.errors import InputError, ScenarioError
 from quasistatic_ref.files.content import LONG_KEY, MOST_PARTS
 from quasistatic_ref.files.option_change import OptionChange
-from quasistatic_ref.files.scenario.paths import OwnWord
+from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.formats.json_text import plain
 
 Changes = Sequence[str] | Mapping[str, Any]
@@ -21,50 +21,62 @@ ESSENTIAL = {"bodies": "urdf", "contacts": "alpha"}
 """Tables of tables, and a field without which none of theirs can be."""
 
 
-@contextmanager
-def about_changes(settings: Changes, named: Mapping[str, Any]) -> Iterator[None]:
-    """Make an InputError of this block name the change that wrote the value, if one did.
+class Origins:
+    """Who said what stands in a scenario's tables: its author, or a change of the user.
 
     Parameters
     ----------
-    settings, named
-        The changes, as of :func:`apply_settings`.
+    of_user : bool
+        Whether the tables themselves are the user's own, and not a stranger's as in a file.
+
+    Attributes
+    ----------
+    changes : list of (tuple of str, str)
+        Of each change in its order, the keys that lead to its value, and its text as the user
+        wrote it; empty of a value from Python.
     """
+
+    def __init__(self, of_user: bool) -> None:
+        self.of_user = of_user
+        self.changes: list[tuple[tuple[str, ...], str]] = []
+
+    def said(self, keys: tuple[str, ...]) -> bool:
+        """Whether the value to which keys lead is the user's own."""
+        return self.of_user or any(keys[: len(path)] == path for path, _ in self.changes)
+
+    def reader(self, tables: dict[str, Any]) -> TableReader:
+        """A reader of the tables, which knows what is the user's own."""
+        return TableReader(tables, error=ScenarioError, of_user=self.said)
+
+    def change(self, field: str) -> str | None:
+        """The last change that wrote a field, as its user wrote it; None if no change did.
+
+        In Python it is the field itself.
+        """
+        change: str | None = None
+        for path, words in self.changes:
+            key = ".".join(path)
+            inner = field.removeprefix(key)
+            if field.startswith(key) and inner[:1] in ("", ".", "["):
+                change = f"{words}: {inner.lstrip('.')}" if words and inner else words or field
+        return change
+
+
+@contextmanager
+def about_changes(origins: Origins) -> Iterator[None]:
+    """Make an InputError of this block name the change that wrote the value, if one did."""
     try:
         yield
     except InputError as error:
         if error.file is None and error.field == SET:
             error.change = f"{SET} {error.value}"
         elif error.file is None and error.field is not None:
-            error.change = _change(error.field, settings, named)
+            error.change = origins.change(error.field)
         raise
 
 
-def _change(field: str, settings: Changes, named: Mapping[str, Any]) -> str | None:
-    """The last change that wrote a field, as its user wrote it; None if no change did.
-
-    In Python it is the field itself.
-    """
-    change: str | None = None
-    for key, words in [*_in_words(settings), *((key, "") for key in named)]:
-        inner = field.removeprefix(key)
-        if field.startswith(key) and inner[:1] in ("", ".", "["):
-            change = f"{words}: {inner.lstrip('.')}" if words and inner else words or field
-    return change
-
-
-def _in_words(settings: Changes) -> Iterator[tuple[str, str]]:
-    """The dotted key of each change, and its text; no text of a value from Python."""
-    for one in settings if _are_several(settings) else ():
-        if isinstance(settings, Mapping):
-            yield one, ""
-        else:
-            words = one.option if isinstance(one, OptionChange) else f"{SET} {one}"
-            yield one.partition("=")[0].strip(), words
-
-
 def apply_settings(
-    tables: dict[str, Any], settings: Changes, named: Mapping[str, Any]
+    tables: dict[str, Any], settings: Changes, named: Mapping[str, Any], origins: Origins
 ) -> dict[tuple[str, str], str]:
     """Apply the user's changes to a scenario's tables, in place.
 
@@ -75,6 +87,8 @@ def apply_settings(
         ``dotted.key=value``, the value being TOML or else a plain word; or values by dotted key.
     named : mapping of str to object
         Values by the names of fields at the top, made next; or by dotted keys, made last.
+    origins : Origins
+        To which the changes are added.
 
     Returns
     -------
@@ -95,28 +109,36 @@ def apply_settings(
     if isinstance(settings, Mapping):
         keys += map(str, settings)
         for key, value in settings.items():
+            origins.changes.append((_parts(str(key)), ""))
             _put(tables, str(key), python_value(key, value), "settings", key)
     else:
         for setting in settings:
             key, equals, text = str(setting).partition("=")
             keys.append(key.strip())
+            words = setting.option if isinstance(setting, OptionChange) else f"{SET} {setting}"
+            origins.changes.append((_parts(key), words))
             _put(tables, key if equals else "", parsed(text), SET, setting)
     made = _second_level(tables) - before
     for key in itertools.filterfalse(_is_dotted, named):
+        origins.changes.append(((key,), ""))
         value = python_value(key, named[key])
         _check_whole(key, tables.get(key), value)
         tables[key] = value
     before = _second_level(tables)
     for key in filter(_is_dotted, named):
+        origins.changes.append((_parts(key), ""))
         _put(tables, key, python_value(key, named[key]), "settings", key)
     made |= _second_level(tables) - before
     return {pair: _leading_to(pair, keys) for pair in made & _second_level(tables)}
 
 
+def _parts(key: str) -> tuple[str, ...]:
+    return tuple(part.strip() for part in key.split("."))
+
+
 def _leading_to(pair: tuple[str, str], keys: Iterable[str]) -> str:
     """The first dotted key that leads to a table, or to the table that holds it."""
-    parts = ((key, [part.strip() for part in key.split(".")]) for key in keys)
-    return next(key for key, words in parts if all(map(eq, words, pair)))
+    return next(key for key in keys if all(map(eq, _parts(key), pair)))
 
 
 def _are_several(settings: object) -> bool:
@@ -146,7 +168,7 @@ def _second_level(tables: Mapping[str, Any]) -> set[tuple[str, str]]:
 
 
 def _put(tables: dict[str, Any], key: str, value: Any, field: str, source: object) -> None:
-    parts = [part.strip() for part in key.split(".")]
+    parts = _parts(key)
     if not all(parts):
         problem = "must be table.field=value, such as contacts.floor.mu_v=0.5"
         raise ScenarioError(problem, field=field, value=source)
@@ -171,14 +193,11 @@ def parsed(text: str) -> Any:
     except (ValueError, RecursionError):
         tables = {}
     # Anything but one value, such as a second line, is taken as a word.
-    value = tables["value"] if list(tables) == ["value"] else text.strip()
-    return _as_parsed(value)
+    return tables["value"] if list(tables) == ["value"] else text.strip()
 
 
-def python_value(field: object, value: Any, of_others: bool = False) -> Any:
+def python_value(field: object, value: Any) -> Any:
     """A Python value in the form in which a TOML parser would return it.
-
-    Its paths are the user's own, unless it is of others.
 
     Raises
     ------
@@ -186,14 +205,14 @@ def python_value(field: object, value: Any, of_others: bool = False) -> Any:
         If it holds itself, or is nested too deeply.
     """
     try:
-        return plain(value) if of_others else _as_parsed(plain(value))
+        return _as_parsed(plain(value))
     except RecursionError:
         raise ScenarioError("is nested too deeply, or holds itself", field=str(field)) from None
 
 
 def _as_parsed(value: Any) -> Any:
-    if isinstance(value, str | PathLike):
-        return OwnWord(fspath(value))
+    if isinstance(value, PathLike):
+        return fspath(value)
     if isinstance(value, Mapping):
         return {str(key): _as_parsed(inner) for key, inner in value.items()}
     return [_as_parsed(inner) for inner in value] if isinstance(value, list) else value

@@ -22,12 +22,6 @@ SHARED = Path("cmeel.prefix", "share")
 """Where installed packages keep robots, next to the modules of Python."""
 
 
-class OwnWord(str):
-    """A string that came from ``--set`` or from Python, not from a file."""
-
-    __slots__ = ()
-
-
 def path_in(
     folder: Path, table: TableReader, field: str, roots: Sequence[Path] = ()
 ) -> Path | None:
@@ -77,7 +71,7 @@ def _path(
     try:
         if text.startswith(PACKAGE):
             return _installed(table, field, text)
-        inside = isinstance(text, OwnWord) or lies_in(path, [folder, *roots])
+        inside = table.is_of_user(field) or lies_in(path, [folder, *roots])
     except InputError:
         raise
     except (ValueError, RuntimeError, OSError):  # a NUL character; links in a circle
@@ -104,7 +98,7 @@ def inline_urdf(table: TableReader, field: str) -> str | Tree | None:
     if isinstance(text, Tree):
         table.take(field)
         return text
-    is_text = isinstance(text, OwnWord) and text.lstrip().startswith("<")
+    is_text = isinstance(text, str) and text.lstrip().startswith("<") and table.is_of_user(field)
     return str(table.take(field)) if is_text else None
 
 

@@ -36,8 +36,8 @@ from quasistatic_ref.files.scenario.checks import (
     run_fields,
 )
 from quasistatic_ref.files.scenario.contacts import contact_pairs, placed_shapes
-from quasistatic_ref.files.scenario.overrides import Changes, about_changes, apply_settings
-from quasistatic_ref.files.scenario.paths import OwnWord, folders_in
+from quasistatic_ref.files.scenario.overrides import Changes, Origins, about_changes, apply_settings
+from quasistatic_ref.files.scenario.paths import folders_in
 from quasistatic_ref.files.scenario.scenario_table import FORMAT, TOP, VERSION
 from quasistatic_ref.files.scenario.scene_words import HERE, scene_tables
 from quasistatic_ref.files.table_reader import TableReader
@@ -278,18 +278,20 @@ def load_scenario(
         problem = "is the table of backend, certify and accuracy; did you mean 'backend'?"
         raise ScenarioError(problem, field="solver", value=word)
     if isinstance(name, Mapping):
-        tables = scene_tables(name, of_others)
-        with about_changes(settings, fields):
-            apply_settings(tables, settings, fields)
+        tables = scene_tables(name)
+        origins = Origins(not of_others)
+        with about_changes(origins):
+            apply_settings(tables, settings, fields, origins)
             check_sizes(tables)
-            return _scenario(HERE, TableReader(tables, error=ScenarioError))
+            return _scenario(HERE, origins.reader(tables))
     check_kind(name, str | PathLike, "name", "a path, an installed scenario's name or a mapping")
     path = scenario_path(name)
-    with about_file(path), about_changes(settings, fields):
+    origins = Origins(False)
+    with about_file(path), about_changes(origins):
         tables = toml_read(path, ScenarioError, "a scenario, which is TOML")
-        check_made(apply_settings(tables, settings, fields), tables)
+        check_made(apply_settings(tables, settings, fields, origins), tables)
         check_sizes(tables)
-        return _scenario(path, TableReader(tables, error=ScenarioError))
+        return _scenario(path, origins.reader(tables))
 
 
 @together()
@@ -299,7 +301,6 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     top.check_format(FORMAT, VERSION)
     read = checked_fields(top, TOP)
     solver = read("solver")
-    of_users = isinstance(solver.peek("backend"), OwnWord)
     run = run_fields(read, solver)
     gravity = read("gravity")
     named = cone(read("cone")).name
@@ -327,7 +328,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
         extended_bodies: ExtendedBodies = part("extended_bodies")
         pairs, of_bodies = extended_bodies(system, pairs, entries, run["h"], K_q, gravity)
     backend = run["backend"]
-    if backend is not None and is_function(backend) and not of_users:
+    if backend is not None and is_function(backend) and not solver.is_of_user("backend"):
         problem = "would run code, which no file may; give it as --backend FILE.py:NAME"
         raise solver.error_about("backend", problem, backend)
     if backend is None and run["fast"]:

@@ -17,7 +17,7 @@ HERE: Final = Path("scene.toml")
 """Where such a scene stands: its relative paths are those of the working folder."""
 
 
-def scene_tables(scene: Mapping[str, Any], of_others: bool = False) -> dict[str, Any]:
+def scene_tables(scene: Mapping[str, Any]) -> dict[str, Any]:
     """The tables that a parser would have returned of the same scene in a file.
 
     Parameters
@@ -26,8 +26,6 @@ def scene_tables(scene: Mapping[str, Any], of_others: bool = False) -> dict[str,
         As a scenario file, ``{"h": 0.01, "bodies": {"block": {...}}, ...}``. A body may be a Body,
         or have one as its ``body``, whose fields its table then overrides; a shape may be a Shape,
         or a table with a Shape as its ``shape``; arrays of NumPy serve as lists.
-    of_others : bool
-        Whether its words are a stranger's, as those of a file.
 
     Raises
     ------
@@ -37,7 +35,7 @@ def scene_tables(scene: Mapping[str, Any], of_others: bool = False) -> dict[str,
     tables = {"format": FORMAT, "version": VERSION, **scene}
     tables["bodies"] = {name: _body(name, one) for name, one in _named(tables, "bodies")}
     tables["shapes"] = {name: _shape(name, one) for name, one in _named(tables, "shapes")}
-    return {str(name): python_value(name, value, of_others) for name, value in tables.items()}
+    return {str(name): python_value(name, value) for name, value in tables.items()}
 
 
 def _named(tables: Mapping[str, Any], kind: str) -> list[tuple[str, Any]]:

@@ -14,7 +14,7 @@ import numpy as np
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import InputError, ModelError, ScenarioError, check_kind
 from quasistatic_ref.files.scenario.checks import run_fields
-from quasistatic_ref.files.scenario.overrides import Changes, about_changes, apply_settings
+from quasistatic_ref.files.scenario.overrides import Changes, Origins, about_changes, apply_settings
 from quasistatic_ref.files.scenario.scenario import FastBackend, Scenario
 from quasistatic_ref.files.scenario.scenario_table import TOP, fields_of
 from quasistatic_ref.files.table_reader import TableReader
@@ -186,8 +186,9 @@ def mujoco_scenario(
     if isinstance(targets, Sequence) and not targets:
         raise InputError(f"must be {wanted}", field="targets", value=targets)
     tables = dict(START)
-    with about_changes(settings, fields):
-        apply_settings(tables, settings, fields)
+    origins = Origins(False)
+    with about_changes(origins):
+        apply_settings(tables, settings, fields, origins)
         return _scenario_of(model, data, targets, tables, Path(path))
 
 
