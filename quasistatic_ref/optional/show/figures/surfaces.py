@@ -56,5 +56,5 @@ def triangles(points: Array) -> Array:
     hull = ConvexHull(points)
     one, two, three = points[hull.simplices.T]
     outside = np.vecdot(np.cross(two - one, three - one), hull.equations[:, :3]) > 0
-    corners = np.where(outside[:, None, None], [one, two, three], [one, three, two])
+    corners = np.where(outside[:, None], [one, two, three], [one, three, two])
     return np.asarray(corners.transpose(1, 0, 2).reshape(-1, 3))
