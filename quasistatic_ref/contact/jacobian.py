@@ -51,7 +51,12 @@ class ContactGeometry:
         # The columns of pinocchio's or MuJoCo's Jacobian that move a contact, by coordinates.
         x, v, share = column_map.shares
         of_x = padded(x, v, moves.shape[1], self.n_v)
-        contact, mover = np.nonzero(moves[links].any(axis=0))
+        link, column = np.nonzero(moves)
+        of_link = padded(link, column, len(moves), -1)
+        movers = of_link[links].transpose(1, 0, 2).reshape(len(layout.rows), 2 * of_link.shape[1])
+        at, k = np.nonzero(movers >= 0)
+        every = np.unique(at * self.n_x + movers[at, k])
+        contact, mover = np.divmod(every, max(self.n_x, 1))
         some = np.lexsort((of_x[mover].min(axis=1, initial=self.n_v), contact))
         joint = padded(contact, mover[some], len(layout.rows), -1)
         self.joint = np.maximum(joint, 0)
