@@ -29,7 +29,8 @@ class Answer(NamedTuple):
     Parameters
     ----------
     x, lam : ndarray, shapes (n,) and (m,)
-        The minimiser and the multipliers, in natural units [-].
+        The minimiser, and the multipliers as DAQP has them, those of lower bounds negative: in
+        natural units [-].
     flag : int
         DAQP's word, 1 where it claims a solution.
     iterations : int
@@ -81,9 +82,11 @@ class Workspace:
         if not len(self._cold):
             x = np.asarray(np.linalg.solve(H, -self._program["f"]), dtype=np.float64)
             return Answer(x, np.zeros(0), 1, 0, 0.0)
-        answer = self._solved(H, warm=True) if self._warm else None
-        if answer is None or answer.flag != 1:
-            answer = self._solved(H, warm=False)
+        if self._warm:
+            answer = self._solved(H, warm=True)
+            if answer.flag == 1 and all_finite(answer.x):
+                return answer
+        answer = self._solved(H, warm=False)
         if not all_finite(answer.x):
             self._set_up(H)
             answer = self._solved(H, warm=False)
@@ -110,8 +113,7 @@ class Workspace:
 
     def _result(self) -> Answer:
         x, _, flag, info = self._model.solve()
-        lam = 0.0 - info["lam"]  # those of lower bounds are negative
-        return Answer(x, lam, flag, info["iterations"], info["solve_time"])
+        return Answer(x, info["lam"], flag, info["iterations"], info["solve_time"])
 
 
 class Workspaces:
@@ -148,7 +150,7 @@ class Workspaces:
         flag = next((one.flag for one in answers if one.flag != 1), 1)
         x = programs.joined([one.x for one in answers])
         lam = np.zeros(len(programs.b))
-        lam[self.layout.rows] = np.concatenate([one.lam for one in answers])
+        lam[self.layout.rows] = 0.0 - np.concatenate([one.lam for one in answers])
         iterations = sum(one.iterations for one in answers)
         seconds = sum(one.seconds for one in answers)
         return Reply(x, lam, flag == 1, STATUS.get(flag) or str(flag), iterations, seconds)
@@ -192,7 +194,7 @@ def cold_answers(scaled: ScaledStep, g: Array, sizes: Array, options: Options) -
         for one, H, n, m in each:
             answer = one.cold(H)
             x[i, n] = answer.x
-            lam[i, m] = answer.lam
+            lam[i, m] = 0.0 - answer.lam
             iterations[i] += answer.iterations
             if answer.flag != 1:
                 status[i] = STATUS.get(answer.flag) or str(answer.flag)
