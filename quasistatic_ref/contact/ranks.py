@@ -146,7 +146,7 @@ def points_of_groups(
         return np.asarray(phi - dot(np.abs(product(n, pose[:, :3])), half) - rounded)
 
     def members(level: Groups, some: Indices) -> Indices:
-        return np.concatenate([level.members[i] for i in some.tolist()])
+        return np.unique(level.members[some])
 
     def kth(levels: Sequence[Groups], number: Indices) -> float:
         """The distance of the farthest of k points, which are of near groups of some [m]."""
@@ -160,4 +160,4 @@ def points_of_groups(
     for i, level in enumerate(cloud.levels):
         after = kth(cloud.levels[i:], number) + 2 * resolution
         number = members(level, number[~(least(level, number) > after)])
-    return np.sort(number)
+    return number

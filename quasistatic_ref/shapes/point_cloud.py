@@ -23,15 +23,16 @@ class Groups(NamedTuple):
 
     Parameters
     ----------
-    members : list of ndarray of int
-        Numbers of the points of each group, or of its groups one level down.
+    members : ndarray of int, shape (G, n)
+        Numbers of the points of each group, or of its groups one level down; some of them twice, so
+        that all groups are of one size.
     middle, half : ndarray, shape (G, 3)
-        Of the cuboids: their middles and half extents [m].
+        Middles and half extents of the cuboids [m].
     fewest : int
-        Points of the smallest group.
+        Of so many points at least is each group.
     """
 
-    members: list[Indices]
+    members: Indices
     middle: Array
     half: Array
     fewest: int
@@ -75,16 +76,15 @@ class PointCloud(Shape):
     def levels(self) -> tuple[Groups, Groups]:
         """Large groups of small groups of the points, and the small groups."""
         small = halved(self.points)
-        middle = np.array([self.points[some].mean(axis=0) for some in small])
-        large = halved(middle)
-        points = [np.concatenate([small[i] for i in some]) for some in large]
-        return self._groups(large, points), self._groups(small, small)
-
-    def _groups(self, members: list[Indices], points: list[Indices]) -> Groups:
-        """Groups of some members, which have these points."""
-        low = np.array([self.points[some].min(axis=0) for some in points])
-        high = np.array([self.points[some].max(axis=0) for some in points])
-        return Groups(members, (low + high) / 2, (high - low) / 2, min(map(len, points)))
+        x = self.points[small]
+        low, high = x.min(axis=1), x.max(axis=1)
+        large = halved(low + high)
+        ends = low[large].min(axis=1), high[large].max(axis=1)
+        n = small.shape[1]
+        # No point is in more than two places.
+        every = Groups(small, (low + high) / 2, (high - low) / 2, (n + 1) // 2)
+        fewest = ((large.shape[1] + 1) // 2 * n + 1) // 2
+        return Groups(large, (ends[0] + ends[1]) / 2, (ends[1] - ends[0]) / 2, fewest), every
 
     def words(self) -> str:
         """Number of points, and the edges of the cloud's bounding box [m]."""
@@ -92,14 +92,23 @@ class PointCloud(Shape):
         return f"cloud of {len(self.points)} points within {extent}"
 
 
-def halved(points: Array) -> list[Indices]:
-    """Numbers of points (N, 3) [m] in groups, each half of one that its longest side was cut in."""
-    groups = [np.arange(len(points))]
-    while len(groups[0]) > GROUP:
-        longest = [np.ptp(points[some], axis=0).argmax() for some in groups]
-        groups = [
-            half
-            for some, axis in zip(groups, longest, strict=True)
-            for half in np.array_split(some[points[some, axis].argpartition(len(some) // 2)], 2)
-        ]
+def halved(points: Array) -> Indices:
+    """Numbers of points (N, 3) [m] in groups, each half of one that its longest side was cut in.
+
+    Returns
+    -------
+    ndarray of int, shape (G, n)
+        Some points are there twice, so that all groups are of one size.
+    """
+    N = len(points)
+    G = 1
+    while N > GROUP * G:
+        G *= 2
+    groups = (np.arange(-(-N // G) * G) % N)[None]
+    while len(groups) < G:
+        x = points.T[:, groups]
+        longest = (x.max(axis=2) - x.min(axis=2)).argmax(axis=0)
+        along = np.take_along_axis(x, longest[None, :, None], axis=0)[0]
+        order = along.argpartition(groups.shape[1] // 2, axis=1)
+        groups = np.take_along_axis(groups, order, axis=1).reshape(2 * len(groups), -1)
     return groups
