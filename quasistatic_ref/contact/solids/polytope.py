@@ -116,9 +116,18 @@ def stacked(polytopes: Sequence[Polytope]) -> Polytope:
     )
 
 
-@lru_cache(maxsize=256)
 def polytope(shape: Shape) -> Polytope | None:
-    """A shape as a polytope in its own frame; None if it is not one."""
+    """A shape as a polytope in its own frame, kept with the shape; None if it is not one."""
+    kept = shape.__dict__
+    if "_polytope" not in kept:
+        kept["_polytope"] = _polytope(shape)
+    found: Polytope | None = kept["_polytope"]
+    return found
+
+
+@lru_cache(maxsize=256)
+def _polytope(shape: Shape) -> Polytope | None:
+    """The same, one for shapes that are equal."""
     match shape:
         case Capsule():
             ends, radius = shape.corners(UP)

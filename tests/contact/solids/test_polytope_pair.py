@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Capsule, convex_hull
 from quasistatic_ref.contact.shape_in_world import Witness
+from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from tests.closeness import assert_within
 from tests.contact.still import in_world
@@ -118,3 +119,10 @@ def test_points_above_a_face_of_a_mesh_have_its_normal_on_the_diagonal_too(scale
             assert_within(phi / scale, up, CLOSED_FORM)
             expected = np.tile(R[:, 2], (101, 1))
             assert_within(n, expected, CLOSED_FORM)
+
+
+def test_a_polytope_stays_with_its_shape_however_many_there_are():
+    boxes = [Box((0.1, 0.1, 0.001 * (1 + i))) for i in range(1000)]
+    first = [polytope(box) for box in boxes]
+    assert all(polytope(box) is one for box, one in zip(boxes, first, strict=True))
+    assert polytope(Box(boxes[-1].half_extents)) is first[-1]
