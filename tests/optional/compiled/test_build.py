@@ -16,6 +16,7 @@ NO_COMPILERS = {
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """A folder in which libraries are made and sought in the place of the package's."""
+    monkeypatch.delenv(build.VARIABLE, raising=False)
     for module in (build, library):
         monkeypatch.setattr(module, "LIBRARY", tmp_path / "compiled.so")
         monkeypatch.setattr(module, "PROBLEM", tmp_path / "not_compiled.txt")
@@ -38,6 +39,13 @@ def test_without_a_compiler_the_reason_says_so(folder, monkeypatch):
     monkeypatch.setenv("PATH", str(folder))
     build.build()
     assert library.missing().endswith("there was no C compiler, cc or $CC")
+
+
+def test_a_variable_asks_for_none(folder, monkeypatch):
+    monkeypatch.setenv(build.VARIABLE, "0")
+    assert build.build() == folder / "not_compiled.txt"
+    monkeypatch.delenv(build.VARIABLE)
+    assert library.missing().endswith("installed: QUASISTATIC_REF_COMPILED was 0")
 
 
 @pytest.mark.extra("compiled")
