@@ -20,6 +20,7 @@ from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import ExactForm, StepForm
 from quasistatic_ref.certify.groups import Group, group_steps
+from quasistatic_ref.certify.minimiser import LARGE
 from quasistatic_ref.certify.norm import Parts, check_length
 from quasistatic_ref.certify.refined import BearingRows
 from quasistatic_ref.errors import InputError
@@ -71,7 +72,8 @@ def form_optimum(form: ExactForm, warm: Sequence[int] = ()) -> ExactOptimum | Co
     -------
     ExactOptimum or Combination
     """
-    minimiser = dual_active_set(form, warm, _bearing_rows())
+    bearing = _bearing_rows() if len(warm) > LARGE else None
+    minimiser = dual_active_set(form, warm, bearing)
     if isinstance(minimiser, Combination):
         return minimiser
     working = minimiser.working

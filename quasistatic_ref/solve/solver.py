@@ -109,6 +109,8 @@ class Solver(ABC):
         Whether its answer to a step may depend on the steps before.
     basic : bool
         Whether the rows of its positive multipliers are independent.
+    bare_name : str
+        Of the backend, without the interface.
     unsafe : bool
         Whether its backend may not return from steps whose rows are unlike each other.
     proofs : Proofs
@@ -124,8 +126,9 @@ class Solver(ABC):
         self.template = template
         self.name = name
         self.proofs = Proofs()
-        self.unsafe = bare(name) in UNSAFE
-        if bare(name) == "highs":
+        self.bare_name = bare(name)
+        self.unsafe = self.bare_name in UNSAFE
+        if self.bare_name == "highs":
             greeting_silenced()
         self._option_sets: dict[float, list[tuple[float, Options]]] = {}
 
@@ -195,7 +198,7 @@ class BackendSolver(Solver):
     def option_sets(self, accuracy: float) -> list[tuple[float, Options]]:
         """Accuracies in natural units [-] with options, in the order in which they are tried."""
         if accuracy not in self._option_sets:
-            entry = BACKENDS.get(bare(self.name)) or backend(self.name)
+            entry = BACKENDS.get(self.bare_name) or backend(self.name)
             curved = not cone(self.template.cone).polyhedral
             self._option_sets[accuracy] = entry.attempts(accuracy, curved)
         return self._option_sets[accuracy]

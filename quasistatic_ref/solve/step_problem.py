@@ -425,7 +425,7 @@ class CvxpySolver(BackendSolver):
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY
         raises TypeError on a second warm start anyway.)
         """
-        reply = cvxpy_reply(self.problem, bare(self.name), options)
+        reply = cvxpy_reply(self.problem, self.bare_name, options)
         if reply.x is not None and reply.lam is not None:
             reply.x, reply.lam = in_si(reply.x, reply.lam, self.units)
         return reply

@@ -274,6 +274,7 @@ def test_an_ellipsoid_is_asked_by_facets_and_says_so():
 
 def test_the_users_own_costs_are_not_asked():
     import cvxpy as cp
+
     scenario = load_scenario("block_incline", steps=1)
     extension = Extension(lambda symbols: [cp.norm1(symbols.delta_q_u)])
     row = scenario.simulator(lambda q: extension).stands()["rough"]
