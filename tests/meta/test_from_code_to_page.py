@@ -157,6 +157,14 @@ def test_every_command_is_on_a_page_that_people_write():
     )
 
 
+def test_every_command_is_called_by_a_test():
+    tests = [path.read_text("utf-8") for path in ROOT.glob("tests/**/test_*.py")]
+    called = [
+        name for name in COMMANDS if any(re.search(rf'[(\[]"{name}"', test) for test in tests)
+    ]
+    assert_among(COMMANDS, called, 'No test calls cli("{}", ...): add a file to tests/cli')
+
+
 def test_every_option_says_what_it_does_in_help_and_so_on_the_page_of_options():
     silent = [
         f"{leaf.prog} {action.option_strings[-1]}"
