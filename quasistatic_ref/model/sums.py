@@ -25,6 +25,7 @@ class Sums:
 
     Attributes
     ----------
+    joints : sequence of Joint
     n_q, n_v : int
         Numbers of their entries.
     many : list of (Joint, ndarray of int, ndarray of int)
@@ -34,6 +35,7 @@ class Sums:
     """
 
     def __init__(self, joints: Sequence[Joint]) -> None:
+        self.joints = joints
         kinds: dict[type[Joint], list[Joint]] = defaultdict(list)
         for joint in joints:
             kinds[type(joint)].append(joint)

@@ -13,14 +13,13 @@ from quasistatic_ref.optional.compiled.build import LIBRARY, PROBLEM, VARIABLE, 
 
 ARGUMENTS: Final = {
     "cloud_contacts": 14,
-    "plus": 5,
-    "change": 5,
+    "plus": 6,
+    "change": 6,
     "frames": 11,
     "pyramid_rows": 10,
     "step_sizes": 9,
 }
-"""Numbers of arguments of each function, all of them addresses of arrays; it returns whether it
-has answered."""
+"""Numbers of arguments of each function, all of them addresses of arrays."""
 
 _address = FFI().from_buffer
 

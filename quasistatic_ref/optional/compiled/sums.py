@@ -1,4 +1,4 @@
-"""(+) and (-) of a few joints: source/sums.c. Of many joints NumPy is as quick."""
+"""(+) and (-) of joints: source/sums.c."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
@@ -17,31 +17,52 @@ from quasistatic_ref.optional.compiled.library import addresses, function
 KINDS: dict[type[Joint], int] = {Floating: 0, Planar: 1, Continuous: 2, Revolute: 3, Prismatic: 3}
 """Their numbers in C."""
 
-Sum = Callable[[Array, Array], Array | None]
+Sum = Callable[[Array, Array], Array]
 
 
 def plus(sums: Sums) -> Sum | None:
-    """``Sums.plus``; it declines where a sine stays open."""
-    return _of_few("plus", sums, sums.n_q)
+    """``Sums.plus``; joints whose sines stay open are summed by themselves."""
+    compiled = _of("plus", sums, sums.n_q)
+
+    def answer(q: Array, delta_q: Array) -> Array:
+        there, left = compiled(q, delta_q)
+        for joint in left:
+            there[joint.q] = joint.moved(q[joint.q].tolist(), delta_q[joint.v].tolist())
+        return there
+
+    return answer if _all_known(sums) else None
 
 
 def change(sums: Sums) -> Sum | None:
-    """``Sums.change``; it declines where an angle stays open, and bases in the plane."""
-    return _of_few("change", sums, sums.n_v)
+    """``Sums.change``; joints whose angles stay open are subtracted by themselves."""
+    compiled = _of("change", sums, sums.n_v)
+
+    def answer(q: Array, q_next: Array) -> Array:
+        change, left = compiled(q, q_next)
+        for joint in left:
+            change[joint.v] = joint.change(q[joint.q].tolist(), q_next[joint.q].tolist())
+        return change
+
+    return answer if _all_known(sums) else None
 
 
-def _of_few(name: str, sums: Sums, size: int) -> Sum | None:
-    joints = sums.few
-    if sums.many or not all(type(joint) in KINDS for joint in joints):
-        return None
-    starts = [[KINDS[type(joint)], joint.q.start, joint.v.start] for joint in joints]
-    kept = addresses((np.array([len(joints)]), np.reshape(np.array(starts, np.int64), (-1, 3)).T))
+def _all_known(sums: Sums) -> bool:
+    return all(type(joint) in KINDS for joint in sums.joints)
+
+
+def _of(name: str, sums: Sums, size: int) -> Callable[[Array, Array], tuple[Array, list[Joint]]]:
+    """A function of the library: what it writes, and the joints that it leaves open."""
+    joints = sums.joints
+    starts = [[KINDS.get(type(joint), 0), joint.q.start, joint.v.start] for joint in joints]
+    table = np.reshape(np.array(starts, np.int64), (-1, 3)).T
+    kept = addresses((np.array([len(joints)]), table))
     compiled = function(name)
 
-    def answer(q: Array, other: Array) -> Array | None:
-        written = np.empty(size)
-        answered = compiled(*kept, *addresses((q, other), (written,)))
-        return written if answered else None
+    def answer(q: Array, other: Array) -> tuple[Array, list[Joint]]:
+        written, left = np.empty(size), np.empty(len(joints), bool)
+        if not compiled(*kept, *addresses((q, other), (written, left))):
+            return written, []
+        return written, [joints[j] for j in np.flatnonzero(left).tolist()]
 
     return answer
 
@@ -56,9 +77,9 @@ def trials_of_plus() -> list[tuple[Sums, tuple[Array, Array]]]:
 
 def trials_of_change() -> list[tuple[Sums, tuple[Array, Array]]]:
     """Joints that are elsewhere, and as far around as can be."""
-    sums = Sums(_joints([kind for kind in KINDS if kind is not Planar]))
-    q = np.array([0.1, -0.2, 0.3, *UNIT, *TURN, 0.3, 1.5])
-    there = np.array([0.2, 0.1, -0.3, *UNIT[::-1], 0.28, 0.96, 0.1, 0.2])
+    sums = Sums(_joints(KINDS))
+    q = np.array([0.1, -0.2, 0.3, *UNIT, 0.4, 0.2, *TURN, 0.96, 0.28, 0.3, 1.5])
+    there = np.array([0.2, 0.1, -0.3, *UNIT[::-1], 0.1, 0.7, *TURN[::-1], *TURN, 0.1, 0.2])
     return [(sums, (q, there)), (sums, (there, q)), (sums, (q, q))]
 
 

@@ -1,7 +1,10 @@
 /* model/sums, `plus` and `change`: q (+) delta_q and q_next (-) q, in the order of operations of model/screw.
 
-   Sines and angles are those of long double, where their error leaves one float64; else Python answers. Of each
-   joint `joints` has its kind and where its entries of q and of delta_q start, kind by kind. */
+   Sines and angles are those of long double, where their error leaves one float64; else the joint is `open`, and
+   left to Python. `joints` has the kinds of all, where their entries of q start, and where those of delta_q. Both
+   functions return how many are open. */
+
+#include <stdbool.h>
 
 #include "vectors.h"
 
@@ -106,19 +109,22 @@ static int base_moved(int64_t kind, const double *q, const double *delta_q, doub
     return sure;
 }
 
-int64_t plus(const int64_t *count, const int64_t *joints, const double *q, const double *delta_q, double *q_next)
+int64_t plus(const int64_t *count, const int64_t *joints, const double *q, const double *delta_q, double *q_next,
+             bool *open)
 {
-    int sure = 1;
+    int64_t left = 0;
     for (int64_t j = 0; j < *count; j++) {
         int64_t kind = joints[j], at = joints[*count + j], v = joints[2 * *count + j];
+        int sure = 1;
         if (kind == SCALAR)
             q_next[at] = q[at] + delta_q[v];
         else if (kind == CONTINUOUS)
-            sure &= heading(q + at, delta_q[v], q_next + at);
+            sure = heading(q + at, delta_q[v], q_next + at);
         else
-            sure &= base_moved(kind, q + at, delta_q + v, q_next + at);
+            sure = base_moved(kind, q + at, delta_q + v, q_next + at);
+        left += open[j] = !sure;
     }
-    return sure;
+    return left;
 }
 
 /* model/joints/floating, `change`, with model/screw, `rotation_between`. */
@@ -140,20 +146,21 @@ static int free_change(const double *q, const double *there, double *change)
     return sure;
 }
 
-int64_t change(const int64_t *count, const int64_t *joints, const double *q, const double *q_next, double *change)
+int64_t change(const int64_t *count, const int64_t *joints, const double *q, const double *q_next, double *change,
+               bool *open)
 {
-    int sure = 1;
+    int64_t left = 0;
     for (int64_t j = 0; j < *count; j++) {
         const double *here = q + joints[*count + j], *there = q_next + joints[*count + j];
         double *out = change + joints[2 * *count + j];
+        int sure = joints[j] != PLANAR;
         if (joints[j] == SCALAR)
             out[0] = there[0] - here[0];
         else if (joints[j] == CONTINUOUS)
-            sure &= angle_of(here[0] * there[1] - here[1] * there[0], here[0] * there[0] + here[1] * there[1], out);
+            sure = angle_of(here[0] * there[1] - here[1] * there[0], here[0] * there[0] + here[1] * there[1], out);
         else if (joints[j] == FLOATING)
-            sure &= free_change(here, there, out);
-        else
-            return 0;
+            sure = free_change(here, there, out);
+        left += open[j] = !sure;
     }
-    return sure;
+    return left;
 }
