@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.options import WIDTH
+from quasistatic_ref.files.clouds import KINDS
+from quasistatic_ref.files.mesh_files import MESHES
+from quasistatic_ref.files.scenario.other_files import OTHER_FILES
 from tests.closeness import assert_within
 from tests.extras import SCENARIOS
 from tests.files.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, urdf_of_text
@@ -134,3 +137,31 @@ def test_findings_are_listed_before_a_run(cli, inspected):
     assert "findings, before a run: - grave: block lies flat" in printed
     (found,) = inspected(*scene)["findings"]
     assert (found["name"], found["grave"]) == ("too-few-points", True)
+
+
+OTHERS = {
+    "m.obj": "a mesh; `quasistatic-ref body FILE` makes a body of it",
+    "m.STL": "a mesh; `quasistatic-ref body FILE`",
+    "m.dae": "a mesh; `quasistatic-ref body FILE`",
+    "c.csv": "a cloud; `quasistatic-ref body FILE`",
+    "c.pcd": "a cloud; `quasistatic-ref body FILE`",
+    "c.ply": "a mesh or a cloud; `quasistatic-ref body FILE`",
+    "run.npz": "a run, of which `extract` takes steps",
+    "r.urdf.xacro": "a xacro; `xacro FILE > robot.urdf`",
+    "step.json": "JSON; `solve` reads steps",
+    "problem.mat": "a quadratic program; `qp`",
+}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_a_file_of_another_kind_is_called_by_it_with_the_command_that_takes_it(tmp_path, cli, name):
+    """Whatever it holds, and however large it is."""
+    path = tmp_path / name
+    path.write_bytes(b"\x00" * 2**20 * (1 + (name == "m.obj")))
+    for command in ("inspect", "run"):
+        said = flat(cli(command, path, status=2).err)
+        assert f"{path}: is no scenario, but {OTHERS[name]}" in said
+
+
+def test_every_kind_that_body_reads_is_named():
+    assert {*MESHES, *KINDS} <= OTHER_FILES.keys()

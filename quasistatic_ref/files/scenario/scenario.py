@@ -36,6 +36,7 @@ from quasistatic_ref.files.scenario.checks import (
     run_fields,
 )
 from quasistatic_ref.files.scenario.contacts import contact_pairs, placed_shapes
+from quasistatic_ref.files.scenario.other_files import OTHER_FILES
 from quasistatic_ref.files.scenario.overrides import Changes, Origins, about_changes, apply_settings
 from quasistatic_ref.files.scenario.paths import folders_in
 from quasistatic_ref.files.scenario.scenario_table import FORMAT, TOP, VERSION
@@ -288,6 +289,8 @@ def load_scenario(
     path = scenario_path(name)
     origins = Origins(False)
     with about_file(path), about_changes(origins):
+        if path.is_file() and (kind := OTHER_FILES.get(path.suffix.lower())):
+            raise ScenarioError(f"is no scenario, but {kind}")
         tables = toml_read(path, ScenarioError, "a scenario, which is TOML")
         check_made(apply_settings(tables, settings, fields, origins), tables)
         check_sizes(tables)

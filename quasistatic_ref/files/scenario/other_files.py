@@ -1,0 +1,18 @@
+"""What the files are that people give in the place of a scenario, and what is done with them."""
+
+from quasistatic_ref.files.clouds import KINDS
+from quasistatic_ref.files.mesh_files import MESHES
+
+CLOUD = "a cloud; `quasistatic-ref body FILE` makes a body of it"
+OTHER_FILES = {
+    **dict.fromkeys(KINDS, CLOUD),
+    **dict.fromkeys(MESHES, "a mesh; `quasistatic-ref body FILE` makes a body of it"),
+    ".ply": "a mesh or a cloud; `quasistatic-ref body FILE` makes a body of it",
+    ".npz": "a run, of which `extract` takes steps, or a cloud, of which `body` makes a body",
+    ".xacro": "a xacro; `xacro FILE > robot.urdf` makes a URDF of it",
+    ".urdf": "a robot; `inspect` shows it, and a body of a scenario names it as its `urdf`",
+    ".json": "JSON; `solve` reads steps, `verify` solutions, `qp` programs",
+    ".mat": "a quadratic program; `qp` proves its optimum",
+    ".parquet": "a set of quadratic programs; `qp` proves their optima",
+}
+"""Extension -> what such a file is."""
