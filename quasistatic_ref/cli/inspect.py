@@ -18,6 +18,7 @@ from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
+from quasistatic_ref.files.urdf.file import urdf_tree
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.parts import is_there
 from quasistatic_ref.simulate.finding import severity
@@ -39,8 +40,10 @@ def run(options: argparse.Namespace) -> int:
     """Print the content of a URDF or a scenario."""
     if Path(options.file).suffix.lower() in (".urdf", ".xml"):
         path = Path(options.file)
-        body = Body(body_name(path), path, actuated="all", package_dirs=options.roots)
-        record = {"read_as": READ_AS, **system_record(System([body]))}
+        missing: list[str] = []
+        tree = urdf_tree(path, options.roots, missing)
+        body = Body(body_name(path), tree, actuated="all")
+        record = {"read_as": READ_AS, "missing": missing, **system_record(System([body]))}
     else:
         record = scenario_record(load_scenario(options.file, shared.scenario_settings(options)))
     if options.json:
@@ -148,6 +151,10 @@ def _print(record: dict[str, Any]) -> None:
     if "read_as" in record:
         strict = "a scenario checks a free body more strictly"
         print(f"this URDF was read with {record['read_as']}; {strict}")
+    missing = record.get("missing", [])
+    _print_list("meshes that are not there, whose shapes are left out", missing)
+    if missing:
+        print()
     print(f"q = [q_a; q_u]: {record['n_a']} actuated, {record['n_u']} un-actuated coordinates")
     rows: list[tuple[str, ...]] = [("coordinate", "unit", "actuated", "K_q")]
     for c in record["coordinates"]:

@@ -18,6 +18,8 @@ FileMesh = Callable[[Path, str], Mesh]
 MESHES = (".stl", ".obj", ".off", ".ply", ".gltf", ".glb", ".dae")
 """Extensions of files that ``optional/readers`` reads."""
 PACKAGE = "package://"
+MODEL = "model://"
+"""Gazebo's word for a package, which URDFs of iCubs have."""
 FILE = "file://"
 LARGEST_MESH = 16 * 2**20
 """Largest mesh [bytes]."""
@@ -25,6 +27,10 @@ LARGEST_MESH = 16 * 2**20
 
 MOST_ABOVE = 8
 """Folders above a file in which its package is looked for, where no repository bounds them."""
+
+
+class MissingMesh(ModelError):
+    """A mesh that a file names is not there."""
 
 
 def mesh_path(
@@ -35,7 +41,7 @@ def mesh_path(
     Parameters
     ----------
     uri : str
-        ``package://NAME/PATH``, looked for as NAME/PATH in each of the package folders and in the
+        ``package://NAME/PATH``, or ``model://NAME/PATH``, looked for as NAME/PATH in each of the package folders and in the
         folders above `folder`, up to that of its repository, then as PATH in those that are called
         NAME, then as PATH in each; or a path relative to `folder`, with ``file://`` before it or
         without, which may lead into a folder
@@ -48,8 +54,10 @@ def mesh_path(
 
     Raises
     ------
+    MissingMesh
+        If there is no such file.
     ModelError
-        If there is no such file, its kind is unknown, or it lies neither in `folder` nor in
+        If its kind is unknown, or it lies neither in `folder` nor in
         a folder that it was looked for in after symbolic links are resolved: what is loaded is
         never a surprise. Or if it is too large.
     """
@@ -57,8 +65,9 @@ def mesh_path(
         hint = suggestion(Path(uri).suffix.lower(), MESHES)
         raise ModelError(f"is not a known kind of mesh{hint}", value=uri)
     packages = [Path(folder_name) for folder_name in package_dirs]
-    if uri.startswith(PACKAGE):
-        inside = uri.removeprefix(PACKAGE).lstrip("/")
+    is_of_package = uri.startswith((PACKAGE, MODEL))
+    if is_of_package:
+        inside = uri.removeprefix(PACKAGE).removeprefix(MODEL).lstrip("/")
         name, _, below = inside.partition("/")
         above = _repository(folder.resolve())
         places = [package / inside for package in [*packages, *above]]
@@ -66,7 +75,9 @@ def mesh_path(
         places += [parent / below for parent in above]
         packages += above
     elif "://" in uri.removeprefix(FILE):
-        raise ModelError("must be package://NAME/PATH or a relative path", value=uri)
+        raise ModelError(
+            "must be package://NAME/PATH, model://NAME/PATH or a relative path", value=uri
+        )
     else:
         relative = uri.removeprefix(FILE)
         places = [folder / relative]
@@ -78,9 +89,9 @@ def mesh_path(
     if path is None:
         where = ", ".join(str(package) for package in packages) or str(folder.resolve())
         remedy = "put the mesh there, or write its path from there"
-        if uri.startswith(PACKAGE):
+        if is_of_package:
             remedy = "--root FOLDER names another"
-        raise ModelError(f"no such file (looked for in {where}; {remedy})", value=uri)
+        raise MissingMesh(f"no such file (looked for in {where}; {remedy})", value=uri)
     if not any(path.is_relative_to(allowed.resolve()) for allowed in [folder, *packages]):
         problem = (
             f"leads to {path}, outside the folder of this file and of package_dirs; move the "

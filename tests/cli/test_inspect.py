@@ -11,7 +11,16 @@ from quasistatic_ref.files.mesh_files import MESHES
 from quasistatic_ref.files.scenario.other_files import OTHER_FILES
 from tests.closeness import assert_within
 from tests.extras import SCENARIOS
-from tests.files.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, urdf_of_text
+from tests.files.urdf.urdf_texts import (
+    CHAIN,
+    collision,
+    inertial,
+    joint,
+    link,
+    mimic,
+    robot,
+    urdf_of_text,
+)
 from tests.pages import flat
 from tests.scenes import RAIL
 
@@ -165,3 +174,27 @@ def test_a_file_of_another_kind_is_called_by_it_with_the_command_that_takes_it(t
 
 def test_every_kind_that_body_reads_is_named():
     assert {*MESHES, *KINDS} <= OTHER_FILES.keys()
+
+
+def test_a_robot_whose_meshes_are_not_there_is_shown_and_they_are_named(tmp_path, cli, inspected):
+    """A mesh that may not be read, or is spoilt, is refused."""
+    meshes = [f'<mesh filename="{uri}"/>' for uri in ("model://arm/a.obj", "meshes/b.stl")]
+    arm = robot(
+        link("stand", "".join(map(collision, meshes))), link("arm", collision('<box size="1 1 1"/>')),
+        joint("turn", "stand", "arm"),
+    )  # fmt: skip
+    path = urdf_of_text(tmp_path, arm, "arm.urdf")
+    record = inspected(path)
+    where = "link[stand].collision[{}].mesh.filename: no such file (looked for in "
+    assert [one.startswith(where.format(i)) for i, one in enumerate(record["missing"])] == [
+        True
+    ] * 2
+    assert [c["name"] for c in record["coordinates"]] == ["arm/turn"]
+    assert [len(one["shapes"]) for one in record["links"]] == [0, 1]
+    assert [one["mass"] for one in record["links"]] == [2, 2]
+    said = flat(cli("inspect", path).out)
+    assert "meshes that are not there, whose shapes are left out:" in said
+    assert "model://arm/a.obj" in said
+    urdf_of_text(tmp_path, "solid", "b.stl")
+    spoilt = urdf_of_text(tmp_path, arm.replace("meshes/", ""), "arm.urdf")
+    assert "mesh: is cut off" in flat(cli("inspect", spoilt, status=2).err)

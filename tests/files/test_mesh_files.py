@@ -45,10 +45,13 @@ def test_a_mesh_of_a_urdf_is_loaded_scaled_and_noted(tmp_path):
     )
 
 
-def test_a_package_address_is_looked_for_in_package_dirs(tmp_path):
+@pytest.mark.parametrize("scheme", ["package", "model"])
+def test_a_package_address_is_looked_for_in_package_dirs(tmp_path, scheme):
     expected = text_written(tmp_path / "arm/meshes/a.obj", TETRAHEDRON)
-    found = mesh_path("package://arm/meshes/a.obj", tmp_path / "arm", (tmp_path,))
+    found = mesh_path(f"{scheme}://arm/meshes/a.obj", tmp_path / "elsewhere", (tmp_path,))
     assert found == expected.resolve()
+    with pytest.raises(ModelError, match=f"no such file .*{scheme}://arm/b.obj"):
+        mesh_path(f"{scheme}://arm/b.obj", tmp_path)
 
 
 @cases("uri", {"relative": "file://a.obj", "absolute": "file://{root}/a.obj"})
@@ -128,8 +131,11 @@ OUTSIDE = {
     "absolute": ("{root}/secret.obj", "leads to .*, outside the folder of this file"),
     "link": ("link.obj", "leads to .*, outside the folder of this file"),
     "a file anywhere": ("file://{root}/secret.obj", "leads to .*, outside the folder of this file"),
-    "on the web": ("https://host/a.obj", "must be package://NAME/PATH or a relative path"),
-    "twice": ("file://https://host/a.obj", "must be package://NAME/PATH or a relative path"),
+    "on the web": ("https://host/a.obj", "must be package://NAME/PATH, model://NAME/PATH or a rel"),
+    "twice": (
+        "file://https://host/a.obj",
+        "must be package://NAME/PATH, model://NAME/PATH or a rel",
+    ),
     "no package": ("package://arm/b.obj", r"no such file \(looked for in .*home.*--root FOLDER"),
     "missing": ("file://b.obj", "no such file .*home; put the mesh there, or write its path"),
     "kind": ("a.blend", "is not a known kind of mesh; known: .dae, .glb"),

@@ -80,7 +80,11 @@ def urdf_text(source: str | PathLike[str]) -> UrdfText:
     return UrdfText(path, text_read(path, ModelError, LARGEST_FILE))
 
 
-def urdf_tree(source: str | PathLike[str], package_dirs: Sequence[str | Path] = ()) -> Tree:
+def urdf_tree(
+    source: str | PathLike[str],
+    package_dirs: Sequence[str | Path] = (),
+    missing: list[str] | None = None,
+) -> Tree:
     """The tree of a URDF file, or of a string that is a URDF.
 
     pinocchio's own reader reports trouble to standard error and carries on without the collision
@@ -92,6 +96,9 @@ def urdf_tree(source: str | PathLike[str], package_dirs: Sequence[str | Path] = 
         As of :func:`urdf_text`.
     package_dirs : sequence of str or Path
         Where ``package://`` URIs are looked for.
+    missing : list of str, optional
+        Sentences on meshes that are not there are added to it, whose shapes are left out; by
+        default they are refused.
 
     Raises
     ------
@@ -101,10 +108,10 @@ def urdf_tree(source: str | PathLike[str], package_dirs: Sequence[str | Path] = 
     """
     urdf = urdf_text(source)
     with about_file(urdf.path):
-        return _tree(urdf, package_dirs)
+        return _tree(urdf, package_dirs, missing)
 
 
-def _tree(urdf: UrdfText, package_dirs: Sequence[str | Path]) -> Tree:
+def _tree(urdf: UrdfText, package_dirs: Sequence[str | Path], missing: list[str] | None) -> Tree:
     robot = xml_root(urdf.text)
     if robot.tag != "robot":
         is_mujoco = robot.tag == "mujoco"
@@ -145,6 +152,7 @@ def _tree(urdf: UrdfText, package_dirs: Sequence[str | Path]) -> Tree:
         {link: collisions[link] for link in order},
         lambda uri: urdf.mesh_path(uri, package_dirs),
         top.notes,
+        missing,
     )
     return Tree(
         path=urdf.path,

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.files.mesh_files import hull_note, hull_of_loaded, loaded_mesh
+from quasistatic_ref.files.mesh_files import MissingMesh, hull_note, hull_of_loaded, loaded_mesh
 from quasistatic_ref.files.trees import is_own_name
 from quasistatic_ref.files.urdf.geometry import FileMesh, FileShape
 from quasistatic_ref.formats.together import once
@@ -39,6 +39,7 @@ def link_shapes(
     collisions: Mapping[str, Sequence[Collision]],
     mesh_path: Callable[[str], Path],
     notes: list[str],
+    missing: list[str] | None = None,
 ) -> dict[str, tuple[LinkShape, ...]]:
     """The shapes of each link.
 
@@ -50,6 +51,8 @@ def link_shapes(
         The file that a mesh's URI means.
     notes : list of str
         What becomes of meshes is added to it.
+    missing : list of str, optional
+        Why a mesh is not there is added to it, and its shape is left out; else it is refused.
 
     Raises
     ------
@@ -66,8 +69,14 @@ def link_shapes(
             name = str(one.name) if is_own else f"{link}#{number}"
             shape: Shape | None
             if isinstance(one.shape, FileMesh):
-                shape, note = _hull(name, one.where, one.shape, mesh_path)
-                notes.append(note)
+                try:
+                    shape, note = _hull(name, one.where, one.shape, mesh_path)
+                    notes.append(note)
+                except MissingMesh as error:
+                    if missing is None:
+                        raise
+                    missing.append(str(error))
+                    continue
             else:
                 shape = one.shape
             if shape is not None:

@@ -217,7 +217,10 @@ def _motion(model: pin.Model, joint: int, where: str) -> tuple[str, Array, Mimic
     name = here.shortname()
     kind = KINDS.get(name, "")
     if not kind and name != MIMIC:
-        problem = f"is a {name}; known are joints of one axis, spherical ones and mimics"
+        problem = (
+            f"is a {name}; known are joints of one axis, spherical ones and mimics: make it "
+            "joints of one axis, each on a body without mass that the one before it carries"
+        )
         if name in BASES:
             problem = (
                 f"is a {name} that is not at the world's origin, or does not carry all of the "

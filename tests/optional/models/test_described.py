@@ -311,6 +311,10 @@ REFUSED = {
         lambda: (hand_made(pin.JointModelTranslation()),),
         r"joint\[z\]: is a JointModelTranslation; known are joints of one axis",
     ),
+    "a composite": (
+        lambda: (hand_made(pin.JointModelComposite(pin.JointModelRX())),),
+        r"joint\[z\]: is a JointModelComposite; .* make it joints of one axis, each on a body with",
+    ),
     "a planar joint in the middle": (
         lambda: (hand_made(pin.JointModelRX(), pin.JointModelPlanar()),),
         r"joint\[y\]: is a JointModelPlanar that is not at the world's origin, or does not carry",
