@@ -180,7 +180,8 @@ def test_a_robot_whose_meshes_are_not_there_is_shown_and_they_are_named(tmp_path
     """A mesh that may not be read, or is spoilt, is refused."""
     meshes = [f'<mesh filename="{uri}"/>' for uri in ("model://arm/a.obj", "meshes/b.stl")]
     arm = robot(
-        link("stand", "".join(map(collision, meshes))), link("arm", collision('<box size="1 1 1"/>')),
+        link("stand", "".join(map(collision, meshes))),
+        link("arm", collision('<box size="1 1 1"/>')),
         joint("turn", "stand", "arm"),
     )  # fmt: skip
     path = urdf_of_text(tmp_path, arm, "arm.urdf")

@@ -338,6 +338,21 @@ LIES = {
     "nothing placed": ("a.gltf", plain_gltf(nodes=[{}]), "places none of the triangles that it"),
     "a longer PLY": ("a.ply", PLY + b"x", "holds more than its header says"),
     "ten parts": ("a.dae", of_ten(COLLADA.encode()), "places more than 150 vertices and triangles"),
+    "an unknown extension": ("a.gltf", plain_gltf(extensionsRequired=["ACME_bent"]),
+                             "extensionsRequired: is an extension that is not read.*ACME_bent"),
+    "instances": ("a.gltf", plain_gltf(extensionsRequired=["EXT_mesh_gpu_instancing"]),
+                  "extensionsRequired: is an extension .*'EXT_mesh_gpu_instancing'"),
+    "meshopt": ("a.gltf", plain_gltf(bufferViews=[{"extensions": {"EXT_meshopt_compression": {}}}]),
+                r"bufferViews\[0\]: is compressed by EXT_meshopt_compression; export it without"),
+    "a buffer that only meshopt fills": (
+        "a.gltf", plain_gltf(buffers=[{"extensions": {"EXT_meshopt_compression": {}}}]),
+        r"buffers\[0\]: is compressed by EXT_meshopt_compression"),
+    "weights of a mesh": ("a.gltf", plain_gltf(meshes=[{"primitives": [], "weights": [0, 1.0]}]),
+                          r"meshes\[0\].weights: are of morph targets and not 0"),
+    "weights of a node": ("a.gltf", plain_gltf(nodes=[{"mesh": 0, "weights": [0.5]}]),
+                          r"nodes\[0\].weights: are of morph targets and not 0"),
+    "a skew": ("a.dae", COLLADA.replace("<node>", '<node id="n"><skew>45 1 0 0 0 1 0</skew>'),
+               r"node\[n\]: has a skew, which is not read"),
     "far away": ("a.obj", TETRAHEDRON.replace("1 0 0", "1e200 0 0"), "must be at most 1e.15 m"),
 }  # fmt: skip
 
@@ -394,6 +409,31 @@ def test_a_vertex_that_no_triangle_uses_is_in_no_hull(tmp_path):
     (tmp_path / "a.gltf").write_bytes(plain_gltf())
     (note,) = urdf_of_mesh(tmp_path, "a.gltf").notes
     assert "its y axis is up; it is not turned, rpy = [1.5708, 0, 0]" in note
+
+
+LOOKS = {
+    "asset": {"version": "2.0"},
+    "extensionsUsed": ["KHR_materials_unlit", "ACME_bent"],
+    "extensionsRequired": ["KHR_materials_unlit", "KHR_texture_transform"],
+}
+NOTED = {
+    "looks alone": ("a.gltf", plain_gltf(**LOOKS), "its y axis is up; it is not turned, rpy"),
+    "weights of 0": ("a.gltf", plain_gltf(nodes=[{"mesh": 0, "weights": [0, 0.0]}]), "y axis"),
+    "instances that are not required": (
+        "a.gltf", plain_gltf(nodes=[{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {}}}]),
+        "instances by EXT_mesh_gpu_instancing are left out",
+    ),
+    "a skin": ("a.gltf", plain_gltf(nodes=[{"mesh": 0, "skin": 0}]), "its skin is not applied"),
+    "x up": ("a.dae", COLLADA.replace("Z_UP", "X_UP"), "x axis is up; .* rpy = [0, -1.5708, 0]"),
+}  # fmt: skip
+
+
+@cases("name, content, words", NOTED)
+def test_what_is_read_otherwise_than_meant_is_noted(tmp_path, name, content, words):
+    (tmp_path / name).write_bytes(bytes_of(content))
+    mesh = loaded_mesh(tmp_path / name)
+    assert len(mesh.triangles) == 4
+    assert re.search(words.replace("[", r"\["), mesh.note)
 
 
 @pytest.mark.parametrize(("name", "package"), [("a.dae", "collada")])

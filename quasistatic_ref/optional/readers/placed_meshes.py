@@ -31,6 +31,13 @@ PART = 500
 TRIANGLE = 6
 """A triangle of COLLADA takes the memory of so many vertices."""
 UP = "its y axis is up; it is not turned, rpy = [1.5708, 0, 0] stands it up"
+X_UP = "its x axis is up; it is not turned, rpy = [0, -1.5708, 0] stands it up"
+LOOKS_OF_GLTF = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_xmp")
+"""How extensions of glTF begin that move nothing."""
+COUNTED = "KHR_mesh_quantization"
+"""One that is read: whole numbers as coordinates, which may not be normalized."""
+INSTANCES = "EXT_mesh_gpu_instancing"
+MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 GLB = 12
 """Bytes of a GLB before its chunks."""
 COMPONENTS = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
@@ -119,6 +126,7 @@ def _gltf(path: Path, content: bytes) -> _Stated:
     if content[:4] == b"glTF":
         content, chunk = _glb(content)
     tree = json.loads(text_of(content, path, ModelError))
+    _check_extensions(tree)
     for name in ("buffers", "bufferViews", "accessors", "meshes", "nodes"):
         if (count := len(tree.get(name, ()))) > MOST_ELEMENTS:
             raise ModelError(f"are more than {MOST_ELEMENTS}", field=name, value=count)
@@ -153,7 +161,30 @@ def _gltf(path: Path, content: bytes) -> _Stated:
         raise ModelError("must stand in one place each", field="nodes")
     with about_field("nodes"):
         count = _placed_triangles(parts, [f"nodes[{one}]" for one in top])
-    return _Stated("gltf", json.dumps(tree).encode(), count, UP)
+    notes = [UP]
+    if any(INSTANCES in node.get("extensions", ()) for node in nodes):
+        notes.append(f"instances by {INSTANCES} are left out")
+    if any("skin" in node for node in nodes):
+        notes.append("its skin is not applied")
+    return _Stated("gltf", json.dumps(tree).encode(), count, "; ".join(notes))
+
+
+def _check_extensions(tree: Mapping[str, Any]) -> None:
+    """Refuse what changes the shape and is not read: required extensions, weights of morphs."""
+    for name in tree.get("extensionsRequired", ()):
+        if not (name == COUNTED or name.startswith(LOOKS_OF_GLTF)):
+            problem = "is an extension that is not read; export it without"
+            raise ModelError(problem, field="extensionsRequired", value=name)
+    for part in ("buffers", "bufferViews"):
+        for number, one in enumerate(tree.get(part, ())):
+            if compressed := [name for name in MESHOPT if name in one.get("extensions", ())]:
+                problem = f"is compressed by {compressed[0]}; export it without"
+                raise ModelError(problem, field=f"{part}[{number}]")
+    for part in ("meshes", "nodes"):
+        for number, one in enumerate(tree.get(part, ())):
+            if any(one.get("weights", ())):
+                problem = "are of morph targets and not 0; apply them, and export the shape"
+                raise ModelError(problem, field=f"{part}[{number}].weights", value=one["weights"])
 
 
 def _glb(content: bytes) -> tuple[bytes, bytes]:
@@ -245,6 +276,9 @@ def _collada(_: Path, content: bytes) -> _Stated:
             size = sum(_float_count(array) for array in geometry.iter("source"))
             parts[geometry] = _Part(size // 3 + TRIANGLE * triangles, triangles, ())
     for node in root.iter("node"):
+        if node.find("skew") is not None:
+            problem = "has a skew, which is not read; apply it, and export the shape"
+            raise ModelError(problem, field=f"node[{node.get('id')}]")
         placed = [_target(one) for one in node if one.tag in ("instance_geometry", "instance_node")]
         below = [named.get(target, target) for target in placed]
         parts[node] = _Part(0, 0, [*node.findall("node"), *below])
@@ -257,8 +291,8 @@ def _collada(_: Path, content: bytes) -> _Stated:
     with malformed("a mesh", pycollada.common.DaeError):
         # What trimesh leaves out is an error here.
         pycollada.Collada(BytesIO(content), ignore=ignored)
-    up = root.findtext("asset/up_axis") == "Y_UP"
-    return _Stated("dae", content, count, UP if up else "")
+    up = {"Y_UP": UP, "X_UP": X_UP}.get(root.findtext("asset/up_axis", "").strip(), "")
+    return _Stated("dae", content, count, up)
 
 
 def _target(element: Element) -> str:
