@@ -24,7 +24,7 @@ LARGEST_TOML = 2**20
 """Largest TOML file [bytes]."""
 MOST_PARTS = 10
 """Most parts of a dotted key: a parser of TOML takes memory with the square of their number."""
-_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
+_PART = r"""(?:[\w-]+|"(?:[^"\\\n]|\\[^\n])*"|'[^'\n]*')"""
 LONG_KEY = re.compile(rf"(?<![\w.-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{MOST_PARTS}}}", re.ASCII)
 PARTIAL = ".partial"
 """End of the names of files that are being written."""

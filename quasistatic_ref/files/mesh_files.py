@@ -43,8 +43,8 @@ def mesh_path(
     uri : str
         ``package://NAME/PATH``, or ``model://NAME/PATH``, looked for as NAME/PATH in each of the
         package folders and in the folders above `folder`, up to that of its repository, then as
-        PATH in those that are called NAME, then as PATH in each; or a path relative to `folder`, with ``file://`` before it or
-        without, which may lead into a folder
+        PATH in those that are called NAME, then as PATH in each; or a path relative to `folder`,
+        with ``file://`` before it or without, which may lead into a folder
         beside it, and anywhere in the package (``package.xml``) or the repository that it lies in.
     folder : Path
         Of the file that the URI stands in.

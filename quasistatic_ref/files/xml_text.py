@@ -9,7 +9,8 @@ from quasistatic_ref.errors import ModelError
 DEEPEST = 100
 """Most elements in one another; other readers of XML recurse, and end the process."""
 MOST_ELEMENTS = 100_000
-"""Most elements of a file: each takes some 200 bytes, and a few letters of the file."""
+"""Most elements of a file, and most attributes: each takes some 200 bytes, and a few letters of the
+file."""
 LONGEST_WORD = 4000
 """Most characters of the name of an element or of an attribute, and of what an attribute of a URDF
 says: paths have fewer."""
@@ -38,16 +39,20 @@ def xml_root(text: str) -> Element:
     parser.StartDoctypeDeclHandler = refusal
     depth = 0
     count = 0
+    said = 0
 
     def start(name: str, attributes: dict[str, str]) -> None:
-        nonlocal depth, count
+        nonlocal depth, count, said
         depth += 1
         count += 1
+        said += len(attributes)
         problem = ""
         if depth > DEEPEST:
             problem = f"is nested deeper than {DEEPEST} elements"
         elif count > MOST_ELEMENTS:
             problem = f"has more than {MOST_ELEMENTS} elements"
+        elif said > MOST_ELEMENTS:
+            problem = f"has more than {MOST_ELEMENTS} attributes"
         elif max(map(len, (name, *attributes))) > LONGEST_WORD:
             problem = f"has a name of more than {LONGEST_WORD} characters"
         if problem:

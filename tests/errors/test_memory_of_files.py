@@ -110,6 +110,9 @@ def test_elements_are_counted_while_they_are_read(monkeypatch):
     assert len(list(xml_text.xml_root(f"<a>{'<b/>' * 99}</a>"))) == 99
     with pytest.raises(InputError, match=r"^line 2: has more than 100 elements"):
         xml_text.xml_root(f"<a>\n{'<b/>' * 100}{'<' * 1000}")
+    many = " ".join(f'a{k}=""' for k in range(99))
+    with pytest.raises(InputError, match=r"^line 2: has more than 100 attributes"):
+        xml_text.xml_root(f'<a b="">\n<c {many} d=""/></a>')
     for long in ("x" * 4001, f'a {"x" * 4001}=""'):
         with pytest.raises(InputError, match="has a name of more than 4000 characters"):
             xml_text.xml_root(f"<{long}/>")

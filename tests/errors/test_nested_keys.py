@@ -2,6 +2,7 @@
 
 import tracemalloc
 
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -13,7 +14,8 @@ LONGEST = 2000
 MEMORY = 16 << 20
 """Most bytes that a scenario of at most 40 kB may take."""
 PART = st.sampled_from(
-    ("a", "b", "contacts", "bodies", "floor", "mu_v", '"quoted.name"', "'literal'", '""', "0")
+    ("a", "b", "contacts", "bodies", "floor", "mu_v", '"quoted.name"', "'literal'", '""', "0",
+     r'"\""', r'"\\"', r'"a\u0022.b"', r"'\'")
 )  # fmt: skip
 DEPTH = st.one_of(st.integers(1, 12), st.sampled_from((100, 1200, 5000)))
 
@@ -73,3 +75,23 @@ def test_nested_keys_of_a_change_are_taken_or_refused_in_a_sentence(tmp_path_fac
         sentence = str(error)
         assert len(sentence) <= LONGEST
         assert "\n" not in sentence
+
+
+@pytest.mark.parametrize("part", [r'"\""', r'"\\"', r"'\'", r'"\"."'])
+def test_a_key_of_quoted_parts_is_counted_as_one_of_plain_parts(tmp_path, part):
+    path = tmp_path / "escaped.toml"
+    path.write_text(f"{'.'.join([part] * 1200)} = 1\n")
+    with pytest.raises(InputError, match=r"line 1: a key has more than 10 parts"):
+        load_scenario(path)
+    change = f"gravity={{{'.'.join([part] * 1200)} = 1}}"
+    with pytest.raises(InputError, match="gravity"):
+        load_scenario("sphere_spin", [change])
+
+
+def test_a_value_of_python_may_be_nested_as_deep_as_tables_are():
+    deep = 1.0
+    for _ in range(900):
+        deep = [deep]
+    with pytest.raises(InputError, match=r"gravity: .*nested") as refused:
+        load_scenario("sphere_spin", {"gravity": deep})
+    assert len(str(refused.value)) < LONGEST

@@ -26,6 +26,9 @@ from quasistatic_ref.simulate.finding import check_finding_name
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.tolerances import LARGE
 
+DEEPEST = 100
+"""Most tables and lists in one another; none of a scenario are deeper than ten."""
+
 WELDED: Final = 1e-12
 """Largest relative velocity, per unit of any coordinate [-], of two links that count as one.
 
@@ -129,8 +132,8 @@ def check_made(made: Mapping[tuple[str, str], str], tables: dict[str, Any]) -> N
             raise ScenarioError(f"{kind}.{name} is no table of the scenario{near}", field=key)
 
 
-def check_sizes(value: Any, name: str = "") -> None:
-    """Refuse numbers so large that their products leave the range of float64.
+def check_sizes(value: Any, name: str = "", depth: int = 0) -> None:
+    """Refuse numbers so large that their products leave the range of float64, and deep tables.
 
     Parameters
     ----------
@@ -138,17 +141,23 @@ def check_sizes(value: Any, name: str = "") -> None:
         As parsed. What is not finite is left to the field's own reader.
     name : str
         Dotted name of the value.
+    depth : int
+        In how many tables and lists it stands.
 
     Raises
     ------
     ScenarioError
     """
+    if depth > DEEPEST:
+        problem = f"is nested deeper than {DEEPEST} tables and lists"
+        raise ScenarioError(problem, field=name.partition(".")[0].partition("[")[0])
     if isinstance(value, dict):
         for key, inner in value.items():
-            check_sizes(inner, f"{name}.{key}" if name else key)
+            check_sizes(inner, f"{name}.{key}" if name else key, depth + 1)
     elif isinstance(value, list):
         for i, inner in enumerate(value):
-            check_sizes(inner, name if isinstance(inner, int | float) else f"{name}[{i}]")
+            place = name if isinstance(inner, int | float) else f"{name}[{i}]"
+            check_sizes(inner, place, depth + 1)
     elif isinstance(value, int | float) and LARGE < abs(value) < float("inf"):
         raise ScenarioError(f"must be at most {LARGE:g}", field=name, value=value)
 
