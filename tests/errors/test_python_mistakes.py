@@ -8,6 +8,7 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError, QuasistaticError
+from quasistatic_ref.formats.quoting import shown_value
 from quasistatic_ref.simulate.limits import Limits
 from tests.closeness import assert_same
 from tests.files.urdf.urdf_texts import collision, inertial, link, robot, urdf_of_text
@@ -304,6 +305,12 @@ SHOWN = {
     ),
     "<StepProblem of 12 unknowns, 16 rows: h = 0.01 s, cone pyramid>": qr.StepProblem(STEP),
     "<Named of finger/base, block/base>": SYSTEM.named,
+    "<ContactPair f: mu_v = 0.3, mu_omega = 0 m, 4 rows, k = 4>": pair(),
+    "<Floating finger/base: actuated, 6 coordinates>": SYSTEM.joints[0],
+    "<Kinematics of 2 links>": SYSTEM.kinematics(Q),
+    "<StandardForm of 12 variables, 16 rows>": qr.standard_form(STEP),
+    "<ExactQP: exact, 1 active row, obj -1.5152>": qr.exact_qp([[1.0]], [-2.0152], [[1.0]], [1.0]),
+    f"<SystemState at q = {shown_value(Q.tolist())}>": SYSTEM.at(Q),
     "<ClosestPoints of 4 contacts, phi from 0 m>": SIMULATOR.step(Q, Q_A).points,
 }
 
