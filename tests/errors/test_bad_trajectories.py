@@ -125,7 +125,8 @@ CAUSES = {
         {"header": npy(np.full(100_000, 91, dtype=np.uint8))},
         f"{NOT_ONE}: its header is not JSON",
     ),
-    "a later version": ({"header": {"version": 2}}, "reads 1 (got 2)"),
+    "an earlier version": ({"header": {"version": 1}}, "reads 2 (got 1)"),
+    "a later version": ({"header": {"version": 3}}, "reads 2 (got 3)"),
     "a coordinate less": (
         {"header": {"coordinates": ["x"]}}, "coordinates: must have ",
     ),
