@@ -12,21 +12,21 @@ from quasistatic_ref.files.content import writable_folder
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Keep other studies from writing into a folder, which is made if it is not there.
+    """Keep other studies and sweeps from writing into a folder, which is made if it is not there.
 
     The system holds the lock, and lets go when the process ends, however it ends.
 
     Raises
     ------
     InputError
-        If another study writes into the folder, or it cannot be made.
+        If another one writes into the folder, or it cannot be made.
     """
     descriptor = os.open(writable_folder(folder), os.O_RDONLY)
     try:
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            problem = "is being written by another study; wait for its end"
+            problem = "is being written by another process; wait for its end"
             raise InputError(problem, file=folder) from None
         yield
     finally:

@@ -1,12 +1,26 @@
-"""What Linux knows of the memory of a process and of its children; on other systems nothing."""
+"""Processes: how one ends, and what Linux knows of the memory of one and of its children."""
 
 import contextlib
 import os
+import signal
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 PROC = Path("/proc")
 PAGE = os.sysconf("SC_PAGE_SIZE")
+
+
+@contextlib.contextmanager
+def ends_in_order() -> Iterator[None]:
+    """A block that SIGTERM and SIGHUP end as an error does: what it started is ended with it."""
+    signals = [signal.SIGTERM, signal.SIGHUP]
+    before = [signal.signal(one, lambda number, _: sys.exit(128 + number)) for one in signals]
+    try:
+        yield
+    finally:
+        for one, handler in zip(signals, before, strict=True):
+            signal.signal(one, handler)
 
 
 def descendants(pid: int) -> list[int]:

@@ -3,6 +3,7 @@
 import csv
 import io
 import math
+import time
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
@@ -18,9 +19,10 @@ from quasistatic_ref.files.option_change import OptionChange
 from quasistatic_ref.files.resources import scenario_path
 from quasistatic_ref.files.scenario.overrides import parsed
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.files.trajectory import save_trajectory
+from quasistatic_ref.files.trajectory import load_trajectory, save_trajectory
 from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.formats.quoting import no_formula
+from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.parallel import workers as workers_here
 from quasistatic_ref.optional.doctor.telling import by_name, numbers_of
@@ -61,8 +63,9 @@ def simulate_many(
         Dotted field of the scenario -> its values [the field's unit]; of several fields with the
         same values, their names with commas between.
     folder : str or Path
-        For ``runs.csv``, one line a run, also after an interruption, and ``runs/*.npz``, one light
-        trajectory a run, numbered in the order of the values. It has no runs yet.
+        For ``runs.csv``, one line a run, written as runs end, and ``runs/*.npz``, one light
+        trajectory a run, numbered in the order of the values. Runs of this sweep that are there
+        already are kept: one that was ended goes on.
     settings : sequence of str
         Changes of the scenario that all runs have, as :func:`.load_scenario` takes them.
     workers : int, optional
@@ -82,8 +85,8 @@ def simulate_many(
     Raises
     ------
     InputError
-        If a field, a value or any of the scenarios is unusable, or the folder holds runs: before
-        anything is written.
+        If a field, a value or any of the scenarios is unusable, or the folder holds runs of
+        another sweep, or is written into by one: before anything is written.
     """
     grid = {name: _value_list(name, values) for name, values in variations.items()}
     count = math.prod(map(len, grid.values()))
@@ -102,25 +105,87 @@ def simulate_many(
     with here as pool:
         # An error of any of the scenarios is raised here.
         list((pool.map if pool else map)(check_scenario, [source] * count, changes))
-        folder = _new_folder(Path(folder))
+        folder = writable_folder(folder)
         files = [f"{RUNS}/{path.stem}_{k:0{len(str(count - 1))}}.npz" for k in range(count)]
-        done: dict[str, Row] = {}
-        with progress_bar(total=count, unit="run", shown=progress) as bar:
+        tasks = [(file, source, one) for file, one in zip(files, changes, strict=True)]
+        with locked(folder), progress_bar(total=count, unit="run", shown=progress) as bar:
+            table = _Table(folder, dict(zip(files, points, strict=True)))
+            table.done |= _kept(folder, tasks)
+            bar.update(len(table.done))
+            left = [task for task in tasks if task[0] not in table.done]
             try:
-                tasks = [(file, source, one) for file, one in zip(files, changes, strict=True)]
-                for file, trajectory, row in results(pool, run_of, tasks):
+                for file, trajectory, row in results(pool, run_of, left):
                     save_trajectory(folder / file, trajectory)
-                    done[file] = row
+                    table.add(file, row)
                     bar.update()
             finally:  # what is done so far, if it is interrupted
-                rows = [
-                    {"run": file, "values": point, **done[file]}
-                    for file, point in zip(files, points, strict=True)
-                    if file in done
-                ]
-                if rows:
-                    text_written(folder / TABLE, _table(rows))
-    return rows
+                table.write()
+    return table.rows
+
+
+class _Table:
+    """The table of the runs that have ended, in the order of the values.
+
+    It is written whole as a run ends, unless that would take more than a tenth of the time.
+
+    Parameters
+    ----------
+    folder : Path
+    points : dict of str to dict
+        The values of each run, by its file.
+    """
+
+    def __init__(self, folder: Path, points: Mapping[str, Mapping[str, Any]]) -> None:
+        self._path = folder / TABLE
+        self._points = points
+        self._not_before = 0.0
+        self.done: dict[str, Row] = {}
+
+    @property
+    def rows(self) -> list[Row]:
+        """A row for each run that has ended."""
+        return [
+            {"run": file, "values": point, **self.done[file]}
+            for file, point in self._points.items()
+            if file in self.done
+        ]
+
+    def add(self, file: str, row: Row) -> None:
+        """Take the row of a run that has ended."""
+        self.done[file] = row
+        if (begin := time.monotonic()) >= self._not_before:
+            self.write()
+            self._not_before = time.monotonic() + 9 * (time.monotonic() - begin)
+
+    def write(self) -> None:
+        """Write the file, if there is a row."""
+        if self.done:
+            text_written(self._path, _table(self.rows))
+
+
+def _kept(folder: Path, tasks: Sequence[tuple[str, str, Sequence[str]]]) -> dict[str, Row]:
+    """The rows of the runs of a sweep that the folder has, by their files.
+
+    Raises
+    ------
+    InputError
+        If it has a run, or a table, of another.
+    """
+    kept: dict[str, Row] = {}
+    refusal = InputError("holds runs of another sweep; choose another folder", file=folder)
+    there = {f"{RUNS}/{path.name}" for path in (folder / RUNS).glob("*.npz")}
+    if there - {file for file, *_ in tasks} or ((folder / TABLE).exists() and not there):
+        raise refusal
+    for file, scenario, changes in tasks:
+        if file in there:
+            trajectory = load_trajectory(folder / file)
+            loaded = load_scenario(scenario, changes)
+            is_another = trajectory.header.scene_sha256 != loaded.fingerprint
+            if is_another or not (trajectory.failed or trajectory.steps == loaded.steps):
+                raise refusal
+            if not trajectory.failed:  # limits may be others: it is run again
+                kept[file] = _row(trajectory, loaded)
+    return kept
 
 
 def swept_values(text: str) -> tuple[str, list[float | str]]:
@@ -195,19 +260,6 @@ def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Traje
             raise KeyboardInterrupt from None
         trajectory = failure.trajectory
     return file, trajectory, _row(trajectory, loaded)
-
-
-def _new_folder(folder: Path) -> Path:
-    """The folder, with one for trajectories in it; InputError if it has runs already."""
-    writable_folder(folder)
-    refusal = InputError("holds runs already; choose another folder", file=folder)
-    if (folder / TABLE).exists():
-        raise refusal
-    try:
-        (folder / RUNS).mkdir()  # by one sweep alone
-    except FileExistsError:
-        raise refusal from None
-    return folder
 
 
 def _row(trajectory: Trajectory, scenario: Scenario) -> Row:

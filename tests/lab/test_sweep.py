@@ -13,6 +13,7 @@ import pytest
 from quasistatic_ref import InputError, load_scenario, load_trajectory
 from quasistatic_ref.lab.processes import descendants
 from quasistatic_ref.lab.sweep import TABLE, simulate_many, swept_values
+from tests.cases import cases
 from tests.optional.doctor.mistake_scenes import scenes_written
 from tests.pages import ROOT
 from tests.processes import has_ended, started, waited_for
@@ -53,7 +54,11 @@ def content(folder):
     return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
-def test_a_folder_with_runs_is_refused_before_anything_is_written(tmp_path):
+OTHER_SWEEPS = {"longer": {"steps": [2]}, "another h": {"h": [0.02]}, "more": {"steps": [2, 3]}}
+
+
+@cases("other", OTHER_SWEEPS)
+def test_a_folder_with_runs_of_another_sweep_is_refused_before_anything_is_written(tmp_path, other):
     swept("block_incline", tmp_path, steps=[1])
     for remains in ("all", "runs", "table"):
         if remains == "runs":
@@ -63,8 +68,8 @@ def test_a_folder_with_runs_is_refused_before_anything_is_written(tmp_path):
             (tmp_path / "runs").rmdir()
             (tmp_path / TABLE).touch()
         kept = content(tmp_path)
-        with pytest.raises(InputError, match="holds runs already; choose another folder"):
-            swept("block_incline", tmp_path, steps=[2])
+        with pytest.raises(InputError, match="holds runs of another sweep; choose another folder"):
+            swept("block_incline", tmp_path, **other)
         assert content(tmp_path) == kept
 
 
@@ -72,6 +77,31 @@ MANY = """
 from quasistatic_ref.lab.sweep import simulate_many
 simulate_many("block_incline", {"steps": [1, 100_000, 100_001, 100_002]}, "map", workers=2)
 """
+
+
+@pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGKILL])
+def test_a_sweep_that_was_ended_has_a_table_and_goes_on(tmp_path, end):
+    values = {"steps": [1, 2, 3000]}
+    code = "from quasistatic_ref.lab.sweep import simulate_many\n"
+    code += f"simulate_many('block_incline', {values}, 'map', workers=1)\n"
+    process = started(code, tmp_path)
+    folder = tmp_path / "map"
+    waited_for(lambda: (folder / TABLE).exists() and len(table(folder)) >= 1)
+    process.send_signal(end)
+    process.wait()
+    ended = [path.read_bytes() for path in sorted(folder.glob("runs/*.npz"))]
+    assert 1 <= len(ended) < 3
+    values["steps"][2] = 3  # what it did not come to may be another
+    rows = swept("block_incline", folder, **values)
+    assert [row["measures"]["steps"] for row in rows] == [1, 2, 3]
+    assert [p.read_bytes() for p in sorted(folder.glob("runs/*.npz"))][: len(ended)] == ended
+    assert rows == swept("block_incline", tmp_path / "whole", **values)
+    assert (folder / TABLE).read_bytes() == (tmp_path / "whole" / TABLE).read_bytes()
+
+
+def test_an_empty_folder_of_runs_is_none(tmp_path):
+    (tmp_path / "runs").mkdir()
+    assert len(swept("block_incline", tmp_path, steps=[1])) == 1
 
 
 def test_workers_end_with_the_process_of_the_sweep_also_when_it_is_killed(tmp_path):

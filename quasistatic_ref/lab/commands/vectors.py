@@ -80,9 +80,11 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _challenge(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.processes import ends_in_order
     from quasistatic_ref.lab.vectors.challenge.command import challenge_status
 
-    return challenge_status(options)
+    with ends_in_order():
+        return challenge_status(options)
 
 
 def _check(options: argparse.Namespace) -> int:

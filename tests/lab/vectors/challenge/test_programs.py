@@ -1,11 +1,15 @@
 """A program that ends, hangs or prints what is no answer is reported and started again."""
 
+import signal
+
 import pytest
 
 from quasistatic_ref import InputError
+from quasistatic_ref.lab.processes import descendants
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.run import EASY_CASES, challenge
 from tests.lab.vectors.challenge.programs import command
+from tests.processes import has_ended, started, waited_for
 
 SECONDS = {"hangs": 0.2, "does not read": 0.05}
 """For an answer, ten for others."""
@@ -80,3 +84,15 @@ def test_a_program_that_ends_at_once_is_bad_input(tmp_path):
 def test_a_first_line_that_cannot_be_is_bad_input(tmp_path):
     with pytest.raises(InputError, match="tangent"):
         outcome("declares nonsense", tmp_path)
+
+
+@pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGHUP])
+def test_a_program_that_hangs_is_ended_with_the_challenge(tmp_path, end):
+    words = ["vectors", "challenge", "--command", command("hangs", tmp_path), "--timeout", "60"]
+    code = f"import sys, runpy; sys.argv[1:] = {words}\n"
+    process = started(f"{code}runpy.run_module('quasistatic_ref', run_name='__main__')", tmp_path)
+    waited_for(lambda: len(descendants(process.pid)) == 2)  # it, and what it started
+    asked = descendants(process.pid)
+    process.send_signal(end)
+    assert process.wait(timeout=60) == 128 + end
+    waited_for(lambda: all(map(has_ended, asked)))
