@@ -16,7 +16,7 @@ from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.compiled import compiled
 from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.step.cones import PYRAMID, cone
-from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.contacts import Contacts, spread
 from quasistatic_ref.step.data import StepData, check_step
 
 FAR: Final = 100.0
@@ -86,13 +86,10 @@ def standard_form(step: StepData) -> StandardForm:
 
 def inequalities(step: StepData) -> tuple[Array, Array]:
     """A, shape (m, n_v), and b, shape (m,), of Eq. :eq:`eq-8` and of the user's rows."""
-    mask = step.mask
-    A = friction_rows(step.contacts, step.cone)[mask]  # Eq. (8)
-    b = -row_constants(step.contacts, step.cone)[mask]  # Eq. (8)
-    if step.extra.names:
-        A = np.concatenate([A, step.extra.A])
-        b = np.concatenate([b, step.extra.b])
-    return A, b
+    own, b = own_inequalities(step)
+    column = np.repeat(step.contacts.column, step.counts, axis=0)
+    A = spread(own[:, None], column, step.n_v)[:, 0]
+    return np.concatenate([A, step.extra.A]) if step.extra.names else A, b
 
 
 def own_inequalities(step: StepData) -> tuple[Array, Array]:
@@ -113,8 +110,8 @@ def contact_inequalities(contacts: Contacts, name: str, mask: Mask) -> tuple[Arr
     mask : ndarray of bool, shape (n_c, R)
         As of ``StepData.mask``.
     """
-    A = friction_rows(contacts, name, contacts.own)[mask]
-    return A, -row_constants(contacts, name)[mask]
+    A = friction_rows(contacts, name, contacts.own)[mask]  # Eq. (8)
+    return A, -row_constants(contacts, name)[mask]  # Eq. (8)
 
 
 def linear_term(step: StepData) -> Array:
