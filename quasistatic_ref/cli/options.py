@@ -29,7 +29,7 @@ OPTIONS: Final[dict[str, dict[str, Any]]] = {
     },
     "--fast": {
         "action": "store_true",
-        "help": "short for --backend daqp: certified answers have the same bits, and come sooner",
+        "help": "short for --backend daqp: sooner, the same bits of q, delta_q and A'lam (certified)",
     },
     "--cone": {
         "metavar": "NAME",

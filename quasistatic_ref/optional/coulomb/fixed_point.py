@@ -36,9 +36,9 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.residuals import largest
-from quasistatic_ref.errors import InputError, keywords_named
+from quasistatic_ref.errors import InputError, check_kind, keywords_named
 from quasistatic_ref.formats.plain import field_values
-from quasistatic_ref.numbers.arrays import Array, all_finite, read_only
+from quasistatic_ref.numbers.arrays import Array, all_finite, checked_numbers, read_only
 from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
 from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.solve.backends import Certify
@@ -170,7 +170,8 @@ def coulomb_step(
     """
     check_step(step)
     contacts = step.contacts
-    s = np.zeros(contacts.n_c) if start is None else np.array(start, dtype=np.float64)
+    s = np.zeros(contacts.n_c) if start is None else checked_numbers(start, "start", InputError)
+    check_kind(most, int, "most", "a whole number")
     if s.shape != (contacts.n_c,) or not (all_finite(s) and s.min(initial=0.0) >= 0):
         raise InputError("must have one length >= 0 for each contact", field="start", value=start)
     if most < 1:

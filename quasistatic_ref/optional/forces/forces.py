@@ -45,7 +45,7 @@ from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.optimum import ExactOptimum, step_optimum
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.numbers.arrays import Array, without_warnings
+from quasistatic_ref.numbers.arrays import Array, checked_numbers, without_warnings
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.forces.eliminated import eliminated_optimum
 from quasistatic_ref.optional.forces.face_guess import guessed_faces
@@ -104,11 +104,17 @@ def contact_forces(
     np.float64(2.943)
     """
     check_step(step)
-    chosen = None if compliance is None else np.broadcast_to(compliance, step.contacts.n_c)
+    chosen = None
+    if compliance is not None:
+        numbers = checked_numbers(compliance, "compliance", InputError)
+        if numbers.shape not in ((), (step.contacts.n_c,)):
+            problem = "must be a number, or one for each contact"
+            raise InputError(problem, field="compliance", value=compliance)
+        chosen = np.broadcast_to(numbers, step.contacts.n_c)
     if chosen is not None and not (np.isfinite(chosen) & (chosen > 0)).all():
         problem = "must be a positive number of metres per newton"
         raise InputError(problem, field="compliance", value=compliance)
-    x, wrench = _without_compliance(step) if near is None else near
+    x, wrench = _without_compliance(step) if near is None else _pair(step, near)
     forces = np.zeros((step.contacts.n_c, 4))
     delta_q = np.zeros(step.n_v)
     compliances = np.zeros(step.contacts.n_c)
@@ -127,6 +133,17 @@ def contact_forces(
         imbalance = max(imbalance, group_forces.imbalance)
         sensitivity = max(sensitivity, group_forces.sensitivity)
     return ContactForces(forces, delta_q, compliances, imbalance, sensitivity)
+
+
+def _pair(step: StepData, near: object) -> tuple[Array, Array]:
+    """The arrays of `near`; InputError of anything else."""
+    if not isinstance(near, list | tuple) or len(near) != 2:
+        raise InputError("must be delta_q and wrenches", field="near", value=near)
+    x, wrench = (checked_numbers(one, "near", InputError) for one in near)
+    if x.shape != (step.n_v,) or wrench.shape != (step.contacts.n_c, 4):
+        problem = f"must have shapes ({step.n_v},) and ({step.contacts.n_c}, 4)"
+        raise InputError(problem, field="near", value=[x.shape, wrench.shape])
+    return x, wrench
 
 
 def _one_of(compliances: Array) -> float:

@@ -168,6 +168,9 @@ def scanned_body(
     if len(chosen) != 1 or not chosen[0][1] < greatest:
         problem = "say one of them, greater than 0: --mass in kg, or --density in kg/m^3"
         raise InputError(problem, field="mass, density", value=[mass, density])
+    check_kind(points, int, "points", "a whole number")
+    if unit is not None:
+        check_kind(unit, str, "unit", f"one of {', '.join(UNITS)}")
     if points < FEWEST:
         raise InputError(f"must be at least {FEWEST}", field="points", value=points)
     with about_file(path):

@@ -7,15 +7,15 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, PillowWriter
 
 from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.files.content import bytes_written
 from quasistatic_ref.files.scenario.scenario import Scenario
+from quasistatic_ref.numbers.arrays import positive_number
 from quasistatic_ref.optional.show.figures.camera import Camera
-from quasistatic_ref.optional.show.figures.draw import draw_scene, in_common
+from quasistatic_ref.optional.show.figures.draw import camera_of, draw_scene, in_common
 from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.moments import frames
 from quasistatic_ref.optional.show.figures.style import figure_style, sized
@@ -83,8 +83,9 @@ def animate(
     """
     check_kind(path, str | PathLike, "path", "a path")
     path = _with_ending(Path(path))
-    if not 0 < speed < np.inf:
-        raise InputError("must be positive and finite", field="speed", value=speed)
+    speed = positive_number(speed, "speed")
+    fps = positive_number(fps, "fps")
+    camera_of(view)
     moments, shown = frames(scenario, run, fps / speed)
     fixed = in_common(moments, view) | options
     writer = WRITERS[path.suffix](fps=speed * shown)

@@ -192,9 +192,9 @@ def camera_of(view: str | Camera) -> Camera:
     InputError
         If the name is none of these.
     """
-    if not isinstance(view, str):
+    if isinstance(view, Camera):
         return view
-    if view not in PLANES:
+    if not isinstance(view, str) or view not in PLANES:
         problem = f"must be a Camera or one of {listed(sorted(PLANES))}"
         raise InputError(problem, field="view", value=view)
     return PLANES[view]
