@@ -16,7 +16,7 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
-from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
+from quasistatic_ref.numbers.ordered import crossed, dot, norm, rotated
 from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.placed_shape import Capsule, Cone, Cylinder
 from quasistatic_ref.shapes.revolved import Revolved
@@ -103,7 +103,7 @@ def edges(body: ShapeInWorld, x: Array, n: Array) -> Edges:
         The pair's normal out of the body [-].
     """
     shape = body.shape
-    way = product(body.R.T, n)
+    way = body.pose.local_direction(n)
     flat = polytope(shape)
     assert flat is not None
     if isinstance(shape, Capsule):
@@ -111,7 +111,7 @@ def edges(body: ShapeInWorld, x: Array, n: Array) -> Edges:
         total = ROUND
     else:
         out = flat.margin * way  # from the core to the surface
-        at = product(body.R.T, x - body.t) - out
+        at = body.pose.local(x) - out
         number = np.flatnonzero(bearing(flat, shape.extent, at, way))
         ends = flat.vertices[flat.edges[number]] + out
         total = len(flat.edges)

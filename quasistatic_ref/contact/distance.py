@@ -48,7 +48,6 @@ from quasistatic_ref.contact.ranks import closest, near_points, rounded_gaps
 from quasistatic_ref.contact.shape_in_world import (
     Pose,
     ShapeInWorld,
-    moved,
     on_plane,
     poses_in_world,
 )
@@ -240,7 +239,7 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
     if isinstance(b.shape, PointCloud):
         a, b = b, a
     if isinstance(a.shape, PointCloud):
-        phi, _ = b.shape.signed_distance(moved(relative_pose(b, a), a.shape.points))
+        phi, _ = b.shape.signed_distance(b.pose.of(a.pose).points(a.shape.points))
     else:
         if _places(a, b) >= FAR * pair.size:
             a, b, _ = _from_near(a, b)
@@ -354,8 +353,8 @@ def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
     Where the closest point is on a rim, the point itself gives this direction more accurately than
     the normal does: near contact the normal is computed from a difference that cancels.
     """
-    local = product(body.R.T, nearest - body.t)
-    way = product(body.R.T, n)
+    local = body.pose.local(nearest)
+    way = body.pose.local_direction(n)
     radius = body.shape.rim_radius
     if radius is None:
         return way
@@ -390,7 +389,7 @@ def repeated(candidates: ClosestPoints, pair: Indices) -> Mask:
 def _cloud_on_solid(pair: ContactPair, solid: ShapeInWorld, cloud: ShapeInWorld) -> ClosestPoints:
     """The k points of a cloud that are nearest to a solid, by rounded distance."""
     assert isinstance(cloud.shape, PointCloud)
-    relative = relative_pose(solid, cloud)
+    relative = solid.pose.of(cloud.pose)
     near, x = near_points(solid.shape, cloud.shape, relative, pair.k, pair.resolution)
     phi, normal = solid.shape.signed_distance(x)
     kept = closest(rounded_gaps(phi, pair.resolution), pair.k)
@@ -420,8 +419,8 @@ class Corners:
         self._points, self._radius = other.shape.corners(_towards(other, nearest, -n))
         self._solid = solid
         self._other = other
-        self._x = moved(relative_pose(solid, other), self._points)
-        self._way = product(solid.R.T, n)
+        self._x = solid.pose.of(other.pose).points(self._points)
+        self._way = solid.pose.local_direction(n)
         self._within = rounding(solid, other)
         self._near = OVER_FACE * solid.shape.extent + self._within
         least = least_distances(solid.shape, self._x, self._way, self._near)
@@ -437,11 +436,6 @@ class Corners:
         return contacts_over(*poses, self._points[some], self._radius, surface, some)
 
 
-def relative_pose(solid: ShapeInWorld, other: ShapeInWorld) -> Array:
-    """[R, t] from another body's frame to a solid's, shape (3, 4); R [-], t [m]."""
-    return product(solid.R.T, np.column_stack([other.R, other.t - solid.t]))
-
-
 def contacts_over(
     solid: Pose,
     other: Pose,
@@ -454,8 +448,7 @@ def contacts_over(
 
     Parameters
     ----------
-    solid, other : tuple of ndarray
-        The poses, (..., 3, 3) [-] and (..., 3) [m].
+    solid, other : Pose
     points : ndarray, shape (..., N, 3)
         In the frame of the other body [m].
     radius : float or ndarray, shape (..., 1)
@@ -466,8 +459,8 @@ def contacts_over(
         Of the points.
     """
     phi, normal, tie = surface
-    n = rotated(solid[0][..., None, :, :], normal)
-    centre = rotated(other[0][..., None, :, :], points) + other[1][..., None, :]
+    n = rotated(solid.R[..., None, :, :], normal)
+    centre = rotated(other.R[..., None, :, :], points) + other.t[..., None, :]
     return ClosestPoints(
         phi=phi - radius,
         alpha=centre - phi[..., None] * n,

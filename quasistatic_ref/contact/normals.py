@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness, moved
+from quasistatic_ref.contact.shape_in_world import Pose, ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.numbers.angles import cos_sin
@@ -304,7 +304,7 @@ def cloud_surface(
     name: str,
     solid: ShapeInWorld,
     cloud: ShapeInWorld,
-    relative: Array,
+    relative: Pose,
     x: Array,
     phi: Array,
     normal: Array,
@@ -316,8 +316,8 @@ def cloud_surface(
     name : str
         Of the pair, for messages.
     solid, cloud : ShapeInWorld
-    relative : ndarray, shape (3, 4)
-        [R, t] from the cloud's frame to the solid's.
+    relative : Pose
+        Of the cloud's frame in the solid's.
     x : ndarray, shape (k, 3)
         Some of its points, in the solid's frame [m].
     phi : ndarray, shape (k,)
@@ -353,11 +353,11 @@ def cloud_surface(
 
 
 def _of_cloud(
-    name: str, solid: ShapeInWorld, cloud: ShapeInWorld, relative: Array, ways: Array, within: float
+    name: str, solid: ShapeInWorld, cloud: ShapeInWorld, relative: Pose, ways: Array, within: float
 ) -> tuple[Array, int]:
     """The one of several normals along which a cloud is farthest out."""
     assert isinstance(cloud.shape, PointCloud)
-    points = moved(relative, cloud.shape.points)
+    points = relative.points(cloud.shape.points)
     out = np.array([dot(points, way).min() for way in ways]) - solid.shape.support_value(ways)
     level = out >= out.max() - within
     if np.count_nonzero(level) == 1:

@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.contact.shape_in_world import moved
+from quasistatic_ref.contact.shape_in_world import Pose
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.ordered import dot, product
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
@@ -88,7 +88,7 @@ def may_be_first(
 
 
 def near_points(
-    solid: Shape, cloud: PointCloud, pose: Array, k: int, resolution: float
+    solid: Shape, cloud: PointCloud, pose: Pose, k: int, resolution: float
 ) -> tuple[Indices, Array]:
     """Points of a cloud among which are the k that rank first: of a large cloud few, or of a mesh.
 
@@ -96,8 +96,8 @@ def near_points(
     ----------
     solid : Shape
     cloud : PointCloud
-    pose : ndarray, shape (3, 4)
-        [R, t] from the cloud's frame to the solid's [-, m].
+    pose : Pose
+        Of the cloud's frame in the solid's.
     k : int
     resolution : float
         Length to whose multiples distances are rounded before they rank [m].
@@ -112,7 +112,7 @@ def near_points(
     number = np.arange(len(cloud.points))
     if len(number) >= MANY and k < len(number):
         number = points_of_groups(solid, cloud, pose, k, resolution)
-    x = moved(pose, cloud.points[number])
+    x = pose.points(cloud.points[number])
     if not isinstance(solid, ConvexMesh) or k >= len(number):
         return number, x
 
@@ -127,7 +127,7 @@ def near_points(
 
 
 def points_of_groups(
-    solid: Shape, cloud: PointCloud, pose: Array, k: int, resolution: float
+    solid: Shape, cloud: PointCloud, pose: Pose, k: int, resolution: float
 ) -> Indices:
     """Numbers, in ascending order, of the points of all groups that may hold one of the first k.
 
@@ -139,11 +139,11 @@ def points_of_groups(
 
     def least(level: Groups, some: Indices) -> Array:
         """Lower bounds of distances of some groups [m]."""
-        x = moved(pose, level.middle[some])
+        x = pose.points(level.middle[some])
         phi, n = solid.signed_distance(x)
         half = level.half[some]
         rounded = ROUNDED * (np.abs(x).max() + np.abs(phi).max() + half.max())
-        return np.asarray(phi - dot(np.abs(product(n, pose[:, :3])), half) - rounded)
+        return np.asarray(phi - dot(np.abs(product(n, pose.R)), half) - rounded)
 
     def members(level: Groups, some: Indices) -> Indices:
         return np.unique(level.members[some])
@@ -153,7 +153,7 @@ def points_of_groups(
         for level in levels:
             count = min(len(number), -(-k // level.fewest))  # so many groups have k points
             number = members(level, number[least(level, number).argpartition(count - 1)[:count]])
-        phi, _ = solid.signed_distance(moved(pose, cloud.points[number]))
+        phi, _ = solid.signed_distance(pose.points(cloud.points[number]))
         return float(np.partition(phi, k - 1)[k - 1])
 
     number = np.arange(len(cloud.levels[0].members))

@@ -9,6 +9,44 @@ from quasistatic_ref.numbers.ordered import dot, product, rotated
 from quasistatic_ref.shapes.placed_shape import Shape
 
 
+class Pose(NamedTuple):
+    """Where a frame stands in another one, outside: its points x are R x + t there.
+
+    Parameters
+    ----------
+    R : ndarray, shape (3, 3), or (P, 3, 3) of P frames
+        [-].
+    t : ndarray, shape (3,), or (P, 3)
+        [m].
+    """
+
+    R: Array
+    t: Array
+
+    def points(self, points: Array) -> Array:
+        """Points (N, 3) [m] of one frame, seen from outside.
+
+        They are stored coordinate by coordinate: of many points, loops over these are inner ones.
+        """
+        x: Array = self.R[:, :1] * points[:, 0]
+        x += self.R[:, 1:2] * points[:, 1]
+        x += self.R[:, 2:] * points[:, 2]
+        x += self.t[:, None]
+        return x.T
+
+    def local(self, point: Array) -> Array:
+        """A point (3,) [m] from outside, in the frame."""
+        return product(self.R.T, point - self.t)
+
+    def local_direction(self, direction: Array) -> Array:
+        """A direction (3,) [-] from outside, along the axes of the frame."""
+        return product(self.R.T, direction)
+
+    def of(self, other: "Pose") -> "Pose":
+        """The pose of another frame in this one; both stand in the same."""
+        return Pose(product(self.R.T, other.R), self.local(other.t))
+
+
 class ShapeInWorld(NamedTuple):
     """A shape and its pose in the world: x_world = R x + t.
 
@@ -22,21 +60,18 @@ class ShapeInWorld(NamedTuple):
     away: float = 0.0
 
     @property
-    def pose(self) -> "Pose":
+    def pose(self) -> Pose:
         """R and t."""
-        return self.R, self.t
+        return Pose(self.R, self.t)
 
     def farthest(self, direction: Array) -> Array:
         """The farthest point along a direction, shape (3,) [m]; both in the world frame."""
-        return rotated(self.R, self.shape.support_point(product(self.R.T, direction))) + self.t
+        local = self.pose.local_direction(direction)
+        return rotated(self.R, self.shape.support_point(local)) + self.t
 
     def reach(self, directions: Array) -> Array:
         """How far the shape reaches along unit vectors (N, 3) of the world, shape (N,) [m]."""
         return self.shape.support_value(product(directions, self.R)) + dot(directions, self.t)
-
-
-Pose = tuple[Array, Array]
-"""R (P, 3, 3) [-] and t (P, 3) [m] of one shape of each of P pairs."""
 
 
 def poses_in_world(
@@ -56,7 +91,7 @@ def poses_in_world(
     world = product(R[links], poses)
     world[..., 3] += t[links]
     of_alpha, of_beta = world.swapaxes(0, -3)
-    return (of_alpha[..., :3], of_alpha[..., 3]), (of_beta[..., :3], of_beta[..., 3])
+    return Pose(of_alpha[..., :3], of_alpha[..., 3]), Pose(of_beta[..., :3], of_beta[..., 3])
 
 
 def on_plane(
@@ -72,14 +107,14 @@ def on_plane(
         Of each half-space, in its frame [-].
     offset : float or ndarray, shape (...)
         Of each along its normal [m].
-    plane : tuple of ndarray
-        Poses of the half-spaces, (..., 3, 3) [-] and (..., 3) [m].
+    plane : Pose
+        Of the half-spaces.
     t : ndarray, shape (..., 3)
         The places [m].
     """
-    n = rotated(plane[0], normal)
+    n = rotated(plane.R, normal)
     height = np.asarray(offset)[..., None] * n
-    above = (dot(n, t - plane[1]) - offset)[..., None] * n
+    above = (dot(n, t - plane.t) - offset)[..., None] * n
     return t - above, -height, above
 
 
@@ -103,15 +138,3 @@ class Witnesses(NamedTuple):
     alpha: Array
     beta: Array
     n: Array
-
-
-def moved(pose: Array, points: Array) -> Array:
-    """Points (N, 3) [m] of one frame in another; the pose is [R, t], shape (3, 4) [-, m].
-
-    They are stored coordinate by coordinate: of many points, loops over these are the inner ones.
-    """
-    x: Array = pose[:, :1] * points[:, 0]
-    x += pose[:, 1:2] * points[:, 1]
-    x += pose[:, 2:3] * points[:, 2]
-    x += pose[:, 3:]
-    return x.T

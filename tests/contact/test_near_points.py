@@ -18,9 +18,9 @@ from quasistatic_ref import (
     convex_hull,
 )
 from quasistatic_ref.contact.all_pairs import closest_points
-from quasistatic_ref.contact.distance import in_world, relative_pose
+from quasistatic_ref.contact.distance import in_world
 from quasistatic_ref.contact.ranks import MANY, closest, near_points, rounded_gaps
-from quasistatic_ref.contact.shape_in_world import moved
+from quasistatic_ref.contact.shape_in_world import Pose
 from quasistatic_ref.shapes import facets
 from tests.contact.still import pair, placed_shape, standing_links
 
@@ -71,7 +71,7 @@ def test_contacts_of_a_cloud_are_those_of_all_points_over_all_triangles(name, on
             a, b = in_world(one, links.R, links.t)
             with monkeypatch.context() as all_triangles:
                 all_triangles.setattr(facets, "FEW", len(mesh.triangles))
-                x = moved(relative_pose(a, b), cloud.points)
+                x = a.pose.of(b.pose).points(cloud.points)
                 rank, _ = mesh.signed_distance(x)
             expected = closest(rounded_gaps(rank, one.resolution), k)
             assert found.point.tolist() == expected.tolist()
@@ -100,8 +100,8 @@ def test_groups_of_a_large_cloud_leave_out_no_point_of_the_first(solid):
             (np.eye(3), TURNED),
             ((0.0, 0.0, 0.0), (0.04, 0.001, 0.0), (-0.03, -0.06, 0.09), (1e3, 0.0, 0.1)),
         ):
-            pose = np.column_stack([R, t])
-            phi, _ = solid.signed_distance(moved(pose, cloud.points))
+            pose = Pose(R, np.array(t))
+            phi, _ = solid.signed_distance(pose.points(cloud.points))
             for k, resolution in itertools.product((1, 5, 70), (0.0, 1e-11, 1e-3)):
                 number, x = near_points(solid, cloud, pose, k, resolution)
                 near = closest(rounded_gaps(solid.signed_distance(x)[0], resolution), k)
@@ -113,7 +113,7 @@ def test_groups_of_a_large_cloud_leave_out_no_point_of_the_first(solid):
 
 def test_most_points_and_triangles_are_left_out():
     mesh = MESHES["finger"]
-    pose = np.column_stack([np.eye(3), [0.04, 0.001, 0.0]])
+    pose = Pose(np.eye(3), np.array([0.04, 0.001, 0.0]))
     for name, cloud in CLOUDS.items():
         number, _ = near_points(mesh, cloud, pose, 5, 1e-11)
         assert len(number) < 0.1 * len(cloud.points), name

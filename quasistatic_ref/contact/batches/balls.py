@@ -63,9 +63,9 @@ class Balls(Batch):
     ) -> tuple[Mask, ClosestPoints]:
         """The contacts at the n_c points that rank first; `seen` and `places` are (P,) [m]."""
         solid, other = (alpha, beta)[:: self._turn]
-        back = solid[0].mT
-        x = rotated(product(back, other[0])[:, None], self._points)
-        x += rotated(back, other[1] - solid[1])[:, None]
+        back = solid.R.mT
+        x = rotated(product(back, other.R)[:, None], self._points)
+        x += rotated(back, other.t - solid.t)[:, None]
         phi, normal = self.surface(x)
         rank = np.rint((phi - self._radius) / self.resolution[:, None])
         order = rank.argsort(axis=1, kind="stable")[:, : self.n_c]
@@ -92,7 +92,7 @@ class OnHalfSpaces(Balls):
     def from_near(self, alpha: Pose, beta: Pose) -> tuple[Array, Array, Array]:
         """The foot of each pair on its plane, and both places seen from there, (P, 3) [m]."""
         plane, other = (alpha, beta)[:: self._turn]
-        foot, *seen = on_plane(self._normal[:, 0], self._offset, plane, other[1])
+        foot, *seen = on_plane(self._normal[:, 0], self._offset, plane, other.t)
         of_alpha, of_beta = seen[:: self._turn]
         return foot, of_alpha, of_beta
 

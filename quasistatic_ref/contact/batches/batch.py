@@ -46,8 +46,8 @@ class Batch(ABC):
         if not far.any():
             return self.of_poses(alpha, beta, places, places)
         origin, of_alpha, of_beta = self.from_near(alpha, beta)
-        alpha = alpha[0], np.where(far, of_alpha, alpha[1])
-        beta = beta[0], np.where(far, of_beta, beta[1])
+        alpha = Pose(alpha.R, np.where(far, of_alpha, alpha.t))
+        beta = Pose(beta.R, np.where(far, of_beta, beta.t))
         known, points = self.of_poses(alpha, beta, self.places(alpha, beta), places)
         far = far[:, None]
         origin = origin[:, None]
@@ -70,8 +70,8 @@ class Batch(ABC):
 
     def places(self, alpha: Pose, beta: Pose) -> Array:
         """Largest coordinates of both places of the pairs at poses of both, shape (P,) [m]."""
-        return np.asarray(np.maximum(np.abs(alpha[1]), np.abs(beta[1])).max(axis=1))
+        return np.asarray(np.maximum(np.abs(alpha.t), np.abs(beta.t)).max(axis=1))
 
     def from_near(self, alpha: Pose, beta: Pose) -> tuple[Array, Array, Array]:
         """A point of each pair at poses of both, and both places seen from there, (P, 3) [m]."""
-        return beta[1], alpha[1] - beta[1], np.zeros_like(beta[1])
+        return beta.t, alpha.t - beta.t, np.zeros_like(beta.t)

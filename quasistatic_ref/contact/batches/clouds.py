@@ -71,8 +71,8 @@ class Clouds(Batch):
     ) -> tuple[Mask, ClosestPoints]:
         """The points that rank first at poses of both; `seen` and `places` are (P,) [m]."""
         cloud, solid = (alpha, beta) if self.cloud_is_alpha else (beta, alpha)
-        away = (cloud[1] - solid[1])[..., None]
-        relative = product(solid[0].mT, np.concatenate([cloud[0], away], axis=2))[..., None]
+        away = (cloud.t - solid.t)[..., None]
+        relative = product(solid.R.mT, np.concatenate([cloud.R, away], axis=2))[..., None]
         x = relative[:, :, 0] * self._coordinates[0]  # in the frame of each solid, (P, 3, N)
         x += relative[:, :, 1] * self._coordinates[1]
         x += relative[:, :, 2] * self._coordinates[2]

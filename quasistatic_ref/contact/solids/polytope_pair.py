@@ -49,14 +49,14 @@ def polytope_pairs(
     gaps, normals : ndarray, shapes (P, N) and (P, N, 3)
         Along the normals of wanted gaps, and of others [m], [-].
     """
-    back = pose_a[0].mT
-    R = product(back, pose_b[0])
-    t = rotated(back, pose_b[1] - pose_a[1])
+    back = pose_a.R.mT
+    R = product(back, pose_b.R)
+    t = rotated(back, pose_b.t - pose_a.t)
     gaps, normals = gaps_between(a, b.moved(R, t), within)
     phi, alpha, beta, n = _closest(a, b, R, t, gaps, normals)
-    turn = pose_a[0][:, None]
+    turn = pose_a.R[:, None]
     alpha, beta, n = rotated(turn, np.stack([alpha, beta, n], axis=1)).swapaxes(0, 1)
-    points = Witnesses(phi, alpha + pose_a[1], beta + pose_a[1], n)
+    points = Witnesses(phi, alpha + pose_a.t, beta + pose_a.t, n)
     return points, (gaps - a.margin[:, None] - b.margin[:, None], rotated(turn, normals))
 
 

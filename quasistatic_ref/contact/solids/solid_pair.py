@@ -8,7 +8,7 @@ and checks coal's answer.
 
 from collections.abc import Callable
 
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.contact.shape_in_world import Pose, ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import polytope_pairs
 from quasistatic_ref.numbers.arrays import Array
@@ -52,8 +52,7 @@ def pair_and_gaps(
     Q = polytope(b.shape)
     if P is None or Q is None:
         return _curved_pair(name, a, b), None
-    pose_a = (a.R[None], a.t[None])
-    pose_b = (b.R[None], b.t[None])
+    pose_a, pose_b = Pose(a.R[None], a.t[None]), Pose(b.R[None], b.t[None])
     points, (gaps, normals) = polytope_pairs(P.alone, Q.alone, pose_a, pose_b, within)
     phi, alpha, beta, n = points
     return Witness(float(phi[0]), alpha[0], beta[0], n[0]), (gaps[0], normals[0])

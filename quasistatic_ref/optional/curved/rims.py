@@ -20,7 +20,7 @@ from quasistatic_ref.contact.crossings import (
 from quasistatic_ref.contact.normals import TURNED
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
-from quasistatic_ref.numbers.ordered import crossed, dot, product, rotated
+from quasistatic_ref.numbers.ordered import crossed, dot, rotated
 from quasistatic_ref.shapes.placed_shape import Cone, Cylinder, Shape
 from quasistatic_ref.tolerances import OVER_FACE, SKEW
 
@@ -85,7 +85,7 @@ def touching(body: ShapeInWorld, x: Array, n: Array) -> Curves:
         The pair's normal out of the body [-].
     """
     shape = body.shape
-    way = product(body.R.T, n)
+    way = body.pose.local_direction(n)
     if isinstance(shape, Cylinder | Cone):
         above = 0.0 if isinstance(shape, Cone) else shape.radius
         ends, number = line(shape, above, way)
