@@ -29,6 +29,7 @@ move makes one multiplier zero.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from flint import arb, fmpq
@@ -44,6 +45,9 @@ from quasistatic_ref.certify.refined import BearingRows, refined
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.modulo import independent_modulo
 from quasistatic_ref.numbers.precision import working_precision
+
+AGAIN: Final = 4
+"""Walks after which a start is refined again; then twice as many, and so on, so that walks end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +102,8 @@ def dual_active_set(
         Rows that are active at the optimum, as far as a solver could tell, in order of
         preference. Any rows will do; none is a cold start.
     bearing : BearingRows, optional
-        With it a start on many rows that is wrong is refined, in a program without equations.
+        With it a start on many rows that is wrong is refined, and again after some walks, in a
+        program without equations.
 
     Returns
     -------
@@ -110,10 +115,8 @@ def dual_active_set(
     contradiction = _contradicted_equation(form, minimiser.working)
     if contradiction is not None:
         return contradiction
-    many = len(minimiser.working) > LARGE and not form.equations
-    if bearing is not None and many and most_violated(minimiser) is not None:
-        minimiser = refined(minimiser, bearing, _start)
     walks = 0
+    again = 0 if bearing is not None and not form.equations else None
     while True:
         p = most_violated(minimiser)
         if p is None:  # All slacks are >= 0, too: the optimum.
@@ -122,6 +125,10 @@ def dual_active_set(
                 minimiser = minimiser.on(positive)
             minimiser.walks = walks
             return minimiser
+        if walks == again and bearing is not None and len(minimiser.working) > LARGE:
+            minimiser = refined(minimiser, bearing, _start)
+            again = 2 * walks + AGAIN
+            continue
         after = _walk(minimiser, p)
         if isinstance(after, Combination):
             return after
