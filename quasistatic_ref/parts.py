@@ -57,12 +57,12 @@ PARTS: Final = {
     "fast_backend": ("fast", "optional.daqp.default:default_backend"),
     # Of runs.
     "stands": ("stands", "optional.stands.stands:stands"),
+    "slow_step": ("stands", "optional.stands.slow:slow_step"),
+    "kept_loads": ("stands", "optional.stands.after:kept"),
     "stands_after": ("stands", "optional.stands.after:stands_after"),
     "doctor": ("strict", "optional.doctor.observer:Doctor"),
     "scene_findings": ("findings", "optional.doctor.checks:scene_findings"),
-    "time_findings": ("findings", "optional.doctor.checks:time_findings"),
     "finding_names": ("findings", "optional.doctor.names:NAMES"),
-    "stray_points": ("stray points", "optional.scans.cloud:stray"),
     # Of pages and tables.
     "page_text": ("a page", "optional.show.pages:text"),
     "page_html": ("a page", "optional.show.pages:html"),

@@ -56,11 +56,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--strict", action="store_true", help="end with status 1 if a finding is grave"
     )
     parser.add_argument(
-        "--notes",
-        action="store_true",
-        help="print notes, the findings that are not grave, as sentences, too",
-    )
-    parser.add_argument(
         "--replace", action="store_true", help="overwrite a run of another scene, or a longer one"
     )
     parser.add_argument(
@@ -107,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
     if unknown := unknown_elements(scenario.system):
         print(f"quasistatic-ref: {unknown}", file=sys.stderr)
     try:
-        trajectory = scenario.run(progress=not options.quiet, notes=options.notes)
+        trajectory = scenario.run(progress=not options.quiet)
     except RunFailed as failure:
         return shared.failed_run(failure, path)
     save_trajectory(path, trajectory)

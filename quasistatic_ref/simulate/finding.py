@@ -78,22 +78,22 @@ def severity(grave: bool) -> str:
     return "grave" if grave else "note"
 
 
-def told(findings: Sequence[Finding], ignored: Sequence[Finding], notes: bool) -> Iterator[str]:
-    """The lines in which findings are printed: grave ones whole, and others in one line.
+MOST_NOTES = 3
+"""Notes that are printed whole."""
+
+
+def told(findings: Sequence[Finding], ignored: Sequence[Finding]) -> Iterator[str]:
+    """The lines in which findings are printed: grave ones, three notes, and names of the others.
 
     Parameters
     ----------
     findings, ignored : sequence of Finding
         What was found, and what of it the user has asked not to hear.
-    notes : bool
-        Whether what is not grave is printed whole, too.
     """
-    quiet = [] if notes else [finding for finding in findings if not finding.grave]
-    yield from (str(finding) for finding in findings if finding not in quiet)
-    if quiet:
-        plural = "s" * (len(quiet) > 1)
-        shows = f"--notes shows the sentence{plural}"
-        yield f"{len(quiet)} note{plural}: {_named(quiet)}; {shows}"
+    notes = [finding for finding in findings if not finding.grave]
+    yield from (str(finding) for finding in findings if finding not in notes[MOST_NOTES:])
+    if notes[MOST_NOTES:]:
+        yield f"and {len(notes) - MOST_NOTES} more: {_named(notes[MOST_NOTES:])}"
     if ignored:
         yield f"ignored: {_named(ignored)}"
 

@@ -33,29 +33,27 @@ POINTS = ("phi", "alpha", "beta", "n", "point")
 LARGEST = 1_000_000
 """Most entries of J in a step of a full record; and most, beyond those of one step, that are kept
 before they become arrays."""
-WatchingDoctor = Callable[[bool, bool, Sequence[str]], Observer]
-"""Whether to print findings, whether to print notes whole, names that are not printed -> the
-observer that notes a run's scene, and finds at its end."""
+WatchingDoctor = Callable[[bool, Sequence[str]], Observer]
+"""Whether to print findings, and names that are not printed -> the observer that notes a run's
+scene, and finds at its end."""
 SECONDS = "seconds."
 """What the names of wall times begin with."""
 
 
-def doctors(
-    printed: bool = False, notes: bool = False, ignore: Sequence[str] = ()
-) -> list[Observer]:
+def doctors(printed: bool = False, ignore: Sequence[str] = ()) -> list[Observer]:
     """The observer of ``optional/doctor``, if that is there.
 
     Parameters
     ----------
-    printed, notes : bool
-        Whether to print what is found, and whether to print what is not grave whole.
+    printed : bool
+        Whether to print what is found.
     ignore : sequence of str
         Names of findings that are not printed.
     """
     if not is_there("doctor"):
         return []
     doctor: WatchingDoctor = part("doctor")
-    return [doctor(printed, notes, ignore)]
+    return [doctor(printed, ignore)]
 
 
 class Recorder:

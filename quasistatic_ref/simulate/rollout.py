@@ -42,7 +42,6 @@ def rollout(
     record: Record = "full",
     progress: bool = True,
     findings: bool = True,
-    notes: bool = False,
     ignore: Sequence[str] = (),
     observers: Sequence[Observer] = (),
 ) -> Trajectory:
@@ -73,8 +72,6 @@ def rollout(
         Whether to print there, at the end of a run, its findings
         (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.findings`). Findings that are not
         printed are looked for when they are first read, saved or pickled.
-    notes : bool
-        Whether to print what is not grave as sentences, too, and not in one line.
     ignore : sequence of str
         Names of findings that are neither printed nor in `findings`, but in
         :attr:`~quasistatic_ref.simulate.trajectory.Trajectory.ignored_findings`.
@@ -108,7 +105,7 @@ def rollout(
     check_kind(observers, Iterable, "observers", "a list of Observer")
     for name in ignore:
         check_finding_name(name)
-    watch = [*doctors(findings, notes, ignore), *observers]
+    watch = [*doctors(findings, ignore), *observers]
     recorder = Recorder(simulator, q, record, watch, target)
     q_bar_a_at = target_function(simulator.system, simulator.h, target, steps)
     force_at = force_function(simulator.system, force)

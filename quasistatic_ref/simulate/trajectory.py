@@ -15,7 +15,7 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.numbers.arrays import Array, Indices
-from quasistatic_ref.parts import is_there, part
+from quasistatic_ref.parts import part
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import Header
@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
     from quasistatic_ref.simulate.scene import Scene
 
-TimeFindings = Callable[["Trajectory"], list[Finding]]
-"""A run -> what is found of the seconds that it took."""
 Table = Callable[["Trajectory"], "DataFrame"]
 StandsAfter = Callable[["Trajectory", int, "Scene", str], Standings]
 
@@ -181,23 +179,15 @@ class Trajectory(RecordArrays, Plain, HasPage):
     def findings(self) -> tuple[Finding, ...]:
         """Findings on the scene and the run: causes come before their effects.
 
-        There are none without ``optional/doctor``, nor in files from before there were findings;
-        what is found of ``seconds`` is kept in memory only, as they are. Those of
-        :attr:`ignored_findings` are left out.
+        There are none without ``optional/doctor``, nor in files from before there were findings.
+        Those of :attr:`ignored_findings` are left out.
         """
-        return tuple(one for one in self._findings if one.name not in self.header.ignore)
+        return tuple(one for one in self.header.findings if one.name not in self.header.ignore)
 
     @property
     def ignored_findings(self) -> tuple[Finding, ...]:
         """Findings that the scene or the user has chosen to ignore."""
-        return tuple(one for one in self._findings if one.name in self.header.ignore)
-
-    @property
-    def _findings(self) -> tuple[Finding, ...]:
-        if not (self.seconds and is_there("time_findings")):
-            return self.header.findings
-        time_findings: TimeFindings = part("time_findings")
-        return (*self.header.findings, *time_findings(self))
+        return tuple(one for one in self.header.findings if one.name in self.header.ignore)
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k (from 0), bit for bit as it was solved.

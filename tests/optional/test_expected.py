@@ -15,7 +15,7 @@ from quasistatic_ref.files.urdf import file
 from quasistatic_ref.formats.shown import Page
 from quasistatic_ref.model.body import Described
 from quasistatic_ref.model.world import ReadUrdf
-from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.compiled import CompiledFunction
 from quasistatic_ref.optional.compiled import leaves
 from quasistatic_ref.optional.coulomb import fixed_point
@@ -28,7 +28,6 @@ from quasistatic_ref.optional.forces import forces
 from quasistatic_ref.optional.models import described
 from quasistatic_ref.optional.qpsolvers import through_qpsolvers
 from quasistatic_ref.optional.readers import meshes, points
-from quasistatic_ref.optional.scans import cloud
 from quasistatic_ref.optional.show import pages, table
 from quasistatic_ref.optional.stands import after, slow, stands
 from quasistatic_ref.parts import PARTS, is_there, part
@@ -38,9 +37,10 @@ from quasistatic_ref.simulate.simulator import (
     CoulombSolution,
     ExtendedSolution,
     SceneFindings,
+    Simulator,
     StandingsOf,
 )
-from quasistatic_ref.simulate.trajectory import StandsAfter, Table, TimeFindings
+from quasistatic_ref.simulate.trajectory import StandsAfter, Table
 from quasistatic_ref.solve.backends import SolverNames
 from quasistatic_ref.solve.choice import FunctionSolver, NamedSolver
 from quasistatic_ref.solve.many import ColdAnswers
@@ -77,13 +77,13 @@ class Expected:
     cold_answers: ColdAnswers = solver.cold_answers
     bearing_rows: BearingRows = bearing_rows.bearing_rows
     fast_backend: scenario.FastBackend = default.default_backend
+    slow_step: Callable[..., slow.Slow] = slow.slow_step
+    kept_loads: Callable[[Simulator, Array, Array, Array], Array] = after.kept
     stands: StandingsOf = stands.stands
     stands_after: StandsAfter = after.stands_after
     doctor: WatchingDoctor = observer.Doctor
     scene_findings: SceneFindings = checks.scene_findings
-    time_findings: TimeFindings = checks.time_findings
     finding_names: frozenset[str] = names.NAMES
-    stray_points: Callable[[Array], Mask] = cloud.stray
     page_text: Page = pages.text
     page_html: Page = pages.html
     step_table: Table = table.data_frame

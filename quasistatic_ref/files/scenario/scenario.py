@@ -184,7 +184,6 @@ class Scenario(Settings, Plain, Shown):
         observers: Sequence[Observer] = (),
         *,
         findings: bool = True,
-        notes: bool = False,
     ) -> Trajectory:
         """Simulate the whole scenario.
 
@@ -192,8 +191,8 @@ class Scenario(Settings, Plain, Shown):
         ----------
         progress : bool
         observers : sequence of Observer
-        findings, notes : bool
-            As :func:`~quasistatic_ref.simulate.rollout.rollout` takes them.
+        findings : bool
+            As :func:`~quasistatic_ref.simulate.rollout.rollout` takes it.
 
         Raises
         ------
@@ -214,7 +213,6 @@ class Scenario(Settings, Plain, Shown):
             record=self.record,
             progress=progress,
             findings=findings,
-            notes=notes,
             ignore=self.ignored_findings,
             observers=[*observers, NamesTheScene(self.fingerprint)],
         )
@@ -236,7 +234,7 @@ def load_scenario(
     ----------
     name : str, path or mapping
         A file; the name of a scenario that comes with the package; or the tables themselves, as
-        :func:`~quasistatic_ref.files.scenario.scene_words.scene_tables` takes them.
+        :func:`~quasistatic_ref.files.scenario.scene_words.scene_tables` takes it.
     settings : sequence of str, or mapping of str to object
         Changes, made before anything is checked: ``dotted.key=value``, as after the command
         line's ``--set``; or values by dotted key, ``{"contacts.grip.mu_omega": 0}``.

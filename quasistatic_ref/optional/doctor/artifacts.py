@@ -14,6 +14,7 @@ from quasistatic_ref.optional.doctor.tolerances import BEARS
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
+    from quasistatic_ref.model.joints.joint import Joint
     from quasistatic_ref.optional.doctor.run import Run
 
 LIGHT = 1e-3
@@ -51,11 +52,11 @@ def quasi_dynamic_number(run: Run) -> float | None:
     it, as with a mu_v of 1e-323.
     """
     known: list[float] = []
-    for body in (body for body in run.bodies_of if body.free):
-        friction = run["wrench"][:, body.contacts, 2] @ run["mu_v"][body.contacts]
-        momentum = run.noted("momentum")[:, body.coordinates[:3] - run.system.n_a]
-        drag = quotient(quotient(without_warnings(norm, momentum), run.h), run.h, np.nan)
-        Pi = quotient(drag, friction, np.nan)[friction >= friction.max() / 2]
+    for name, base in run.free_bases.items():
+        of_body = run.of_body(name)
+        friction = run["wrench"][:, of_body, 2] @ run["mu_v"][of_body]
+        Pi = quotient(without_warnings(norm, drag(run, base)), friction, np.nan)
+        Pi = Pi[friction >= friction.max() / 2]
         known += Pi[np.isfinite(Pi)].tolist()
     return max(known, default=None)
 
@@ -73,15 +74,14 @@ def gap_after(phi: Array, n: Array, motion: Array) -> Array:
     return phi + dot(n, motion[:, :, :3])
 
 
-def ways_of(slid: Array) -> Array:
-    """Lengths of slips and sizes of spins, shape (..., 2) [m, rad].
+def drag(run: Run, base: Joint) -> Array:
+    """What of the forces on a free body inertia bears, M v / h, shape (steps, 3) [N].
 
-    Parameters
-    ----------
-    slid : ndarray, shape (..., 4)
-        Slips along the axes of the world [m], and spins [rad].
+    Along its own axes; 0 where float64 has no number for it, as with an h of 1e-308 s.
     """
-    return np.stack([np.linalg.norm(slid[..., :3], axis=-1), np.abs(slid[..., 3])], axis=-1)
+    at = base.v.start - run.system.n_a
+    momentum = run.noted("momentum")[:, at : at + 3]
+    return quotient(quotient(momentum, run.h), run.h)
 
 
 def boundary_layer(run: Run) -> float:

@@ -5,14 +5,14 @@ from typing import Any, NamedTuple
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor import (
+    added,
     contradictions,
-    flush,
     grips,
-    guides,
+    locks,
     placed,
     points,
+    rings,
     solving,
-    statics,
     steps,
     targets,
     task,
@@ -24,7 +24,6 @@ from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.optional.doctor.undecided import Undecided, failure
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.simulate.trajectory import Trajectory
 
 
 class Check(NamedTuple):
@@ -51,13 +50,6 @@ def is_large(start: Start) -> str:
     return "" if start.small else "the scene is large"
 
 
-def is_beyond(run: Run) -> str:
-    """Why no convex step without an extension is solved again."""
-    if run.small and not run.searched:
-        return "steps are not those of the convex law alone"
-    return is_large(run)
-
-
 def has_own_terms(run: Run) -> str:
     """The reason why the steps of a run are not asked by other laws; empty if there is none."""
     return "the user's own costs or constraints are not asked" if run.own_terms else ""
@@ -72,7 +64,6 @@ OF_SCENE = (
     Check(units.long_step),
     Check(units.long_shapes),
     Check(units.large_mu_omega),
-    Check(points.strays),
     Check(contradictions.sizes_apart),
     Check(contradictions.density),
     Check(contradictions.centre),
@@ -84,8 +75,7 @@ OF_SCENE = (
     Check(placed.penetration),
     Check(placed.in_the_air),
     Check(placed.inside),
-    Check(guides.guided, is_large, "guides"),
-    Check(flush.flush),
+    Check(locks.guided, is_large, "guides"),
     Check(points.few_points, is_large, "points of faces"),
     Check(units.count),
 )
@@ -100,25 +90,20 @@ OF_RUN = (
     Check(task.idle, is_cut_short),
     Check(grips.lost, has_own_terms),
     Check(task.short, is_cut_short),
-    Check(guides.locked, is_beyond, "locked guides"),
-    Check(flush.pushed_back),
+    Check(locks.locked, is_large, "locked guides"),
     Check(steps.sunk),
     Check(steps.crossed),
-    Check(statics.out_of_balance, has_own_terms, "equilibrium"),
+    Check(rings.rings),
     Check(steps.leaps),
     Check(targets.joints_beyond),
     Check(unsupported.falling),
     Check(solving.backend_failures),
-    Check(statics.corners, has_own_terms),
-    Check(statics.artifact, has_own_terms, "artifacts of the model"),
-    Check(solving.unborne, is_beyond, "forces of single contacts"),
+    Check(added.artifact),
 )
 NO_STEPS = (Check(units.no_steps),)
-OF_TIME = (Check(solving.proofs),)
-"""Of wall time, which is no part of a trajectory's file."""
 
 
-def looked(checks: Iterable[Check], of: Start | Trajectory) -> tuple[list[Finding], str]:
+def looked(checks: Iterable[Check], of: Start) -> tuple[list[Finding], str]:
     """What each line of a table finds, in its order; and what was not looked at, and why.
 
     Whatever fails in a check costs what it would have found, and never the run.
@@ -126,9 +111,9 @@ def looked(checks: Iterable[Check], of: Start | Trajectory) -> tuple[list[Findin
     Parameters
     ----------
     checks : iterable of Check
-        `OF_SCENE`, `OF_RUN` or `OF_TIME`.
-    of : Start, Run or Trajectory
-        The scene at its start, the run at its end, or the trajectory of a run that has steps.
+        `OF_SCENE`, `OF_RUN` or `NO_STEPS`.
+    of : Start or Run
+        The scene at its start, or the run at its end.
     """
     every: list[Finding | Undecided] = []
     for check in checks:
@@ -148,8 +133,3 @@ def looked(checks: Iterable[Check], of: Start | Trajectory) -> tuple[list[Findin
 def scene_findings(simulator: Simulator, q: Array, force: Array | None = None) -> list[Finding]:
     """The findings on a scene that is to start at q, (n_q,), under a force, (n_v,) [N, N m]."""
     return looked(OF_SCENE, Start(simulator, q, force))[0]
-
-
-def time_findings(trajectory: Trajectory) -> list[Finding]:
-    """What is found of the seconds that a run took."""
-    return looked(OF_TIME, trajectory)[0]

@@ -38,6 +38,7 @@ def density(start: Start) -> Iterator[Finding]:
     A link is light where even its shapes alone are, and heavy where even their hull is: it may be
     hollow, and what is between its shapes may be filled. Of feet neither says anything.
     """
+    suspect: list[tuple[float, str, float, float]] = []
     for link, name, shapes in start.free_links:
         mass = float(start.system.masses[link])
         alone = sum(placed.shape.volume for placed in shapes)
@@ -49,15 +50,19 @@ def density(start: Start) -> Iterator[Finding]:
             continue
         volume = alone if light else max(hull.volume, alone)
         if light or mass > DENSITIES[1] * volume:
-            yield Finding(
-                "density",
-                True,
-                f"check mass and size of {name}",
-                f"{name} has {mass:.3g} kg in {1e6 * volume:.3g} cm^3, {mass / volume:.3g} "
-                "kg/m^3, and "
-                f"bodies have {DENSITIES[0]:g} to {DENSITIES[1]:,.0f}",
-                {"density_kg_per_m3": mass / volume},
-            )
+            beyond = DENSITIES[0] * volume / mass if light else mass / volume / DENSITIES[1]
+            suspect.append((beyond, name, mass, volume))
+    if suspect:
+        _, name, mass, volume = max(suspect)
+        others = f" ({len(suspect) - 1} more are as suspect)" if len(suspect) > 1 else ""
+        yield Finding(
+            "density",
+            True,
+            f"check mass and size of {name}",
+            f"{name} has {mass:.3g} kg in {1e6 * volume:.3g} cm^3, {mass / volume:.3g} kg/m^3, "
+            f"and bodies have {DENSITIES[0]:g} to {DENSITIES[1]:,.0f}{others}",
+            {"density_kg_per_m3": mass / volume},
+        )
 
 
 def hull_of(shapes: Sequence[PlacedShape]) -> ConvexMesh | None:
@@ -132,12 +137,12 @@ def centre(start: Start) -> Iterator[Finding]:
 
 
 def sizes_apart(start: Start) -> Iterator[Finding]:
-    """A body or shape that is a thousand times as long as another."""
+    """A body that is a thousand times as long as another; what never moves may be of any size."""
     largest: dict[str, float] = {}
     for placed in start.sides:
-        name = start.body(placed.link) if placed.link else placed.name
+        name = start.body(placed.link)
         extent = placed.shape.extent
-        if 0 < extent < np.inf:
+        if 0 < extent < np.inf and start.moves[placed.link].any():
             largest[name] = max(largest.get(name, 0.0), extent)
     if not largest:
         return

@@ -36,17 +36,14 @@ class Doctor(Observer):
     ----------
     printed : bool
         Whether to print the findings on standard error, too.
-    notes : bool
-        Whether what is not grave is printed whole.
     ignore : sequence of str
         Names of findings that are not said.
     """
 
     notes = ("moved", "momentum", "gives")
 
-    def __init__(self, printed: bool, notes: bool = False, ignore: Sequence[str] = ()) -> None:
+    def __init__(self, printed: bool = False, ignore: Sequence[str] = ()) -> None:
         self.printed = printed
-        self.shows_notes = notes
         self.ignore = tuple(ignore)
 
     def after(
@@ -92,7 +89,7 @@ class Doctor(Observer):
         if not self.printed:
             return replace(trajectory, header=header)
         trajectory = replace(trajectory, header=Header(**field_values(header)))
-        for line in told(trajectory.findings, trajectory.ignored_findings, self.shows_notes):
+        for line in told(trajectory.findings, trajectory.ignored_findings):
             print(f"quasistatic-ref: {line}", file=sys.stderr)
         if header.not_looked_at:
             print(f"quasistatic-ref: not looked at: {header.not_looked_at}", file=sys.stderr)

@@ -8,8 +8,6 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor.contradictions import farthest_points, hull_of
-from quasistatic_ref.optional.doctor.equilibrium import at_rest, borne
-from quasistatic_ref.optional.doctor.hollow import hull_alone
 from quasistatic_ref.optional.doctor.start import (
     Start,
     joining,
@@ -22,9 +20,12 @@ from quasistatic_ref.optional.doctor.telling import distance
 from quasistatic_ref.optional.doctor.tolerances import NEAR, SUNK
 from quasistatic_ref.optional.doctor.undecided import Undecided, failure
 from quasistatic_ref.optional.doctor.unsupported import fall, held, sinks
+from quasistatic_ref.parts import part
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.half_space import HalfSpace
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.simulator import StandingsOf
 from quasistatic_ref.tolerances import SAME_NORMAL
 
 BEARING = 0.1
@@ -40,8 +41,7 @@ def gravity(start: Start) -> Iterator[Finding]:
             continue
         if _clamped(start, name):
             continue
-        rest = at_rest(start, start.q_start, start.contacts_at_start) if start.small else None
-        if rest is None or not borne(start, rest, name):
+        if not _stands(start, name):
             pair, _, up = world[0]
             x, y, z = start.gravity
             planes = [x for x in (pair.alpha, pair.beta) if isinstance(x.shape, HalfSpace)]
@@ -109,9 +109,10 @@ def penetration(start: Start) -> Iterator[Finding]:
             overlap = distance(depth, 4)
             remedy = f"start {pair.alpha.name} and {pair.beta.name} {overlap} farther apart"
             cause = f"{pair.name} is {overlap} deep at the start"
-            if hollow := hull_alone(start, pair, SUNK * least(pair)):
-                remedy = f"split the mesh of {hollow.name} into convex parts, each a <collision>"
-                cause += f": the hull of {hollow.name} overlaps, and the mesh itself does not"
+            meshes = [s.name for s in (pair.alpha, pair.beta) if isinstance(s.shape, ConvexMesh)]
+            if meshes:
+                remedy += f", or split the mesh of {listed(meshes)}, if it is not convex"
+                cause += f", by the hull of {listed(meshes)}"
             deepest[name] = Finding(
                 "initial-penetration",
                 True,
@@ -154,6 +155,15 @@ def inside(start: Start) -> Iterator[Finding]:
                     {"depth_mm": 1e3 * depth},
                     side.name,
                 )
+
+
+def _stands(start: Start, name: str) -> bool:
+    """Whether a body would stay at the start, under the loads that are there."""
+    stands: StandingsOf = part("stands")
+    q = start.q_start
+    load = start.load_at_start - start.simulator.generalised_force(q, None)
+    rows = stands(start.simulator, q, q[: start.system.n_q_a], load, "off")
+    return any(row.body == name and row.stands for row in rows)
 
 
 def _clamped(start: Start, name: str) -> bool:

@@ -1,6 +1,6 @@
 """Faces that rest on fewer points than hold them, and points of a cloud that are no part of it."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +10,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.start import (
     Start,
     least,
@@ -18,8 +18,6 @@ from quasistatic_ref.optional.doctor.start import (
 )
 from quasistatic_ref.optional.doctor.tolerances import SUNK
 from quasistatic_ref.optional.doctor.undecided import Undecided, failure
-from quasistatic_ref.parts import is_there, part
-from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import REPEATED
 
@@ -29,9 +27,6 @@ MOST = 1000
 """Candidates of a pair that are looked at."""
 ROUNDING = 1e-6
 """Angle [rad] by which a centre of mass is over an edge."""
-FEWEST, MANY = 50, 200_000
-"""Points of a cloud that is looked at: fewer have no surface, more take a second."""
-SHOWN = 3
 
 
 def few_points(start: Start) -> Iterator[Finding | Undecided]:
@@ -93,31 +88,3 @@ def _around(points: Array, start: Start) -> bool:
         return False
     gaps = np.diff(angles, append=angles[0] + 2 * np.pi)
     return bool(gaps.max() < np.pi - ROUNDING)
-
-
-def strays(start: Start) -> Iterator[Finding]:
-    """Clouds with points that no gap of a few spacings joins to the others."""
-    if not is_there("stray_points"):
-        return
-    clouds = {
-        id(p.shape): (p.shape, start.body(p.link))
-        for p in start.sides
-        if isinstance(p.shape, PointCloud) and FEWEST <= len(p.shape.points) <= MANY
-    }
-    if clouds:
-        stray: Callable[[Array], Mask] = part("stray_points")  # it loads SciPy: a second
-    for shape, name in clouds.values():
-        points = shape.points[stray(shape.points)]
-        if len(points):
-            places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * points[:SHOWN]]
-            more = ["..."] if len(points) > SHOWN else []
-            yield Finding(
-                "stray-points",
-                False,
-                "leave them out, or make the cloud by quasistatic-ref body",
-                f"{len(points)} points of the cloud of {name} lie at {', '.join(places + more)} "
-                f"mm, apart from the {len(shape.points)} "
-                "points of its surface",
-                {"strays": len(points)},
-                name,
-            )

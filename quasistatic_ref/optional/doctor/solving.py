@@ -9,20 +9,15 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.doctor.run import Run, RunStep
-from quasistatic_ref.parts import part
+from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import NONE, QPSOLVERS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 
 if TYPE_CHECKING:
-    from quasistatic_ref.step.solution import ContactForces, ForcesOfStep
+    pass
 
 BORNE: Final = 1e-4
 """Share of the load [-] that forces of single contacts may leave without a finding."""
@@ -83,80 +78,3 @@ def _solves(run: Run, name: str, k: int, digits: float) -> bool:
         solved = solve_step(run.at(k).step, name, accuracy=run.simulator.accuracy).statistics
         return solved.digits is not None and solved.digits >= digits
     return False
-
-
-def proofs(trajectory: Trajectory) -> Iterator[Finding]:
-    """A run that was proved in full, and could have had residuals alone in less time."""
-    proved = np.isin(trajectory["certificate"], ("exact", "enclosure")).any()
-    if not proved or trajectory.header.law != CONVEX:
-        return
-    total = sum(float(seconds.sum()) for seconds in trajectory.seconds.values())
-    proof = float(trajectory.seconds["proof"].sum())
-    if total > WORTH and proof > SHARE * total:
-        yield Finding(
-            "time-of-proof",
-            False,
-            'take certify = "residual", which judges each step by its residuals in less time',
-            f"proofs took {proof:.0f} s of the {total:.0f} s of these steps",
-            {"proof_s": proof, "total_s": total},
-            "run",
-        )
-
-
-def unborne(run: Run) -> Iterator[Finding]:
-    """What compliant forces leave of the loads, and how much rounding changes them.
-
-    What a last bit of the places of contacts may change in forces is that of the same step: next to
-    a load that is rounding, any change is large.
-    """
-    pressing = run["wrench"][:, :, 2].sum(axis=1)
-    k = int(pressing.argmax())
-    if pressing[k] <= SURE * run.g * run.system.masses.sum():  # nothing bears anything
-        return
-    compliant = run.at(k).compliant
-    if compliant is None:
-        return
-    if compliant.imbalance > BORNE:
-        yield Finding(
-            "uncertain-forces",
-            False,
-            "read wrench in the place of forces, or raise mu_v or mu_omega",
-            f"forces of single contacts leave {compliant.imbalance:.1e} of the load",
-            {"left": compliant.imbalance},
-            "forces",
-        )
-    bits = np.spacing(np.abs(run["beta"][k]).max(axis=1))
-    bit = float(bits.max(initial=0.0))
-    if compliant.sensitivity * bit <= SURE:  # a bound
-        return
-    noise = _noise(run.at(k), compliant, bits)
-    if noise > SURE:
-        yield Finding(
-            "uncertain-forces",
-            False,
-            "read the sum of forces of each pair in the place of single ones, or take a softer K_q",
-            f"rounding of a gap, by {bit:.1e} m, changes forces of single contacts by {noise:.1e} "
-            "of the largest of their group",
-            {"noise": noise},
-            "forces",
-        )
-
-
-def _noise(at: RunStep, compliant: ContactForces, bits: Array) -> float:
-    """How much forces change if each gap changes by part of a bit, relative to the largest.
-
-    Of each group of contacts that share coordinates, the most [-].
-    """
-    step = at.step
-    off = bits * np.random.default_rng(0).uniform(-1.0, 1.0, len(bits))
-    raised = step.replace(contacts=step.contacts.raised(off))
-    contact_forces: ForcesOfStep = part("contact_forces")
-    changed = contact_forces(raised, None, at.near).wrench
-    change = np.abs(changed - compliant.wrench)
-    groups = [group.contacts for group, _ in group_steps(step)]
-    shares = [
-        change[of].max(initial=0.0) / np.abs(compliant.wrench[of]).max(initial=0.0)
-        for of in groups
-        if compliant.wrench[of].any()
-    ]
-    return float(max(shares, default=0.0))

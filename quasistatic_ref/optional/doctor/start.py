@@ -15,7 +15,6 @@ from quasistatic_ref.errors import ContactError, ModelError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
-from quasistatic_ref.numbers.blocks import entries_of
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
@@ -79,24 +78,6 @@ class Start:
         """The contacts at the start, with their Jacobians."""
         assert self.points is not None
         return self.simulator.geometry.contacts(self.points, self.kinematics)
-
-    @cached_property
-    def _M_u(self) -> Array:
-        """M_u at the start, (n_u, n_u), or its blocks if it is constant [kg, kg m, kg m^2]."""
-        system = self.system
-        return system.mass_blocks if system.constant_mass_matrix else system.M_u(self.q_start)
-
-    def masses(self, some: Indices) -> Array:
-        """M_u at the start of some un-actuated coordinates, (k,), from the first on: (k, k)."""
-        return entries_of(self._M_u, some)
-
-    @property
-    def coupled(self) -> tuple[Indices, Indices]:
-        """Rows and columns, (k,) each, of entries of M_u that couple joints."""
-        if self.system.constant_mass_matrix:  # those of lone rigid bodies couple none
-            return np.zeros(0, np.int64), np.zeros(0, np.int64)
-        i, j = np.nonzero(self._M_u)
-        return i, j
 
     @cached_property
     def extension(self) -> StepExtension | None:

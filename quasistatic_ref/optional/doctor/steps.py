@@ -6,10 +6,12 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.optional.doctor.rings import ringing
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
 from quasistatic_ref.optional.doctor.telling import amount, distance
 from quasistatic_ref.optional.doctor.tolerances import BEYOND, SUNK
+from quasistatic_ref.optional.doctor.unsupported import falls
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import FILLED
 
@@ -27,10 +29,10 @@ def leaps(run: Run) -> Iterator[Finding]:
     """The first step that moves or turns a body by a large part of its size.
 
     A joint that does not start where its first waypoint is gets there in one step.
-    How far a body moves that is not in equilibrium says nothing: it has a finding of its own.
+    A body that falls, or a coordinate that rings, has a finding of its own.
     """
     sides = run.sides
-    unbalanced = set() if run.own_terms else {body.name for body in run.asked.lacks}
+    known = {*falls(run), *(run.system.coordinates[i].joint for i in ringing(run))}
     jumps = {
         track.joint.name: abs(float(track.values[0, 0] - run.q_start[track.joint.q][0]))
         for track in run.tracks
@@ -39,7 +41,7 @@ def leaps(run: Run) -> Iterator[Finding]:
     links = np.array([side.link for side in sides], dtype=np.int64)
     leaps_of_pairs: list[tuple[int, float, Finding]] = []
     for joint in run.system.joints:
-        if joint.name.removesuffix("/base") in unbalanced:
+        if joint.name.removesuffix("/base") in known or joint.name in known:
             continue
         moved = [sides[i] for i in np.flatnonzero(run.moves[links, joint.v].any(axis=1))]
         motion = run["delta_q"][:, joint.v]

@@ -4,11 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.doctor.measures import drive, stiffness
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.slow import SLOWLY
 from quasistatic_ref.optional.doctor.telling import amount, rounded
 from quasistatic_ref.optional.doctor.tolerances import BEYOND, IN_METRES
 from quasistatic_ref.simulate.finding import Finding
@@ -81,42 +79,16 @@ def beyond_effort(run: Run) -> Iterator[Finding]:
         softer = rounded(joint.effort / float(did.error[k]), np.floor)
         remedy = f"lower K_q of {joint.name} to {softer:.3g} {unit}/{did.unit}, move its target "
         remedy += "nearer, or correct its effort in the URDF"
-        why = ""
-        if (bears := _bears(run, joint, k)) > max(joint.effort, did.spring[k] / 2):
-            needed = f"{rounded(bears, np.ceil):.3g} {unit} or more"
-            remedy = f"carry less by {joint.name}, or correct its effort in the URDF to {needed}"
-            why = "; no K_q changes what it bears"
         yield Finding(
             "force-beyond-a-limit",
             bool(did.spring[k] > GROSS * joint.effort),
             remedy,
             f"the spring of {joint.name} pushes with {did.spring[k]:.3g} {unit} at step {k}, "
             f"{amount(did.error[k], did.unit)} from its target, and its motor with "
-            f"{joint.effort:.3g} {unit} at most, which the model ignores{why}",
+            f"{joint.effort:.3g} {unit} at most, which the model ignores",
             {"force": float(did.spring[k]), "effort": joint.effort, "step": k},
             joint.name,
         )
-
-
-def _bears(run: Run, joint: Joint, k: int) -> float:
-    """The slow force of a joint's spring made ten times softer [N, N m].
-
-    What it presses on is then pressed with a tenth, and what it carries is as heavy. 0 where no
-    step says so: the finding stands, with its first remedy.
-    """
-    if not run.searched:
-        return 0.0
-    step = run.at(k).step
-    v = joint.v.start
-    softer = np.ones(step.n_a)
-    softer[v] = np.sqrt(0.1)
-    K_q = step.K_q * np.outer(softer, softer)
-    try:
-        solved = run.solved(step.replace(K_q=K_q, h=max(SLOWLY, 1000 * step.h)))
-    except QuasistaticError:
-        return 0.0
-    off = step.delta_q_bar_a - solved.delta_q[: step.n_a]
-    return float(abs(K_q[v] @ off))
 
 
 def _beyond(run: Run, name: str) -> Iterator[tuple[Joint, str, float, float, int]]:

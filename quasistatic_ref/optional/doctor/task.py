@@ -12,13 +12,13 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.measures import side
 from quasistatic_ref.optional.doctor.placed import inside
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import joining, least
 from quasistatic_ref.optional.doctor.telling import amount, length, rounded
-from quasistatic_ref.optional.doctor.tolerances import SLIPPED, SUNK
+from quasistatic_ref.optional.doctor.tolerances import NEAR, SLIPPED, SUNK
 from quasistatic_ref.optional.doctor.undecided import Undecided
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Shape
 from quasistatic_ref.simulate.finding import Finding
@@ -34,6 +34,8 @@ STALLED: Final = 0.25
 
 OPPOSITE = -0.5
 """Cosine of two normals that grip [-]."""
+PRESSES = 1e-3
+"""Normal force of what presses, over the largest of the run [-]."""
 HELD = 1e-12
 """What interpolation between equal waypoints leaves [m, rad, -]."""
 TRIAL = 50
@@ -67,6 +69,11 @@ def touched(run: Run, pairs: list[int]) -> bool:
     return any(run.pair_measures[i].touches.any() for i in pairs)
 
 
+def borne(run: Run, table: str) -> bool:
+    """Whether any pair of a table touched, of what stands as well."""
+    return any(pair.table == table and pair.touches.any() for pair in run.pair_measures)
+
+
 def first_ways(run: Run) -> dict[str, float]:
     """When the first waypoint of each joint is that is not where its track starts [s]."""
     ways = {}
@@ -78,13 +85,15 @@ def first_ways(run: Run) -> dict[str, float]:
 
 
 def late(run: Run) -> Iterator[Finding]:
-    """A run that ends long before the first waypoint at which something is to have moved.
+    """A run that ends long before the first waypoint of joints that have not moved by then.
 
     Who tries a scene takes its first steps alone: that is none.
     """
     end = run.steps * run.h
-    first = first_ways(run)
-    if not first or run.steps < TRIAL or min(first.values()) < LONG * end:
+    ways = {t.joint.name: np.ptp(run["q_bar_a"][:, t.joint.q], axis=0).max() for t in run.tracks}
+    first = {name: time for name, time in first_ways(run).items() if ways[name] < NEAR}
+    moving = len(first) < len(first_ways(run))
+    if not first or moving or run.steps < TRIAL or min(first.values()) < LONG * end:
         return
     joint = min(first, key=first.__getitem__)
     yield Finding(
@@ -104,7 +113,7 @@ def still(run: Run) -> Iterator[Finding]:
     """
     n = run.system.n_q_a
     tables = acting(run)
-    touches = any(touched(run, pairs) for pairs in tables.values())
+    touches = any(borne(run, table) for table in tables)
     if not n or first_ways(run) or not tables or touches:
         return
     if np.abs(run["q_bar_a"] - run["q"][0, :n]).max() <= HELD:
@@ -202,6 +211,8 @@ def idle(run: Run) -> Iterator[Finding]:
     tables = acting(run)
     for table, pairs in tables.items():
         held, _ = run.held_by(pairs[0])
+        if not touched(run, pairs) and borne(run, table):
+            continue
         others = [each for other, each in tables.items() if other != table]
         if any(touched(run, each) and run.held_by(each[0])[0] == held for each in others):
             continue
@@ -278,7 +289,7 @@ def _astray(run: Run, pairs: list[int], others: list[int]) -> tuple[Joint, float
 
 
 def short(run: Run) -> Iterator[Finding]:
-    """Joints and sprung bases that end far from their targets, though nothing stops them.
+    """Joints and sprung bases that end far from their targets: a note of those that press.
 
     What a base carries, which has come along by half of its way, does not stop it.
     """
@@ -288,7 +299,7 @@ def short(run: Run) -> Iterator[Finding]:
     for track in run.tracks:
         joint = track.joint
         scalar = joint.v.stop == joint.v.start + 1
-        if not (scalar or joint.lengths > 1) or _at_a_stop(run, joint):
+        if not (scalar or joint.lengths > 1):
             continue
         n = 1 if scalar else joint.lengths
         v = slice(joint.v.start, joint.v.start + n)
@@ -299,7 +310,7 @@ def short(run: Run) -> Iterator[Finding]:
         spring = float(np.linalg.norm((run.simulator.K_q @ lag)[v]))
         at = run.at(run.steps - 1)
         J_n = frame_jacobian(at.contacts, at.contacts.J)[0][:, v]
-        pushes = at.forces[:, 2] * (J_n @ lag[v]) / error  # what each contact exerts along the way
+        pushes = run["wrench"][-1, :, 2] * (J_n @ lag[v]) / error  # of each contact along the way
         if not scalar:
             pushes = _stopping(run, joint, lag[v] / error, way, pushes)
         unit = joint.coordinates[0].unit
@@ -307,14 +318,19 @@ def short(run: Run) -> Iterator[Finding]:
             scalar and _stalled(run, int(np.abs(pushes).argmax()), error, unit)
         ):
             continue
+        presses = _presses(run, joint)
+        force = f"{spring:.3g} {'N' if unit == 'm' else 'N m'}"
+        ends = f"{joint.name} ends {amount(error, unit)} from its last target"
         needed = rounded(spring / (LAGS * way), np.ceil)
         yield Finding(
             "far-from-target",
-            True,
-            f"raise K_q of {joint.name} to {needed:.3g} or more",
-            f"{joint.name} ends {amount(error, unit)} from its last target, with {spring:.3g} "
-            f"{'N' if unit == 'm' else 'N m'} on its spring",
+            not presses,
+            "" if presses else f"raise K_q of {joint.name} to {needed:.3g} or more",
+            f"{ends} and presses with {force}"
+            if presses
+            else f"{ends}, with {force} on its spring",
             {f"error_{unit}": error, "K_q": needed},
+            joint.name,
         )
 
 
@@ -332,18 +348,12 @@ def _stopping(run: Run, base: Joint, along: Array, way: float, pushes: Array) ->
     links = np.array([[pair.alpha.link, pair.beta.link] for pair in run.pairs], dtype=int)
     alpha, beta = links.reshape(-1, 2)[run.pair_of].T
     c = at.contacts
-    f = at.forces
+    f = run["wrench"][-1]
     on_beta = f[:, :1] * c.d1 + f[:, 1:2] * c.d2 + f[:, 2:3] * c.n
     sign = np.where(carried[beta], 1.0, -1.0)
     outside = (carried[alpha] != carried[beta]) & ~(moved[alpha] | moved[beta])
     against = np.where(outside, sign * (on_beta[:, : len(along)] @ along), 0.0)
     return np.where((carried | moved)[alpha] & (carried | moved)[beta], 0.0, pushes) + against
-
-
-def _at_a_stop(run: Run, joint: Joint) -> bool:
-    """Whether a joint ends at a limit, or at another row of an extension, that bears it."""
-    A = run.rows.A
-    return bool(len(A) and A[run["lam_extra"][-1, : len(A)] > 0, joint.v.start].any())
 
 
 def _stalled(run: Run, contact: int, error: float, unit: str) -> bool:
@@ -365,3 +375,15 @@ def _grips_at_the_end(run: Run, pairs: list[int]) -> bool:
     n = np.where(run.free[run.simulator.layout.link_alpha][:, None], -n, n)
     n = n[np.isin(run.pair_of, touching)]
     return bool((n @ n.T).min(initial=0.0) < OPPOSITE)
+
+
+def _presses(run: Run, joint: Joint) -> bool:
+    """Whether a joint ends pressing on what it moves against, or on a stop of its own."""
+    A = run.rows.A
+    if len(A) and A[run["lam_extra"][-1, : len(A)] > 0, joint.v.start].any():
+        return True
+    moved: Mask = np.asarray(run.moves[:, joint.v].any(axis=1), dtype=np.bool_)
+    sides = [(pair.alpha.link, pair.beta.link) for pair in run.pairs]
+    on = np.array([bool(moved[a]) != bool(moved[b]) for a, b in sides])
+    f_n = run["wrench"][-1, :, 2]
+    return bool((f_n[on[run.pair_of]] > PRESSES * run["wrench"][..., 2].max()).any())

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.formats.quoting import listed, one_line
+from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.numbers.arrays import Array
 
 if TYPE_CHECKING:
     from scipy.optimize import OptimizeResult
-
-TOO_MANY: Final = "too many contacts touch"
-NO_ANSWER: Final = "a slow step has no answer"
 
 
 class Undecided(NamedTuple):
@@ -28,21 +24,6 @@ class Undecided(NamedTuple):
 
     what: str
     why: str
-
-
-def undecided(what: str, reasons: Mapping[str, str]) -> Iterator[Undecided]:
-    """The names to which each reason applies, as in ``equilibrium of a and b``.
-
-    Parameters
-    ----------
-    what : str
-        That is not known of the names.
-    reasons : mapping of str to str
-        Why, by name.
-    """
-    for why in dict.fromkeys(reasons.values()):
-        names = [name for name, reason in reasons.items() if reason == why]
-        yield Undecided(f"{what} of {listed(names)}", why)
 
 
 def optimum(answer: OptimizeResult) -> Array:

@@ -12,7 +12,6 @@ from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import SHORT, Start, joining, least
-from quasistatic_ref.optional.doctor.stopped import missing
 from quasistatic_ref.optional.doctor.telling import distance
 from quasistatic_ref.optional.doctor.tolerances import NEAR
 from quasistatic_ref.optional.doctor.undecided import optimum
@@ -132,17 +131,10 @@ def falls(run: Run) -> dict[str, Fall]:
     if not sinking:
         return {}
     others = alone(run) | held(run, sinking)
-    others |= {name for name in sinking if name not in others and _yields(run, name)}
+    driven = np.array([run.driven[[p.alpha.link, p.beta.link]].any() for p in run.pairs], bool)
+    yields = run.touches[-1] & driven[run.pair_of]  # a soft spring does slowly bear it
+    others |= {name for name, fall in sinking.items() if yields[fall.contacts].any()}
     return {name: fall for name, fall in sinking.items() if name not in others}
-
-
-def _yields(run: Run, name: str) -> bool:
-    """Whether what touches a body in the last step yields slowly, as a soft spring does."""
-    if run.own_terms:
-        return False
-    k = run.steps - 1
-    body = next(body for body in run.bodies_of if body.name == name)
-    return bool((run.touches[k] & body.contacts).any()) and not missing(run, k, [body])
 
 
 def _remedy(of_body: Mask, run: Run, first: int) -> str:

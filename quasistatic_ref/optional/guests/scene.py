@@ -110,7 +110,6 @@ class MujocoScenario(Scenario):
         observers: Sequence[Observer] = (),
         *,
         findings: bool = True,
-        notes: bool = False,
     ) -> Trajectory:
         """Simulate the whole scene, as :meth:`.Scenario.run`.
 
@@ -120,7 +119,7 @@ class MujocoScenario(Scenario):
             If a step fails; of the first one the scene's notes say more.
         """
         try:
-            return super().run(progress, observers, findings=findings, notes=notes)
+            return super().run(progress, observers, findings=findings)
         except RunFailed as failure:
             if failure.trajectory.steps or not self.drive.system.notes:
                 raise

@@ -11,6 +11,7 @@ it is the same for two pairs of times.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
@@ -28,10 +29,15 @@ from quasistatic_ref.parts import part as part_of
 from quasistatic_ref.solve.backends import DAQP, Certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import frame_jacobian
 from quasistatic_ref.tolerances import ACCURACY
 
+FIRST = 0.01
+"""Part of the smallest body that falls in the first time at once [-],"""
+FALLS = 9.81
+"""with the earth's acceleration, whatever a scene's is [m/s^2]."""
 FACTOR = 3.0
 """From one T to the next [-]."""
 LONGEST = 10.0
@@ -52,6 +58,8 @@ STICKS = 1e-3
 """Slip over the longest motion of a contact that sticks [-]."""
 STILL = 1e-6
 """Acceleration over the largest of a group [-] of a body that stays."""
+FACETS = "facets-32"
+"""A round cone as a polygon: with torsion, as the product of two."""
 HEAVY = (2.0**14, 2.0**10, 2.0**7)
 """Mass of a body that a clamp holds, over the largest of its group [-]: the first that has an
 answer."""
@@ -80,6 +88,11 @@ class CoulombStep(Protocol):
 FixedPoint = Callable[[StepData, Array, Solver, float, Certify, float, float], CoulombStep]
 
 
+def as_polygon(name: str) -> str:
+    """A friction cone, or what stands for a round one, in which no fixed point is exact."""
+    return name if cone(name).polyhedral else FACETS
+
+
 class NoFixedPoint(QuasistaticError):
     """No solution of Coulomb's law was found at some T."""
 
@@ -103,6 +116,52 @@ class Slow(NamedTuple):
     delta_q: Array
     wrench: Array
     s: Array
+
+
+def slow_step(
+    step: StepData,
+    T: float,
+    s: Array | None = None,
+    solvers: list[Solver] | None = None,
+    certify: str = "off",
+    least: float = 0.0,
+) -> Slow:
+    """A step by Coulomb's law with T [s] in the place of h, sought from s, (n_c,) [m].
+
+    Parameters
+    ----------
+    step, T, s
+        As above; s is 0 by default.
+    solvers : list of Solver, optional
+        Those of other steps, which serve again.
+    certify : str
+        ``"full"``: the end is proved; ``"off"``.
+    least : float
+        Motion next to which differences of s count [m], if all are shorter.
+
+    Raises
+    ------
+    NoFixedPoint
+        If no solution is found.
+    """
+    solvers = [] if solvers is None else solvers
+    extra = step.extra
+    if extra.cost is not None:  # which grows with the time step, as that of a spring
+        H, g = extra.cost
+        extra = replace(extra, H=T / step.h * H, g=T / step.h * g)
+    step = step.with_fields(h=T, extra=extra, cone=as_polygon(step.cone))
+    solver = next((one for one in solvers if one.fits(step)), None)
+    if solver is None:
+        solver = solver_for(step, DAQP if is_there("daqp_solver") else None)
+        solvers.append(solver)
+    s = np.zeros(step.contacts.n_c) if s is None else s
+    of: FixedPoint = part_of("coulomb_from")
+    end = of(step, s, solver, ACCURACY, "off", OWN, least)
+    if certify == "full" and end.converged:
+        end = of(step, end.s, solver, ACCURACY, "full", OWN, least)
+    if not end.converged:
+        raise NoFixedPoint("no solution of Coulomb's law was found")
+    return Slow(T, end.delta_q, end.wrench, end.s)
 
 
 class Answer(NamedTuple):
@@ -160,29 +219,15 @@ class SlowGroup:
         self.certify = certify
         at = group.coordinates
         self.bodies = {body: np.searchsorted(at, body.coordinates) for body in bodies}
+        self.g = g
         self.rounding = ROUNDING * g * np.array([body.mass for body in bodies])
         self.fall = float(np.max([self._own_load(body) / body.mass for body in bodies]))  # [m/s^2]
 
     def _slow(self, T: float, s: Array, part: StepData | None = None) -> Slow:
-        """The step of a part, by default the group, at T from s; QuasistaticError if unknown."""
-        part = self.part if part is None else part
-        extra = part.extra
-        if extra.cost is not None:  # which grows with the time step, as that of a spring
-            H, g = extra.cost
-            extra = replace(extra, H=T / part.h * H, g=T / part.h * g)
-        step = part.with_fields(h=T, extra=extra)
-        solver = next((one for one in self.solvers if one.fits(step)), None)
-        if solver is None:
-            solver = solver_for(step, DAQP if is_there("daqp_solver") else None)
-            self.solvers.append(solver)
+        """The step of a part, by default the group, at T from s."""
+        step = self.part if part is None else part
         least = self.fall * T**2
-        of: FixedPoint = part_of("coulomb_from")
-        end = of(step, s, solver, ACCURACY, "off", OWN, least)
-        if self.certify == "full" and end.converged:
-            end = of(step, end.s, solver, ACCURACY, "full", OWN, least)
-        if not end.converged:
-            raise NoFixedPoint("no solution of Coulomb's law was found")
-        return Slow(T, end.delta_q, end.wrench, end.s)
+        return slow_step(step, T, s, self.solvers, self.certify, least)
 
     def _starts(self, first: Slow, last: Slow) -> Array:
         """What goes with T^2, over T^2, turned round, (n_v,) [m/s^2, rad/s^2]."""
@@ -207,14 +252,16 @@ class SlowGroup:
         return np.array([self._size(body, slow.delta_q) for body in self.bodies])
 
     def _loads(self, slow: Slow) -> Array:
-        """The load of each body: all other forces, or the largest force of a pair on it [N]."""
+        """The load of each body: gravity and others, or if none the largest force of a pair [N]."""
         part = self.part
         normal = slow.wrench[:, 2]
         loads = []
         for body, at in self.bodies.items():
             on = part.contacts.J[:, :, at].any(axis=(1, 2))
             pairs = np.bincount(self.pair_of[on], normal[on])
-            loads.append(max(self._own_load(body), float(pairs.max(initial=0.0))))
+            own = self._own_load(body)
+            least = ROUNDING * self.g * body.mass
+            loads.append(own if own > least else float(pairs.max(initial=0.0)))
         return np.array(loads)
 
     def _own_load(self, body: Body) -> float:
@@ -222,10 +269,10 @@ class SlowGroup:
         tau = self.part.tau_u[self.bodies[body] - self.part.n_a]
         return float(body.amount(self._inertia(body), tau))
 
-    def answers(self, T: float) -> dict[Body, Answer]:
-        """What each body lacks, or why that is not known; T is the time that is asked first [s]."""
+    def answers(self, T: float | None) -> dict[Body, Answer]:
+        """What each body lacks, or why that is not known; T is asked first [s], None: at once."""
         try:
-            return self._answers(T)
+            return self._soon() if T is None else self._answers(T)
         except QuasistaticError as error:
             return dict.fromkeys(self.bodies, Answer(None, reason=one_line(str(error))))
 
@@ -278,6 +325,16 @@ class SlowGroup:
                 answers[body] = Answer(None, reason=f"still gives way after {last.T:.3g} s")
         return answers
 
+    def _soon(self) -> dict[Body, Answer]:
+        """What each body lacks at once, before springs and landings bear it."""
+        T = math.sqrt(FIRST * min([body.size for body in self.bodies]) / FALLS)
+        first = self._slow(T, np.zeros(self.part.contacts.n_c))
+        steps = [first, self._longer(first)]
+        lacks = self._amounts(self._starts(*steps)) > LITTLE * self._loads(steps[1])
+        clamps = {one: self._clamped(one, steps) if off else None
+                  for one, off in zip(self.bodies, lacks.tolist(), strict=True)}  # fmt: skip
+        return {body: Answer(lack is None, lack) for body, lack in clamps.items()}
+
     def _first(self, T: float) -> list[Slow]:
         """The step at T from s = 0, or at the first shorter T for which there is one."""
         s = np.zeros(self.part.contacts.n_c)
@@ -322,6 +379,8 @@ class SlowGroup:
 
     def _clamped(self, body: Body, steps: list[Slow]) -> Missing | None:
         """What a clamp on a body alone would bear: its inertia is made large; None if not known."""
+        if len(self.bodies) == 1:  # its own first motion says the same
+            return body.missing(self._starts(*steps)[self.bodies[body]], self._inertia(body))
         largest = max([one.mass for one in self.bodies]) / body.mass
         for heavy in HEAVY:
             with suppress(NoFixedPoint):

@@ -15,13 +15,12 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.certify.groups import Group, group_step, parted
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.stands.bodies import COUNTS, Body, bodies, coupled_joints
-from quasistatic_ref.optional.stands.slow import STRAIGHT, Answer, SlowGroup
+from quasistatic_ref.optional.stands.slow import STRAIGHT, Answer, SlowGroup, as_polygon
 from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.standing import Standing, Standings
-from quasistatic_ref.step.cones import cone
 
 if TYPE_CHECKING:
-    from quasistatic_ref.numbers.arrays import Array
+    from quasistatic_ref.numbers.arrays import Array, Mask
     from quasistatic_ref.simulate.simulator import Simulator
     from quasistatic_ref.solve.solver import Solver
     from quasistatic_ref.step.data import StepData
@@ -30,13 +29,17 @@ if TYPE_CHECKING:
 SLOW = 1.0
 """T [s] that is asked first, or so many h if that is longer:"""
 IN_STEPS = 100.0
-FACETS = "facets-32"
-"""A round cone as a polygon: with torsion, as the product of two."""
 OWN_TERMS = "the user's own costs or constraints are not asked"
 
 
 def stands(
-    simulator: Simulator, q: ArrayLike, target: ArrayLike, force: ArrayLike | None, certify: str
+    simulator: Simulator,
+    q: ArrayLike,
+    target: ArrayLike,
+    force: ArrayLike | None,
+    certify: str,
+    soon: bool = False,
+    only: Mask | None = None,
 ) -> Standings:
     """Whether each body would stay at q, if a target and a force stayed as they are.
 
@@ -49,6 +52,10 @@ def stands(
         Beside gravity [N, N m].
     certify : str
         ``"full"``: the ends of all iterations are proved; ``"off"``.
+    soon : bool
+        Whether it is asked what bodies lack at once, and not whether they come to rest.
+    only : ndarray of bool, shape (n_c,), optional
+        Contacts that may bear; by default all.
 
     Raises
     ------
@@ -65,12 +72,12 @@ def stands(
     if simulator.extension is not None:
         posed: Posed = part("posed")
         step, whole = posed(step, simulator.extension(q))
-    kind = step.cone if cone(step.cone).polyhedral else FACETS
+    kind = as_polygon(step.cone)
     every = bodies(simulator, coupled_joints(simulator, q))
     if not whole:
         answers = dict.fromkeys(every, Answer(None, reason=OWN_TERMS))
     else:
-        answers = _answers(simulator, step.with_fields(cone=kind), every, certify)
+        answers = _answers(simulator, step, every, certify, soon, only)
     R = here.kinematics.R
     rows = (_row(body, answers[body], R[body.links][0]) for body in every)
     named = kind if kind == step.cone else f"{step.cone} ({kind})"
@@ -78,11 +85,17 @@ def stands(
 
 
 def _answers(
-    simulator: Simulator, step: StepData, every: tuple[Body, ...], certify: str
+    simulator: Simulator,
+    step: StepData,
+    every: tuple[Body, ...],
+    certify: str,
+    soon: bool,
+    only: Mask | None,
 ) -> dict[Body, Answer]:
     sizes = np.array([pair.size or 1.0 for pair in simulator.pairs])
     pair_of = np.repeat(np.arange(len(sizes)), [pair.n_c for pair in simulator.pairs])
-    near = np.flatnonzero(step.contacts.phi <= STRAIGHT * sizes[pair_of])
+    is_near = step.contacts.phi <= STRAIGHT * sizes[pair_of]
+    near = np.flatnonzero(is_near if only is None else is_near & only)
     coordinates = np.arange(step.n_v)
     lengths = [c.unit == "m" for c in simulator.system.coordinates]
     lengths += [True] * (step.n_v - len(lengths))
@@ -92,7 +105,7 @@ def _answers(
     step = step.with_fields(
         contacts=step.contacts.some(near, coordinates), extra=step.extra.of(stops, coordinates)
     )
-    T = max(SLOW, IN_STEPS * simulator.h)
+    T = None if soon else max(SLOW, IN_STEPS * simulator.h)
     g = float(np.linalg.norm(simulator.gravity))
     solvers: list[Solver] = []
     answers: dict[Body, Answer] = {}

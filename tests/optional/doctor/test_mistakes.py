@@ -29,7 +29,7 @@ def test_a_mistake_is_named_in_the_first_finding(mistake, tmp_path):
     short = ["steps=10"] if BEFORE.issuperset(mistake["finding"]) else []
     findings = findings_after(tmp_path, mistake["scene"], mistake["edits"], short)
     assert findings[0].name in mistake["finding"]
-    assert findings[0].grave >= GRAVE[findings[0].name]
+    assert GRAVE[findings[0].name] in (None, findings[0].grave)
     assert all(word in findings[0].sentence for word in mistake["words"]), findings[0].sentence
     assert findings[0].remedy == mistake.get("remedy", findings[0].remedy)
 

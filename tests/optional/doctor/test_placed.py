@@ -56,12 +56,10 @@ def test_a_slack_rope_holds_nothing():
 GUIDED = {
     "leave out contact[world-b(floor, b)] (contact/exclude), and give b/x and b/y frictionloss":
         '<joint name="x" type="slide" axis="1 0 0"/><joint name="y" type="slide" axis="0 1 0"/>',
-    "give contact[world-b(ceiling, b)] or contact[world-b(floor, b)] condim = 1, or more clearance":
-        "<freejoint/>",
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("remedy", "joints"), [*GUIDED.items()], ids=["on joints", "free"])
+@pytest.mark.parametrize(("remedy", "joints"), [*GUIDED.items()], ids=["on joints"])
 def test_a_guide_of_a_mujoco_scene_is_mended_in_the_words_of_that(remedy, joints):
     """A box on a floor, and the free one under a ceiling that it touches."""
     z = 0.15 if "free" in joints else 2
@@ -146,8 +144,9 @@ def test_a_density_is_that_of_the_volume_by_which_mujoco_makes_the_mass():
         for i, (kind, size) in enumerate(SIZES.items())
     )
     scenario = of_mjcf(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
-    said = [one for one in scenario.findings() if one.name == "density"]
-    assert [one.numbers["density_kg_per_m3"] for one in said] == pytest.approx([3.0] * len(SIZES))
+    (said,) = [one for one in scenario.findings() if one.name == "density"]
+    assert said.numbers["density_kg_per_m3"] == pytest.approx(3.0)
+    assert said.cause.endswith(f"({len(SIZES) - 1} more are as suspect)")
 
 
 def link(name, at, axis, ends, more=""):
