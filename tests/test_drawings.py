@@ -16,7 +16,7 @@ def page(name):
 
 def test_of_a_lift_at_small_h_the_boundary_layer_adds_more_friction_than_drag():
     """Run less Coulomb's law at h is the layer; Coulomb's law at h less slowly is drag."""
-    assert "drag makes a box slip, and the layer of the slip changes more" in page("findings.md")
+    assert "drag makes a box slip, and the layer of the slip changes more" in page("artifacts.md")
     for h in (2e-3, 10e-3):
         step = slow_step.last_step(h, lifts=True)
         slow = qr.coulomb_step(step.replace(h=slow_step.SLOWLY))

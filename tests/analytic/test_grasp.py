@@ -117,7 +117,8 @@ def test_what_the_swinging_bunny_lacks_is_that_of_a_pendulum(runs, scenario):
         return [np.linalg.norm(r[:3]), np.linalg.norm(about_its_middle)]
 
     found = [lacks["missing_N"], lacks["missing_Nm"]]
-    first = np.sqrt(0.01 * FINGER / 9.81)
+    size = max(pair.beta.shape.extent for pair in scenario.pairs)
+    first = np.sqrt(1e-3 * size / 9.81)
     assert_relative(found, lacking(first, 3 * first), 5e-3)
     v = np.linalg.svd(J[:, 7:])[2][-1]
     r = M @ v * (v @ tau) / (v @ M @ v)

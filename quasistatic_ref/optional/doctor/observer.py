@@ -2,9 +2,9 @@
 
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -123,6 +123,16 @@ class LateHeader(Header):
     def compared_as(cls) -> type:
         """The class :class:`Header`, as which a late header is compared."""
         return Header
+
+    def with_fields(self, **changes: Any) -> Self:
+        """A copy with some fields replaced, whose findings are as late."""
+        late = {"findings", "not_looked_at"}
+        kept = {
+            field.name: getattr(self, field.name)
+            for field in fields(Header)
+            if field.name not in late
+        }
+        return self.unchecked(**kept | changes, at=self.at)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _header, (field_values(self),)

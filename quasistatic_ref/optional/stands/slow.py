@@ -34,7 +34,7 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import frame_jacobian
 from quasistatic_ref.tolerances import ACCURACY
 
-FIRST = 0.01
+FIRST = 1e-3
 """Part of the smallest body that falls in the first time at once [-],"""
 FALLS = 9.81
 """with the earth's acceleration, whatever a scene's is [m/s^2]."""

@@ -279,3 +279,57 @@ def test_the_users_own_costs_are_not_asked():
     extension = Extension(lambda symbols: [cp.norm1(symbols.delta_q_u)])
     row = scenario.simulator(lambda q: extension).stands()["rough"]
     assert (row.stands, row.reason) == (None, "the user's own costs or constraints are not asked")
+
+
+def drawn_slope(draw):
+    a, mu, m = draw(0.1, 0.6), draw(0.1, 0.8), draw(0.1, 5.0)
+    up = np.array([math.sin(a), 0, math.cos(a)])
+    plane = {"halfspace": {"normal": up.tolist(), "offset": 0}}
+    body = tilted(block(m, (0.1, 0.1, 0.05), 0.025 * up), (0, a, 0))
+    lacks = m * G * (math.sin(a) - mu * math.cos(a))
+    return {"b": body}, {"c": on("p", "b", mu)}, {"p": plane}, "b", lacks, "N"
+
+
+def drawn_rider(draw):
+    mu, m_1, m_2, F = draw(0.1, 0.4), draw(0.5, 3.0), draw(0.5, 3.0), draw(2.0, 20.0)
+    low = block(m_1, (0.2, 0.2, 0.05), (0, 0, 0.025), force=(F, 0, 0))
+    bodies = {"low": low, "up": block(m_2, (0.1, 0.1, 0.02), (0, 0, 0.06))}
+    contacts = {"c": on("floor", "low", mu), "on": on("low", "up", 3.0)}
+    return bodies, contacts, None, "low", F - mu * (m_1 + m_2) * G, "N"
+
+
+def drawn_seesaw(draw):
+    at, m, friction = draw(0.03, 0.15), draw(0.2, 3.0), draw(0.05, 2.0)
+    plank = hinge('<box size="0.4 0.1 0.02"/>', 0.1, friction=friction)
+    bodies = {"s": plank, "b": block(m, (0.04,) * 3, (at, 0, 0.03))}
+    return bodies, {"c": on("s/arm", "b", 0.9)}, None, "s/j", m * G * at - friction, "Nm"
+
+
+def drawn_grip(draw):
+    a, b, force = draw(0.1, 1.0), draw(0.1, 1.0), draw(3.0, 15.0)
+    return *two(a, b, force), "A", (a + b) * G - force, "N"
+
+
+def drawn_fall(draw):
+    m = draw(0.01, 10.0)
+    return (
+        {"b": block(m, (0.1,) * 3, (0, 0, 1))},
+        {"c": on("floor", "b", 0.5)},
+        None,
+        "b",
+        m * G,
+        "N",
+    )
+
+
+DRAWN = (drawn_slope, drawn_rider, drawn_seesaw, drawn_grip, drawn_fall)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("scene", DRAWN)
+def test_r49_what_is_missing_of_drawn_scenes(scene, seed):
+    rng = np.random.default_rng(seed)
+    bodies, contacts, shapes, body, lacks, unit = scene(lambda *ends: float(rng.uniform(*ends)))
+    row = stands(bodies, contacts, shapes)[body]
+    assert row.stands is (lacks <= 0)
+    assert getattr(row, f"missing_{unit}") == pytest.approx(max(lacks, 0.0), rel=0.01)
