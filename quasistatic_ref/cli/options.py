@@ -29,7 +29,7 @@ OPTIONS: Final[dict[str, dict[str, Any]]] = {
     },
     "--fast": {
         "action": "store_true",
-        "help": "short for --backend daqp: sooner, the same bits of q, delta_q and A'lam (certified)",
+        "help": "--backend daqp: sooner, with the same bits of q, delta_q, A'lam if certified",
     },
     "--cone": {
         "metavar": "NAME",

@@ -71,6 +71,12 @@ class Held(NamedTuple):
     left_out: tuple[str, ...]
 
 
+CONNECT, WELD = 0, 1
+"""MuJoCo's numbers of two kinds of equalities, the first three rows of which are lengths."""
+OPEN = 1e-3
+"""Length by which one may be violated before it is said [m]."""
+
+
 def tied_joints(state: MujocoState, heavy: Array) -> Tied:
     """The joints that remain if equalities of joints each take one away.
 
@@ -198,6 +204,23 @@ def equalities(state: MujocoState, tied: Tied, scale: Natural, as_is: bool) -> H
         for k, name in enumerate(names)
     )
     return Held(rows, basis, tuple(dict.fromkeys(left_out)))
+
+
+def violated(state: MujocoState) -> tuple[str, ...]:
+    """Sentences on connects and welds that a state leaves open: the first step closes them."""
+    _, numbers = state.rows("EQUALITY")
+    sentences = []
+    for i in dict.fromkeys(state.data.efc_id[numbers].tolist()):
+        if int(state.model.eq_type[i]) not in (CONNECT, WELD):
+            continue
+        offset = state.data.efc_pos[numbers[state.data.efc_id[numbers] == i][:3]]
+        if (gap := float(np.linalg.norm(offset))) > OPEN:
+            name = state.words("equality", i)
+            sentences.append(
+                f"{name} is violated by {1e3 * gap:.3g} mm at the start, and the first step closes "
+                "it; without a relpose, a weld keeps the pose of the model's first state"
+            )
+    return tuple(sentences)
 
 
 def extra_of(rows: Sequence[Row], n: int) -> Extra:

@@ -22,6 +22,7 @@ from quasistatic_ref.formats.plain import fingerprint
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.guests.constraints import violated
 from quasistatic_ref.optional.guests.drive import Drive, Driven, drive_of
 from quasistatic_ref.optional.guests.mujoco import default_cone, first_equality
 from quasistatic_ref.optional.guests.places import overlapped_children
@@ -223,8 +224,9 @@ def _scenario_of(
     else:
         rubs = any(pair.mu_v for pair in system.places.pairs)
         cone, system.notes = default_cone(model, rubs, system.rows)
-    overlaps = overlapped_children(system.state(system.q_start), system.places)
-    system.notes = (*system.notes, *overlaps)
+    start = system.state(system.q_start)
+    overlaps = overlapped_children(start, system.places)
+    system.notes = (*system.notes, *violated(start), *overlaps)
     pairs = system.places.pairs
     if run["backend"] is None:
         run["backend"] = DEFAULT

@@ -255,3 +255,22 @@ def test_a_load_on_welded_bodies_acts_at_their_common_centre():
     assert_close(of_end, [0, 0, 1, 0, -L, 0])
     with pytest.raises(ModelError, match="name: has a fixed base"):
         system.load(system.q_start, "post", force=(0, 0, 1))
+
+
+SUCTION = """<mujoco><worldbody><body name="hand" pos="0 0 0.5"><joint name="z" type="slide"
+ axis="0 0 1"/><geom type="sphere" size="0.02" mass="0.1" contype="0" conaffinity="0"/></body>
+<body name="box" pos="0 0 0.03"><freejoint/><geom type="box" size="0.04 0.04 0.03" mass="1"/></body>
+</worldbody><equality><weld name="suck" body1="hand" body2="box"{}/></equality>
+<actuator><position joint="z" kp="2000"/></actuator></mujoco>"""
+
+
+@pytest.mark.parametrize(("relpose", "gap"), [("", 430), (' relpose="0 0 -0.04 1 0 0 0"', 0)])
+def test_an_equality_that_the_first_state_violates_is_said_in_millimetres(relpose, gap):
+    """The hand, which collides with nothing, is 430 mm lower than in the model's first state."""
+    model = mujoco.MjModel.from_xml_string(SUCTION.format(relpose))
+    data = mujoco.MjData(model)
+    data.qpos[0] = -0.43
+    scene = qr.mujoco_scenario(model, data, steps=1)
+    said = [note for note in scene.drive.system.notes if "violated" in note]
+    start = ["equality[suck] is violated by 430 mm at the start, and the first step closes"]
+    assert [note[: len(start[0])] for note in said] == start * bool(gap)
