@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import daqp
 import numpy as np
 
-from quasistatic_ref.numbers.arrays import Array, all_finite
+from quasistatic_ref.numbers.arrays import Array, Indices, all_finite
 from quasistatic_ref.solve.backends import DAQP, Options
 from quasistatic_ref.solve.by_group import GroupLayout, Programs
 from quasistatic_ref.solve.many import ManyAnswers
@@ -63,6 +63,7 @@ class Workspace:
         self._cold = np.zeros(len(b), np.int32)
         self._warm = False
         self._options = options
+        self._H = H
         if len(b):
             self._set_up(H)
 
@@ -93,13 +94,42 @@ class Workspace:
         self._warm = answer.flag == 1
         return answer
 
-    def cold(self, H: Array) -> Answer:
-        """Solve the program as it stands, from no active set; H and A are those of the last."""
-        if not len(self._cold):
-            return self.answer(H)
-        f, _, b = self._program.values()
-        self._model.update(f=f, blower=b, sense=self._cold)
-        return self._result()
+    def cold(self, f: Array, b: Array, sizes: Array) -> tuple[Array, Array, Indices, Indices]:
+        """Solve N programs with the H and A that it was set up for, each from no active set.
+
+        Parameters
+        ----------
+        f : ndarray, shape (N, n)
+        b : ndarray, shape (m,)
+            Times the size of a step [(N m s)^0.5].
+        sizes : ndarray, shape (N,)
+            Of each [(N m s)^0.5].
+
+        Returns
+        -------
+        x, lam, flag, iterations : ndarray, shapes (N, n), (N, m), (N,) and (N,)
+        """
+        N = len(f)
+        x = np.zeros(f.shape)
+        lam = np.zeros((N, len(b)))
+        flags = np.ones(N, np.int64)
+        iterations = np.zeros(N, np.int64)
+        if not len(b):
+            x[:] = np.linalg.solve(self._H, -f.T).T
+            return x, lam, flags, iterations
+        f_now, _, b_now = self._program.values()
+        update, solve = self._model.update, self._model.solve
+        last = None
+        for i, size in enumerate(sizes.tolist()):
+            f_now[:] = f[i]
+            if size != last:
+                np.divide(b, size, out=b_now)
+                last = size
+            update(f=f_now, blower=b_now, sense=self._cold)
+            x[i], _, flags[i], info = solve()
+            lam[i] = info["lam"]
+            iterations[i] = info["iterations"]
+        return x, 0.0 - lam, flags, iterations
 
     def _solved(self, H: Array, *, warm: bool) -> Answer:
         if warm and H is self._H:  # DAQP keeps its factor, with the same bits
@@ -172,34 +202,22 @@ def cold_answers(scaled: ScaledStep, g: Array, sizes: Array, options: Options) -
         DAQP's own.
     """
     programs = scaled.programs
-    layout = programs.layout
     workspaces = Workspaces(programs, options)
     N = len(g)
     x = np.zeros((N, len(programs.g)))
     lam = np.zeros((N, len(programs.b)))
-    status = ["optimal"] * N
+    worst = np.ones(N, np.int64)
     iterations = np.zeros(N, np.int64)
-    with_size = programs.b * scaled.units.size
-    f = -(g * scaled.units.coordinate / sizes[:, None])[:, layout.coordinates]
-    each = [
-        (one, H, n, m)
-        for one, H, (n, _, m) in zip(workspaces.each, programs.blocks, layout.slices, strict=True)
-    ]
-    last = None
-    for i, size in enumerate(sizes.tolist()):
-        workspaces.program.g[:] = f[i]
-        if size != last:
-            workspaces.program.b[:] = with_size / size
-            last = size
-        for one, H, n, m in each:
-            answer = one.cold(H)
-            x[i, n] = answer.x
-            lam[i, m] = 0.0 - answer.lam
-            iterations[i] += answer.iterations
-            if answer.flag != 1:
-                status[i] = STATUS.get(answer.flag) or str(answer.flag)
-    in_order = np.argsort(layout.coordinates), np.argsort(layout.rows)
-    return ManyAnswers(x[:, in_order[0]], lam[:, in_order[1]], status, iterations)
+    f = -(g * scaled.units.coordinate / sizes[:, None])
+    b = programs.b * scaled.units.size
+    both = zip(workspaces.each, programs.layout.groups, programs.layout.slices, strict=True)
+    for one, group, (_, _, m) in both:
+        of_group = one.cold(f[:, group.coordinates], b[m], sizes)
+        x[:, group.coordinates], lam[:, group.rows], flags, count = of_group
+        worst = np.where(worst == 1, flags, worst)
+        iterations += count
+    status = [STATUS.get(flag) or str(flag) for flag in worst.tolist()]
+    return ManyAnswers(x, lam, status, iterations)
 
 
 class DaqpSolver(BackendSolver):
