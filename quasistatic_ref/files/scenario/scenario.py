@@ -63,6 +63,7 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ
 
 MOST_BODIES = 1000
+"""Most bodies of a scenario: of 1000 free ones H, where it is formed whole, has 288 MB."""
 ExtendedBodies = Callable[
     [System, tuple[ContactPair, ...], Mapping[str, BodyEntry], float, Array, Array],
     tuple[tuple[ContactPair, ...], OfBodies],
@@ -310,7 +311,11 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
 
     tables = read("bodies")
     if (count := len(tables.names_left())) > MOST_BODIES:
-        raise ScenarioError(f"are more than {MOST_BODIES}", field="bodies", value=count)
+        problem = (
+            f"are more than {MOST_BODIES}; whole arrays such as H take memory with the square of "
+            "their number, and no larger scene is tested"
+        )
+        raise ScenarioError(problem, field="bodies", value=count)
     roots = folders_in(path.parent, top, "roots", read("roots"))
     entries = {
         name: body_entry(name, tables.table(name), path.parent, roots)
