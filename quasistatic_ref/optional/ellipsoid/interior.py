@@ -101,6 +101,8 @@ def interior_point(problem: Blocks, gap: arb) -> Pair | None:
     gap : arb
     """
     A = problem.A
+    rows_of_A = A.tolist()
+    of_blocks = [arb_mat(rows_of_A[rows.start : rows.stop]) for rows in problem.rows]
     split = problem.split
     x = problem.H.solve(problem.g).mid()
     s = column(v for s_j in split((A * x - problem.b).mid()) for v in _inside(s_j))
@@ -112,8 +114,10 @@ def interior_point(problem: Blocks, gap: arb) -> Pair | None:
         if all(abs(v) < gap for v in (work, *r_d.entries(), *r_p.entries())):
             return Pair(x, y)
         blocks = list(zip(split(s), split(y), problem.give, strict=True))
-        W = _block_diagonal([_softer(_inverse_scaling(s_j, y_j), c_j) for s_j, y_j, c_j in blocks])
-        WA = (W * A).mid()
+        weights = [_softer(_inverse_scaling(s_j, y_j), c_j) for s_j, y_j, c_j in blocks]
+        W = _block_diagonal(weights)
+        WA = arb_mat([row for v, A_j in zip(weights, of_blocks, strict=True)
+                      for row in (v * A_j).mid().tolist()])  # fmt: skip
         K = (problem.H + A.transpose() * WA).mid()
         share = arb(0) if _centrality(split(s), split(y)) > CENTRED else arb(1)
         mu = work / len(blocks)

@@ -82,9 +82,7 @@ def scaled_blocks(step: StepData, form: ExactForm, compliance: float = 0.0) -> S
     blocks = [rows for _, rows, _ in cone_blocks(step)]
     mu = [arb(v) for _, _, c in cone_blocks(step) for v in (ONE, *c)]
     root = [(1 / arb(H[v, v]).sqrt()).mid() for v in range(form.n)]
-    R = diagonal(root)
-    M = diagonal(mu)
-    A = M * form.A * R
+    A = scaled(form.A, mu, root)
     entries = A.entries()
     length = []
     for rows in blocks:
@@ -100,16 +98,24 @@ def scaled_blocks(step: StepData, form: ExactForm, compliance: float = 0.0) -> S
     of_contacts = 4 * step.contacts.n_c
     soft = arb(compliance) / step.h / form.h
     give = [soft] * of_contacts + [arb(0)] * (form.m - of_contacts)
-    L = diagonal([1 / ell for ell in length])
+    shares = [1 / ell for ell in length]
     problem = Blocks(
-        H=(R * H * R).mid(),
-        g=(R * form.g * (1 / size)).mid(),
-        A=(L * A).mid(),
-        b=(L * (M * -form.c) * (1 / size)).mid(),
+        H=scaled(H, root, root).mid(),
+        g=scaled(form.g, root, [1 / size]).mid(),
+        A=scaled(A, shares, [arb(1)] * form.n).mid(),
+        b=scaled(scaled(-form.c, mu, [arb(1)]), shares, [1 / size]).mid(),
         C=diagonal([c / ell**2 for c, ell in zip(give, length, strict=True)]).mid(),
         rows=blocks,
     )
     return ScaledBlocks(form, problem, mu, root, length, give, least, size)
+
+
+def scaled(matrix: arb_mat, rows: list[arb], columns: list[arb]) -> arb_mat:
+    """A matrix, (k, n), whose rows and columns are multiplied by numbers [its unit]."""
+    both = zip(rows, matrix.tolist(), strict=True)
+    return arb_mat([
+        [r * v * c if v else v for v, c in zip(row, columns, strict=True)] for r, row in both
+    ]) if rows else matrix  # fmt: skip
 
 
 def exact_loads(step: StepData, form: ExactForm) -> list[arb_mat]:
