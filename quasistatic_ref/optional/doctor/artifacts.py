@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.numbers.arrays import Array, Mask, without_warnings
-from quasistatic_ref.numbers.ordered import dot, norm
-from quasistatic_ref.optional.doctor.tolerances import BEARS
+from quasistatic_ref.numbers.arrays import Array, without_warnings
+from quasistatic_ref.numbers.ordered import norm
+from quasistatic_ref.optional.doctor.measures import pressing
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
@@ -32,17 +32,6 @@ def quotient(over: ArrayLike, under: ArrayLike, none: float = 0.0) -> Array:
     return np.where(np.isfinite(quotients), quotients, none)
 
 
-def pressing(normal: Array) -> Mask:
-    """Which contacts bear more than noise of the largest force, shape (..., n_c), as `normal`.
-
-    Parameters
-    ----------
-    normal : ndarray, shape (..., n_c)
-        Normal forces [N].
-    """
-    return np.asarray(normal > BEARS * normal.max(axis=-1, initial=0.0, keepdims=True))
-
-
 def quasi_dynamic_number(run: Run) -> float | None:
     """The largest Pi of its free bodies: the drag m v / h over the friction sum mu_v N.
 
@@ -59,19 +48,6 @@ def quasi_dynamic_number(run: Run) -> float | None:
         Pi = Pi[friction >= friction.max() / 2]
         known += Pi[np.isfinite(Pi)].tolist()
     return max(known, default=None)
-
-
-def gap_after(phi: Array, n: Array, motion: Array) -> Array:
-    """Gap phi + n'J delta_q [m] of each contact after its step, to first order, (steps, n_c).
-
-    Parameters
-    ----------
-    phi, n : ndarray, shapes (steps, n_c) and (steps, n_c, 3)
-        The distance [m], which Coulomb's law raises in the step, and the normal.
-    motion : ndarray, shape (steps, n_c, 4)
-        J delta_q [m, rad]: private rises are not in the gap.
-    """
-    return phi + dot(n, motion[:, :, :3])
 
 
 def drag(run: Run, base: Joint) -> Array:

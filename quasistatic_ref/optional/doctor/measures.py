@@ -13,8 +13,8 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.optional.doctor.artifacts import gap_after, pressing
-from quasistatic_ref.optional.doctor.tolerances import NEAR
+from quasistatic_ref.numbers.ordered import dot
+from quasistatic_ref.optional.doctor.tolerances import BEARS, NEAR
 from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.law import CONVEX
@@ -364,3 +364,27 @@ def _distance(joint: Joint, q: Array, target: Array) -> Array:
     if not joint.lengths:
         return np.asarray(np.linalg.norm(_turns(joint, q, target), axis=1))
     return np.asarray(np.linalg.norm((q - target)[:, joint.q][:, : joint.lengths], axis=1))
+
+
+def pressing(normal: Array) -> Mask:
+    """Which contacts bear more than noise of the largest force, shape (..., n_c), as `normal`.
+
+    Parameters
+    ----------
+    normal : ndarray, shape (..., n_c)
+        Normal forces [N].
+    """
+    return np.asarray(normal > BEARS * normal.max(axis=-1, initial=0.0, keepdims=True))
+
+
+def gap_after(phi: Array, n: Array, motion: Array) -> Array:
+    """Gap phi + n'J delta_q [m] of each contact after its step, to first order, (steps, n_c).
+
+    Parameters
+    ----------
+    phi, n : ndarray, shapes (steps, n_c) and (steps, n_c, 3)
+        The distance [m], which Coulomb's law raises in the step, and the normal.
+    motion : ndarray, shape (steps, n_c, 4)
+        J delta_q [m, rad]: private rises are not in the gap.
+    """
+    return phi + dot(n, motion[:, :, :3])

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.optional.doctor.artifacts import gap_after
 from quasistatic_ref.optional.doctor.measures import (
     PairMeasures,
     contact_mu,
     contact_slips,
+    gap_after,
     pair_measures,
     side,
     touching,
