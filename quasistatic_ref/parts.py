@@ -34,6 +34,7 @@ PARTS: Final = {
     "coal_witness": ("contact of curved solids", "optional.curved.by_coal:coal_witness"),
     "curve_crossings": ("a rim", "optional.curved.rims:curve_crossings"),
     "known_gaps": ("a curved solid", "optional.curved.ways_out:known_gaps"),
+    "is_compiled": ("compiled code", "optional.compiled.leaves:is_compiled"),
     "compiled_function": ("compiled code", "optional.compiled.leaves:compiled_function"),
     "pairs_by_coal": ('distances = "coal"', "optional.curved.clouds_by_coal:pairs_by_coal"),
     # Of a step.

@@ -15,6 +15,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.numbers.arrays import all_finite
+from quasistatic_ref.numbers.compiled import is_compiled
 from quasistatic_ref.numbers.ordered import norm
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import (
@@ -37,6 +38,9 @@ MOST: Final = 512
 
 FEW_POINTS: Final = 16_384
 """Most points of a cloud that are all looked at: of more, most are left out by groups."""
+
+FEW_COMPILED: Final = 262_144
+"""The same where compiled code looks at them."""
 
 
 class AllPairs:
@@ -142,7 +146,9 @@ def kind_of(pair: ContactPair) -> Kind | None:
     cloud_last = isinstance(sides[1], PointCloud)
     cloud, solid = sides[::-1] if cloud_last else sides
     if isinstance(cloud, PointCloud):
-        known = isinstance(solid, Rounded | HalfSpace) and len(cloud.points) <= FEW_POINTS
+        N = len(cloud.points)
+        few = N <= FEW_POINTS or (N <= FEW_COMPILED and is_compiled(Clouds.contacts))
+        known = isinstance(solid, Rounded | HalfSpace) and few
         return (Clouds, (cloud_last, cloud, pair.n_c)) if known and pair.resolution else None
     ball_last = isinstance(sides[1], Sphere)
     ball, other = sides[::-1] if ball_last else sides

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial, update_wrapper
+from inspect import unwrap
 from typing import Any, TypeVar, cast
 
 from quasistatic_ref.parts import is_there, part
@@ -15,12 +16,23 @@ from quasistatic_ref.parts import is_there, part
 CompiledFunction = Callable[[Callable[..., Any], Any], Callable[..., Any] | None]
 """A function, and the instance of a method or None -> what stands in its place, if anything."""
 
+IsCompiled = Callable[[Callable[..., Any]], bool]
+"""A function -> whether compiled code stands in its place."""
+
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def compiled(by_numpy: Function) -> Function:
     """A function, or a method, that compiled code answers if it can; `by_numpy` else."""
     return cast(Function, _ByEither(by_numpy))
+
+
+def is_compiled(function: Callable[..., Any]) -> bool:
+    """Whether compiled code stands in the place of a function here."""
+    if not is_there("is_compiled"):
+        return False
+    answer: IsCompiled = part("is_compiled")
+    return answer(unwrap(function))
 
 
 class _ByEither:

@@ -16,7 +16,7 @@ from quasistatic_ref.formats.shown import Page
 from quasistatic_ref.model.body import Described
 from quasistatic_ref.model.world import ReadUrdf
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.compiled import CompiledFunction
+from quasistatic_ref.numbers.compiled import CompiledFunction, IsCompiled
 from quasistatic_ref.optional.compiled import leaves
 from quasistatic_ref.optional.coulomb import fixed_point
 from quasistatic_ref.optional.curved import by_coal, clouds_by_coal, rims, ways_out
@@ -61,6 +61,7 @@ class Expected:
     coal_witness: WitnessOfPair = by_coal.coal_witness
     curve_crossings: CurveCrossings = rims.curve_crossings
     known_gaps: KnownGaps = ways_out.known_gaps
+    is_compiled: IsCompiled = leaves.is_compiled
     compiled_function: CompiledFunction = leaves.compiled_function
     pairs_by_coal: ChangedPairs = clouds_by_coal.pairs_by_coal
     ellipsoid: FrictionCone = ELLIPSOID_CONE

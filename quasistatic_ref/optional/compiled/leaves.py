@@ -26,10 +26,15 @@ that it knows, each with arguments."""
 
 def compiled_function(function: Callable[..., Any], instance: Any) -> Callable[..., Any] | None:
     """What stands in the place of a function, or of a method of an instance; None if nothing."""
-    if missing() is not None or not is_right(function):
+    if not is_compiled(function):
         return None
     made: Callable[..., Any] | None = leaf(function)[0](instance)
     return made
+
+
+def is_compiled(function: Callable[..., Any]) -> bool:
+    """Whether compiled code stands in the place of a function."""
+    return missing() is None and is_right(function)
 
 
 def leaf(function: Callable[..., Any]) -> tuple[Callable[..., Any], Callable[..., Any]]:
