@@ -20,7 +20,7 @@ from tests.pages import ROOT
 
 GALLERY = ROOT / "docs" / "gallery"
 SCRIPTS = sorted(GALLERY.glob("*.py"))
-IMPORTED = {"matplotlib.pyplot", "numpy", "quasistatic_ref"}
+IMPORTED = {"matplotlib.pyplot", "numpy", "quasistatic_ref", "time"}
 SHORT = {"spun_sphere"}
 """The script that README's line runs; the others are long."""
 DPI = 100
