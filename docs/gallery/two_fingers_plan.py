@@ -57,7 +57,7 @@ while abs(goal - place(states[-1].q[None])[1][0]) > 0.005 and len(states) < 100:
     results = simulator.steps(states[-1], targets)
     best = int(np.argmin(cost(results.q)))
     tried[len(states)] = results.q, best
-    states.append(results[best].end)
+    states.append(system.at(results[best].q))
 seconds = time.process_time() - begin
 q = np.array([state.q for state in states])
 at, angle = place(q)
