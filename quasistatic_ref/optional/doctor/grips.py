@@ -27,6 +27,8 @@ STICKS = 0.1
 """Part of a slip in a step that is left where the step is taken slowly [-], of what sticks."""
 AGREES = 0.5
 """Cosine between a slip and what is missing against it from which they agree [-]."""
+LIGHT = 0.01
+"""Force that is none, over a body's weight [-]."""
 PRESSES = 1e-3
 """Normal force that grips, over the largest of the run [-]: less is a solver's noise."""
 
@@ -53,13 +55,21 @@ def lost(run: Run) -> Iterator[Finding]:
             continue
         scores = (slips / run.sizes / SLIPPED + turns / TURNED).max(axis=1)
         k = int(scores.argmax())
-        lacks = _lacking(run, k, name)
-        others = run.of_body(name) & ~held
-        if lacks is None and run.touches[k, others].any():
-            alone = _lacking(run, k, name, ~others)
-            lacks = alone if alone and _agrees(run, k, name, on[k], alone) else None
-        if lacks or _would_stick(run, k, on[k]):
+        sticks = _would_stick(run, k, on[k])
+        lacks = None if sticks else _missing(run, k, name, on[k], held)
+        if lacks or sticks:
             yield _finding(run, name, k, on[k], lacks, slips, turns)
+
+
+def _missing(run: Run, k: int, name: str, on: Mask, held: Mask) -> Standing | None:
+    """What is missing of a body the way that it slips: by all contacts, or by its grip alone."""
+    others = run.of_body(name) & ~held
+    masks = [None, ~others] if run.touches[k, others].any() else [None]
+    for only in masks:
+        lacks = _lacking(run, k, name, only)
+        if lacks and _agrees(run, k, name, on, lacks):
+            return lacks
+    return None
 
 
 def _held(run: Run) -> dict[str, Mask]:
@@ -88,21 +98,23 @@ def _closed(n: Array) -> bool:
 
 def _agrees(run: Run, k: int, name: str, on: Mask, lacks: Standing) -> bool:
     """Whether a body slips through its grip the way that nothing bears it."""
-    if not lacks.missing_N:
+    if lacks.missing_Nm:
         return True
+    if lacks.missing_N < LIGHT * run.system.mass(name) * run.g:
+        return False
     of_beta = [run.body(pair.beta.link) == name for pair in run.pairs]
     signs = np.where(np.array(of_beta)[run.pair_of], 1.0, -1.0)
     way = (signs[on, None] * run.noted("moved")[k, on, :3]).sum(axis=0)
     return bool(-way @ lacks.direction[:3] > AGREES * np.linalg.norm(way))
 
 
-def _lacking(run: Run, k: int, name: str, only: Mask | None = None) -> Standing | None:
-    """What a body lacks at once after step k, if anything, by all contacts or some."""
+def _lacking(run: Run, k: int, name: str, only: Mask | None) -> Standing | None:
+    """What a body lacks after step k, if anything, by all contacts or some: a free one at once."""
     stands: Callable[..., Standings] = part("stands")
     kept: Callable[..., Array] = part("kept_loads")
     q = run["q"][k + 1]
     force = kept(run.simulator, run["q"][k], q, run.noted("tau")[k])
-    rows = stands(run.simulator, q, run["q_bar_a"][k], force, "off", True, only)
+    rows = stands(run.simulator, q, run["q_bar_a"][k], force, "off", name in run.free_bases, only)
     own = [row for row in rows if row.body.partition("/")[0] == name]
     lacks = [row for row in own if row.stands is False]
     return lacks[0] if lacks else None
