@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,10 +20,11 @@ from quasistatic_ref.optional.guests.mujoco_state import MujocoState, awake, muj
 from quasistatic_ref.optional.guests.opinion import MOVES, Opinion
 from quasistatic_ref.optional.guests.overlaps import misplaced, unlisted
 from quasistatic_ref.optional.guests.settled import run, velocities, window
-from quasistatic_ref.parts import part
-from quasistatic_ref.simulate.simulator import CoulombSolution
+from quasistatic_ref.parts import is_there, part
+from quasistatic_ref.solve.backends import DAQP
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import ACCURACY, CREEP
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 
 SHORT = 0.01
 """Time step for forces of what slides, over MuJoCo's [-]: springs give way by 1e-4 as much."""
+FELL_BACK = "no solution of Coulomb's law was found: forces are those of the convex step"
 DRAG = "dampers: their forces at the present velocity are loads"
 
 
@@ -97,10 +99,12 @@ def mujoco_opinion(
     T = coordinates.T
     answer = solve_step(step)
     exact = T @ answer.delta_q / h
+    fell_back = False
     both = Compared(theirs, answer, exact / h, exact)
     contacts = tuple(both.contacts())
     if any(c.exact and max(c.exact.slip, c.mu_omega * c.exact.spin) > tolerance for c in contacts):
-        short = _sliding(step_with(near, data, h * SHORT, "closed", drag, seen.hops)[0])
+        sliding = step_with(near, data, h * SHORT, "closed", drag, seen.hops)[0]
+        short, fell_back = _sliding(sliding)
         both = Compared(theirs, short, T @ short.delta_q / (h * SHORT) ** 2, exact)
         contacts = tuple(both.contacts())
     bodies = tuple(both.bodies())
@@ -113,6 +117,8 @@ def mujoco_opinion(
     left_out = [*not_unique(contacts, bodies, weight), *coordinates.left_out]
     if drag.any():
         left_out.append(DRAG)
+    if fell_back:
+        left_out.insert(0, FELL_BACK)
     named = {body for body, one in every if one.name != "penetrates"}
     every += [one for one in moving(theirs.movers, theirs.mean) if one[0] not in named]
     slow = [body.name for body in bodies if body.fastest(body.theirs) > tolerance]
@@ -126,15 +132,23 @@ def mujoco_opinion(
     )  # fmt: skip
 
 
-def _sliding(step: StepData) -> StepSolution:
+def _sliding(step: StepData) -> tuple[StepSolution, bool]:
     """A step in which something slides: by Coulomb's law, where nothing lifts off as it slides.
 
-    Where that has no answer, the convex step, from which things lift off by a part of their way.
+    Its end is proved, not the way to it. Where that has no answer, the convex step, from which
+    things lift off by a part of their way; and whether that is so.
     """
+    of: Callable[..., Any] = part("coulomb_from")
+    polyhedral = cone(step.cone).polyhedral
+    solver = solver_for(step, DAQP if polyhedral and is_there("daqp_solver") else None)
     with suppress(QuasistaticError):
-        coulomb_solution: CoulombSolution = part("coulomb")
-        return coulomb_solution(step, solver_for(step), ACCURACY)
-    return solve_step(step)
+        s = np.zeros(step.contacts.n_c)
+        if polyhedral:
+            s = of(step, s, solver, ACCURACY, "off").s
+        end = of(step, s, solver, ACCURACY)
+        if end.converged:
+            return end, False
+    return solve_step(step), True
 
 
 def _answer(
