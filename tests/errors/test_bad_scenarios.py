@@ -17,7 +17,9 @@ CAUSES = {
     # name: (changes to the scene, the field named, words of the sentence)
     "very many steps": (("steps", 10**8), "steps", "must be at most 10000000 (got 100000000)"),
     "very many bodies": (
-        ("bodies", {f"b{i}": {} for i in range(1001)}), "bodies", "are more than 1000; whole arrays",
+        ("bodies", {f"b{i}": {} for i in range(1001)}),
+        "bodies",
+        "are more than 1000; whole arrays",
     ),
     "a name of several lines": (("solver/a\nb\u001b", 1), "solver.a\\nb\\x1b", "is unknown"),
     "h by another name": (

@@ -16,7 +16,7 @@ def test_settings_of_demo_reach_both_cases_but_not_their_torsion():
 
 
 def test_a_lift_that_does_not_end_is_not_compared():
-    with pytest.raises(ScenarioError, match=r"steps: end at t = 1 s, before the lift does"):
+    with pytest.raises(ScenarioError, match=r"steps: end at t = 1 s; the comparison needs"):
         grasp_scenarios(["steps=100"])
 
 

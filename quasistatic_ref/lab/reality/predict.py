@@ -12,10 +12,11 @@ from quasistatic_ref.lab.reality.push import FINGER, Pushed
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution
 from quasistatic_ref.simulate.law import COULOMB
-from quasistatic_ref.solve.backends import DAQP, Certify
+from quasistatic_ref.solve.backends import DAQP, DEFAULT, Certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
@@ -94,7 +95,7 @@ def prediction(of: Pushed, pose: Array, path: Array, certify: Certify = "full") 
 def solver_for_step(step: StepData, solver: Solver | None) -> Solver:
     """A solver for the step: the solver of the step before if it fits."""
     if solver is None or not solver.fits(step):
-        return solver_for(step, DAQP)
+        return solver_for(step, DEFAULT if step.cone == ELLIPSOID else DAQP)
     return solver
 
 

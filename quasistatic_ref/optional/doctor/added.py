@@ -11,7 +11,7 @@ import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.artifacts import drag, quotient
-from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.run import Run, in_world
 from quasistatic_ref.optional.doctor.start import SHORT
 from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.simulate.finding import Finding
@@ -119,14 +119,12 @@ def _drags(run: Run, every: Array, normal: Array) -> tuple[Array, Array]:
     every, normal : ndarray, shape (pairs, steps, 3)
         The force on beta, and what of it is normal [N]: friction at its limit takes no more.
     """
-    from scipy.spatial.transform import Rotation  # takes as long as a short run
-
     changes = np.zeros(every.shape[:2])
     forces = np.zeros(every.shape[:2])
     for name, base in run.free_bases.items():
         link = run.system.link(name)
         signs = [float(p.beta.link == link) - float(p.alpha.link == link) for p in run.pairs]
-        F = Rotation.from_quat(run["q"][:-1, base.q][:, 3:]).apply(drag(run, base))
+        F = in_world(run["q"][:-1, base.q][:, 3:], drag(run, base))
         size = np.linalg.norm(F, axis=1)
         force, pressed = (
             np.array(signs)[:, None] * quotient(np.einsum("pkx,kx->pk", f, F), size)

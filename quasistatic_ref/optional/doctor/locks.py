@@ -11,6 +11,7 @@ from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.planar import Planar
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Start, table
 from quasistatic_ref.optional.doctor.telling import amount
@@ -90,8 +91,6 @@ def locked(run: Run) -> Iterator[Finding]:
     times the forces of the same step without friction: there, none presses because it is to rise.
     Coulomb's law, begun from a slip of 0.1 m/s, moves a locked coordinate ten times as far.
     """
-    from scipy.optimize import nnls  # takes as long as a short run
-
     rubbing = np.abs(run["wrench"][:, :, [0, 1, 3]]).sum(axis=(1, 2))
     if not rubbing.any() or run.simulator.law == COULOMB:
         return
@@ -104,10 +103,21 @@ def locked(run: Run) -> Iterator[Finding]:
     force = step.tau_u + wrench[:, 2] @ J_n  # all but friction
     slow: Callable[..., Any] = part("slow_step")
     smooth = slow(step.with_fields(cone="frictionless"), run.h)
+    noise = TINY * np.abs(step.tau_u).max(initial=0.0)
+
+    def friction(normal: Array) -> Array:
+        """What contacts that press with these forces can bear along each coordinate."""
+        sums: Array = np.einsum("icv,ci->v", np.abs(J_rubs), contacts.mu * normal[:, None])
+        return sums
+
+    if not (np.abs(force) > np.maximum(2 * friction(smooth.wrench[:, 2]), noise)).any():
+        return
+    from scipy.optimize import nnls  # takes as long as a short run
+
     unsqueezed, _ = nnls(J_n.T, J_n.T @ wrench[:, 2])  # lever arms press as well
     normal = np.maximum(smooth.wrench[:, 2], unsqueezed)
-    could = np.einsum("icv,ci->v", np.abs(J_rubs), contacts.mu * normal[:, None])
-    suspect = np.abs(force) > np.maximum(2 * could, TINY * np.abs(step.tau_u).max(initial=0.0))
+    could = friction(normal)
+    suspect = np.abs(force) > np.maximum(2 * could, noise)
     if not suspect.any():
         return
     begin = np.full(contacts.n_c, CRAWL * run.h)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.model.screw import rows
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.measures import (
     PairMeasures,
@@ -37,6 +38,13 @@ HELD = 1e-9
 """Change of a target that is none [m, rad, -]."""
 SAME = 1e-6
 """Change of a load that is none, over the largest of its body [-]."""
+
+
+def in_world(quaternions: Array, vectors: Array) -> Array:
+    """Vectors of a body's own frame, (steps, 3), in the world, by its quaternions, (steps, 4)."""
+    R: Array = np.array(rows(list(quaternions.T)))
+    turned: Array = np.einsum("ijk,kj->ki", R, vectors)
+    return turned
 
 
 class Run(Start):
@@ -109,14 +117,12 @@ class Run(Start):
     @cached_property
     def loads_move(self) -> Mask:
         """Whether a load on a free body changes in each step, shape (steps,), seen in the world."""
-        from scipy.spatial.transform import Rotation  # takes as long as a short run
-
         moves = np.zeros(self.steps, dtype=bool)
         for base in self.free_bases.values():
-            R = Rotation.from_quat(self["q"][:-1, base.q][:, 3:])
+            q = self["q"][:-1, base.q][:, 3:]
             load = self.noted("tau")[:, base.v]
             for part_of in (load[:, :3], load[:, 3:]):
-                change = np.abs(np.diff(R.apply(part_of), axis=0)).max(axis=1)
+                change = np.abs(np.diff(in_world(q, part_of), axis=0)).max(axis=1)
                 moves[1:] |= change > SAME * np.abs(load).max()
         return moves
 

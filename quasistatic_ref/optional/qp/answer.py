@@ -246,10 +246,10 @@ class QPUnbounded(QuasistaticError):
     Examples
     --------
     >>> try:
-    ...     qr.exact_qp(np.zeros((2, 2)), [1.0, -1.0], lb=[0.0, 0.0])
+    ...     found = qr.exact_qp(np.zeros((2, 2)), [1.0, -1.0], lb=[0.0, 0.0])
     ... except qr.QPUnbounded as error:
     ...     print(error.direction.tolist())
-    [0.0, 1.0]
+    [0.0, 0.5]
     """
 
     status = "unbounded"

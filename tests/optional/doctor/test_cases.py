@@ -89,11 +89,9 @@ def test_what_is_said_is_right_by_hand(case):
         assert mended.isdisjoint(one.name for one in found(scene_of(case["scene"], changes)))
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", [one for one in CASES if "before" not in one.values[0]])
 def test_what_does_not_stand_lacks_what_is_right_by_hand(case):
     """Bodies that are named do not stand after a step; where none is, all do after the last one."""
-    if "before" in case:
-        pytest.skip("no run")
     scenario = scene_of(case["scene"])
     try:
         run = scenario.run(progress=False, findings=False)
