@@ -5,9 +5,9 @@ from collections.abc import Iterable
 
 from quasistatic_ref.files.declared import Field, Tables
 from quasistatic_ref.files.table_reader import REQUIRED
-from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.lab.markdown import markdown_table
 from quasistatic_ref.simulate.record import ARRAYS
+from quasistatic_ref.text.json_text import json_text
 
 
 def reference_page(tables: Tables) -> str:

@@ -50,9 +50,9 @@ _HOMES = {
     "step.solution": "Certificate ContactForces SolverStatistics StepSolution",
     "files.solution": "SolutionFile load_solution save_solution",
     "solve.solve": "solve_step",
-    "optional.guests.mujoco": "mujoco_step",
-    "optional.guests.mujoco_opinion": "mujoco_opinion",
-    "optional.guests.scene": "mujoco_scenario",
+    "optional.mujoco.mujoco": "mujoco_step",
+    "optional.mujoco.mujoco_opinion": "mujoco_opinion",
+    "optional.mujoco.scene": "mujoco_scenario",
     "optional.coulomb.fixed_point": "coulomb_step CoulombSolution NoFixedPoint",
     "certify.verification": "verify verify_answer",
     "certify.farkas": "FarkasVector",
@@ -139,9 +139,9 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         Symbols as Symbols,
     )
     from quasistatic_ref.optional.forces.forces import contact_forces as contact_forces
-    from quasistatic_ref.optional.guests.mujoco import mujoco_step as mujoco_step
-    from quasistatic_ref.optional.guests.mujoco_opinion import mujoco_opinion as mujoco_opinion
-    from quasistatic_ref.optional.guests.scene import mujoco_scenario as mujoco_scenario
+    from quasistatic_ref.optional.mujoco.mujoco import mujoco_step as mujoco_step
+    from quasistatic_ref.optional.mujoco.mujoco_opinion import mujoco_opinion as mujoco_opinion
+    from quasistatic_ref.optional.mujoco.scene import mujoco_scenario as mujoco_scenario
     from quasistatic_ref.optional.qp.answer import (
         ExactQP as ExactQP,
         QPInfeasible as QPInfeasible,

@@ -16,7 +16,7 @@ from os import PathLike, fspath
 from types import UnionType
 from typing import ParamSpec, TypeVar
 
-from quasistatic_ref.formats.quoting import (
+from quasistatic_ref.text.quoting import (
     clipped,
     one_line,
     short_words,

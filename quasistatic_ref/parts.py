@@ -23,9 +23,9 @@ PARTS: Final = {
     # A word: what a user wrote, and "folder.module:name".
     # Of a scene.
     "urdf_tree": ("a URDF", "files.urdf.file:urdf_tree"),
-    "described_model": ("Body.of_pinocchio", "optional.models.described:described_model"),
-    "file_mesh": ("a mesh of this format", "optional.readers.meshes:file_mesh"),
-    "file_points": ("a cloud of this format", "optional.readers.points:file_points"),
+    "described_model": ("Body.of_pinocchio", "optional.pinocchio_models.described:described_model"),
+    "file_mesh": ("a mesh of this format", "optional.mesh_formats.meshes:file_mesh"),
+    "file_points": ("a cloud of this format", "optional.mesh_formats.points:file_points"),
     "extended_bodies": (
         "joint_friction, support and joint_limits",
         "optional.extensions.of_scenario:of_scenario",

@@ -9,11 +9,11 @@ from quasistatic_ref import InputError, load_step, standard_form
 from quasistatic_ref.certify.residuals import optimality_residuals
 from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.files.solution import load_solution
-from quasistatic_ref.lab.scenes import at_random
-from quasistatic_ref.lab.scenes.at_random import random_contacts
-from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about
-from quasistatic_ref.lab.scenes.pinch import pinch_step
-from quasistatic_ref.lab.scenes.rigid import free_step, point_step, sphere_step
+from quasistatic_ref.lab.made_steps import at_random
+from quasistatic_ref.lab.made_steps.at_random import random_contacts
+from quasistatic_ref.lab.made_steps.contacts import Z, contacts_of, frames_about
+from quasistatic_ref.lab.made_steps.pinch import pinch_step
+from quasistatic_ref.lab.made_steps.rigid import free_step, point_step, sphere_step
 from quasistatic_ref.step.cones import cone
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")

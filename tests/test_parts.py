@@ -181,7 +181,7 @@ OPTIONS = {
     "fast": ("daqp", ["--fast"]),
     'record = "forces"': ("forces", ["--set", "record=forces"]),
     "qpsolvers:clarabel": ("qpsolvers", ["--backend", "qpsolvers:clarabel"]),
-    "a .ply cloud": ("readers", ["--set", "bodies.bunny.cloud={folder}/bunny.ply"]),
+    "a .ply cloud": ("mesh_formats", ["--set", "bodies.bunny.cloud={folder}/bunny.ply"]),
     "view": ("show", ["--view"]),
 }
 """Words of ``run``, and of each the part that it needs, and the options, in some folder."""
@@ -201,9 +201,9 @@ def test_a_word_is_refused_in_a_sentence_that_names_its_part(without, word, ever
 
 STEP = random_step(0)
 NAMES = {
-    "Body.of_pinocchio": ("models", lambda: Body.of_pinocchio("r", pin.Model())),
+    "Body.of_pinocchio": ("pinocchio_models", lambda: Body.of_pinocchio("r", pin.Model())),
     "forces": ("forces", lambda: solve_step(STEP).forces),
-    "a .stl mesh": ("readers", lambda: loaded_mesh(Path("m.stl"))),
+    "a .stl mesh": ("mesh_formats", lambda: loaded_mesh(Path("m.stl"))),
     "a function as backend": ("extensions", lambda: solve_step(STEP, max)),
     "extension": (
         "extensions",

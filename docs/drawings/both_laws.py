@@ -14,12 +14,12 @@ from docs.drawings.labels import label_axes, legend_below
 from docs.drawings.reality_pushes import measurements
 from quasistatic_ref.files.scenario.scenario import load_scenario
 from quasistatic_ref.lab.grasp import CLOSED
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY
+from quasistatic_ref.lab.made_steps.rigid import point_step, sphere_step
 from quasistatic_ref.lab.reality.measurements import Pair
 from quasistatic_ref.lab.reality.predict import prediction
 from quasistatic_ref.lab.reality.push import pushed_scene
 from quasistatic_ref.lab.reality.settings import Settings
-from quasistatic_ref.lab.scenes.contacts import GRAVITY
-from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.coulomb.fixed_point import coulomb_step
 from quasistatic_ref.optional.doctor.motions import link_motion

@@ -9,8 +9,8 @@ sides 1 / sqrt(2). In the ellipsoid tangents do not matter.
 
 import numpy as np
 
-from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
-from quasistatic_ref.lab.scenes.rigid import rigid_step
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY, Z
+from quasistatic_ref.lab.made_steps.rigid import rigid_step
 from quasistatic_ref.step.data import StepData
 
 M, INERTIA, MU_V, RADIUS, HEIGHT, H = 0.5, 2e-4, 0.5, 0.03, 0.02, 0.01

@@ -9,7 +9,7 @@ import numpy as np
 
 from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref import coulomb_step, solve_step
-from quasistatic_ref.lab.scenes.rigid import point_step
+from quasistatic_ref.lab.made_steps.rigid import point_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 
 M, GRAVITY, MU_V, H = 1.0, 9.81, 0.5, 0.01  # kg, m/s^2, -, s

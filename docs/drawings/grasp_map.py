@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.lab.scenes.pinch import pinch_step
+from quasistatic_ref.lab.made_steps.pinch import pinch_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 
 OFFSET = 0.04

@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 
 from docs.drawings.labels import label_axes
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.scenes.rigid import rigid_step
+from quasistatic_ref.lab.made_steps.rigid import rigid_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 

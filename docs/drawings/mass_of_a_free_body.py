@@ -11,8 +11,8 @@ import pinocchio as pin
 
 from docs.drawings.labels import label_axes
 from quasistatic_ref.lab.figures.labels import caption
-from quasistatic_ref.lab.scenes.contacts import GRAVITY
-from quasistatic_ref.lab.scenes.systems import body_text, system_of
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY
+from quasistatic_ref.lab.made_steps.systems import body_text, system_of
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels

@@ -12,8 +12,8 @@ import numpy as np
 
 from docs.drawings.labels import label_axes
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.scenes.free_pair import geometry
-from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, system_of
+from quasistatic_ref.lab.made_steps.free_pair import geometry
+from quasistatic_ref.lab.made_steps.systems import body_text, cloud_on, system_of
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled

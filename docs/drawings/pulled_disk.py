@@ -4,7 +4,7 @@ import numpy as np
 
 from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.scenes.rigid import rigid_step
+from quasistatic_ref.lab.made_steps.rigid import rigid_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 
 M, GRAVITY, MU_V, CHI = 0.5, 9.81, 0.4, 0.02  # kg, m/s^2, -, m: CHI is mu_omega / mu_v

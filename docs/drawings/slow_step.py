@@ -11,7 +11,7 @@ import numpy as np
 
 import quasistatic_ref as qr
 from docs.drawings.labels import label_axes, legend_below
-from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.step.data import StepData

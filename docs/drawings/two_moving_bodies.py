@@ -15,8 +15,8 @@ from docs.drawings.labels import label_axes
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.files.scenario.scenario import load_scenario
-from quasistatic_ref.lab.scenes.free_pair import geometry
-from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of
+from quasistatic_ref.lab.made_steps.free_pair import geometry
+from quasistatic_ref.lab.made_steps.systems import body_text, on_link, system_of
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures import Figure, panels

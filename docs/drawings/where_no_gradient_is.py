@@ -11,7 +11,7 @@ import numpy as np
 
 from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref.lab.figures.labels import caption
-from quasistatic_ref.lab.scenes.nudge import MASS, MU_V, RADIUS, H, body_at_rest, points
+from quasistatic_ref.lab.made_steps.nudge import MASS, MU_V, RADIUS, H, body_at_rest, points
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled

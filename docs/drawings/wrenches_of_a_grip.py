@@ -10,7 +10,7 @@ from matplotlib.patches import Polygon
 
 from docs.drawings.labels import label_axes, legend_below
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.scenes.pinch import pinch_step
+from quasistatic_ref.lab.made_steps.pinch import pinch_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 

@@ -178,7 +178,7 @@ def _walk(minimiser: Minimiser, p: int) -> Minimiser | Combination:
     """The minimiser after the violated row p enters W, or a proof that the program has none."""
     while True:
         working = minimiser.working
-        line = minimiser.towards(p)
+        line = minimiser.with_row(p)
         leaving = _first_to_vanish(minimiser, line)
         if leaving is not None:
             # The start of the next line; the walk is already inside of it.

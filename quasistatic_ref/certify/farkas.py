@@ -14,11 +14,11 @@ from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
 from quasistatic_ref.certify.groups import row_owners
 from quasistatic_ref.errors import check_kind
-from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.precision import nearest_fraction
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.text.plain import Plain
 
 _FRACTION = re.compile(r"(-?[0-9]+)(?:/([0-9]*[1-9][0-9]*))?")
 

@@ -50,7 +50,7 @@ MANY: Final = 64
 
 UNIT: Final = 2.0**-53
 """Largest relative error of one operation in float64."""
-TINY: Final = 1e-290
+UNDERFLOW: Final = 1e-290
 """So large that its product with UNIT is far above all that underflow takes from a sum."""
 
 Row: TypeAlias = "list[arb]"
@@ -193,7 +193,7 @@ class ExactForm(ABC):
         bound, is more.
         """
         A, b = self.inequalities
-        return A @ x - b, (2 * self.n + 64) * UNIT * self.sizes(most) + TINY
+        return A @ x - b, (2 * self.n + 64) * UNIT * self.sizes(most) + UNDERFLOW
 
     def implied_by_cone(self, working: Sequence[int], some: Iterable[int]) -> list[int]:
         """The given rows that follow from rows of the same contact in W: their slack is zero."""
@@ -384,7 +384,7 @@ class StepForm(ExactForm):
         contacts = self._step.contacts
         axes = np.concatenate([contacts.n, contacts.d1, contacts.d2], axis=1)
         F = (1 + np.abs(axes).sum(axis=1)) * (1 + self._mu.sum(axis=1))
-        R = ((np.abs(contacts.J) + TINY) @ most).max(axis=1, initial=0.0) + TINY
+        R = ((np.abs(contacts.J) + UNDERFLOW) @ most).max(axis=1, initial=0.0) + UNDERFLOW
         of_rows: Array = (np.abs(contacts.phi) + F * R)[self._contact]
         extra = self._step.extra
         if not extra.names:
@@ -452,7 +452,7 @@ class StepForm(ExactForm):
 
 def row_sizes(A: Array, b: Array, most: Array) -> Array:
     """`|a|` `most` + `|b|` of rows of A, (m, n), and b, (m,) [m]; `most` is (n,) [m, rad]."""
-    sizes: Array = (np.abs(A) + TINY) @ most + np.abs(b)
+    sizes: Array = (np.abs(A) + UNDERFLOW) @ most + np.abs(b)
     return sizes
 
 

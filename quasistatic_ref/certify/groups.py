@@ -117,10 +117,10 @@ def _groups(
     """
     every = (np.frombuffer(numbers, np.int64) for numbers in (coupling, coordinate, row_counts))
     of_coupling, of_coordinate, counts = every
-    return Groups(parted(of_coupling, of_coordinate, shape, counts))
+    return Groups(groups_of(of_coupling, of_coordinate, shape, counts))
 
 
-def parted(
+def groups_of(
     coupling: Indices, coordinate: Indices, shape: tuple[int, int], counts: Indices
 ) -> tuple[Group, ...]:
     """The groups of coordinates that couplings make.
@@ -135,7 +135,7 @@ def parted(
         Number of rows of each contact.
     """
     n_v = shape[1]
-    label, of_coupling = linked(coupling, coordinate, shape)
+    label, of_coupling = connected_components(coupling, coordinate, shape)
     of_contacts, of_extra_rows, _ = np.split(of_coupling, [len(counts), shape[0] - n_v])
     of_rows = np.concatenate([np.repeat(of_contacts, counts), of_extra_rows])
     parts = (label, of_contacts, of_extra_rows, of_rows)
@@ -148,10 +148,10 @@ def parted(
 def labels(couplings: Mask) -> tuple[Indices, Indices]:
     """Group labels, as of :func:`linked`, from a mask of coordinates, shape (couplings, n)."""
     coupling, coordinate = np.nonzero(couplings)
-    return linked(coupling, coordinate, couplings.shape)
+    return connected_components(coupling, coordinate, couplings.shape)
 
 
-def linked(
+def connected_components(
     coupling: Indices, coordinate: Indices, shape: tuple[int, ...]
 ) -> tuple[Indices, Indices]:
     """The first coordinate of the group of each coordinate, (n,), and of each coupling.

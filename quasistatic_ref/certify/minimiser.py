@@ -24,7 +24,7 @@ from flint import arb, arb_mat, fmpq, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.form import (
     EXACT,
-    TINY,
+    UNDERFLOW,
     UNIT,
     ExactForm,
     combination,
@@ -34,8 +34,8 @@ from quasistatic_ref.certify.form import (
     whole_numbers,
 )
 from quasistatic_ref.certify.working_set import (
-    NearSets,
-    Point,
+    KktPoint,
+    UpdatedInverse,
     WholeSystem,
     ball_point,
 )
@@ -112,7 +112,7 @@ grows by the fifth power."""
 FINEST: Final = 1280
 """Most bits of balls."""
 
-Numbers: TypeAlias = Callable[[Point], "list[arb]"]
+Numbers: TypeAlias = Callable[[KktPoint], "list[arb]"]
 """Some numbers of a solution, times its denominator."""
 
 
@@ -143,7 +143,7 @@ class Minimiser:
         self,
         form: ExactForm,
         working: tuple[int, ...],
-        near: NearSets | None = None,
+        near: UpdatedInverse | None = None,
         bits: int | None = None,
     ) -> None:
         self.form = form
@@ -164,18 +164,18 @@ class Minimiser:
         return Minimiser(self.form, self.working, bits=2 * self.bits)
 
     @cached_property
-    def near_sets(self) -> NearSets:
+    def near_sets(self) -> UpdatedInverse:
         """A solver for multipliers on working sets that differ from this one by few rows."""
         if self._near is not None and self._near_balls is not None:
             return self._near
         bits = self._shown.bits
         try:
-            return NearSets(self.form, self.working, bits)
+            return UpdatedInverse(self.form, self.working, bits)
         except ZeroDivisionError:
-            return NearSets(self.form, (), bits)
+            return UpdatedInverse(self.form, (), bits)
 
     @cached_property
-    def _near_balls(self) -> Point | None:
+    def _near_balls(self) -> KktPoint | None:
         """The solution in balls by way of a nearby set; None if the balls are too wide.
 
         They grow with each row by which the sets differ, and more where rows nearly depend on each
@@ -184,11 +184,11 @@ class Minimiser:
         return self._balls_by(self._near) if self._near else None
 
     @cached_property
-    def _own_balls(self) -> Point | None:
+    def _own_balls(self) -> KktPoint | None:
         """The solution in balls of `bits`; None if these are too wide, or do not show one."""
         return self._near_balls or self._balls_by(None)
 
-    def _balls_by(self, near: NearSets | None) -> Point | None:
+    def _balls_by(self, near: UpdatedInverse | None) -> KktPoint | None:
         try:
             balls = ball_point(self.form, self.working, self.bits, near)
         except ZeroDivisionError:
@@ -203,7 +203,7 @@ class Minimiser:
         return self.finer._shown
 
     @cached_property
-    def balls(self) -> Point:
+    def balls(self) -> KktPoint:
         """The solution in balls, by the system of multipliers, or from the fractions.
 
         H^-1 has a radius, so that a finer system would not help where that is too wide to show x,
@@ -221,19 +221,19 @@ class Minimiser:
         with working_precision(self.bits):
             share = 1 / exact.denominator
             y = [v * share for v in exact.y]
-            return Point(exact.z * share, y, exact.net * share, arb(1))
+            return KktPoint(exact.z * share, y, exact.net * share, arb(1))
 
     @cached_property
     def _whole(self) -> WholeSystem:
         return WholeSystem(self.form, self.working)
 
     @cached_property
-    def fractions(self) -> Point:
+    def fractions(self) -> KktPoint:
         """The solution in exact fractions, which takes milliseconds."""
         return self._whole.solution()
 
     @cached_property
-    def _modulo(self) -> Point | None:
+    def _modulo(self) -> KktPoint | None:
         """The solution modulo a prime; None if that shows none."""
         try:
             return self._whole.solution_modulo()
@@ -266,7 +266,7 @@ class Minimiser:
         """The exact sign of the slack of row i."""
         return self.sign(lambda m: self.form.slacks([i], m.z)[0])
 
-    def sign(self, number: Callable[[Point], arb]) -> int:
+    def sign(self, number: Callable[[KktPoint], arb]) -> int:
         """The exact sign of a number of the solution that its balls leave open.
 
         From finer balls, if the number is not zero modulo a prime; else from the fractions.
@@ -281,7 +281,7 @@ class Minimiser:
         with working_precision(EXACT):
             return _sign(number(self.fractions))
 
-    def _may_vanish(self, number: Callable[[Point], arb]) -> bool:
+    def _may_vanish(self, number: Callable[[KktPoint], arb]) -> bool:
         """Whether a prime does not show that a number of the solution is not zero."""
         if self.finer is None or self._modulo is None:
             return True
@@ -295,7 +295,7 @@ class Minimiser:
         x, off = self.balls.floats
         # float(v) is off by UNIT |x|, or next to nothing; radii are rounded, which 4 makes good.
         with np.errstate(over="ignore", invalid="ignore"):
-            return self.form.float_slacks(x, np.abs(x) + 4.0 * off / UNIT + TINY)
+            return self.form.float_slacks(x, np.abs(x) + 4.0 * off / UNIT + UNDERFLOW)
 
     @cached_property
     def open_rows(self) -> list[int]:
@@ -373,7 +373,7 @@ class Minimiser:
             if i not in implied_rows
         }
 
-    def towards(self, p: int) -> Minimiser | Relation:
+    def with_row(self, p: int) -> Minimiser | Relation:
         """The minimiser on W and row p; if row p depends on W, the relation between them."""
         near = self.near_sets
         working = self.working
@@ -396,7 +396,7 @@ class Minimiser:
     def below(self, i: int, j: int) -> bool:
         """Whether the slack of row i is smaller than that of row j, decided exactly."""
 
-        def difference(point: Point) -> arb:
+        def difference(point: KktPoint) -> arb:
             one, other = self.form.slacks([i, j], point.z)
             return one - other
 
@@ -422,7 +422,7 @@ class Minimiser:
         return np.flatnonzero(~is_active)
 
     @cached_property
-    def settled(self) -> Point:
+    def with_exact_zeros(self) -> KktPoint:
         """The solution in balls, where each entry of x that W implies to be zero is zero.
 
         No ball shows that by itself. From it follows what of A_W'y = H x - g is a load alone.
@@ -443,7 +443,7 @@ class Minimiser:
         with working_precision(self.bits):
             pull = (self.form.H * arb_mat(n, 1, z.entries()[:-1]) - self.form.g).entries()
         net = arb_mat(n, 1, _chosen(moves[:-1], balls.net.entries(), pull))
-        return Point(z, balls.y, net, balls.denominator)
+        return KktPoint(z, balls.y, net, balls.denominator)
 
     def rounded(self, numbers: Numbers, unit: arb | None = None) -> Array:
         """Numbers of the solution over a unit, each rounded correctly, shape (k,).
@@ -451,7 +451,7 @@ class Minimiser:
         From their balls; where a ball holds numbers of different rounding, from the fractions.
         """
         for settled in (False, True):
-            solution = self.settled if settled else self.balls
+            solution = self.with_exact_zeros if settled else self.balls
             with working_precision(self.bits):
                 balls = numbers(solution)
                 balls = balls if unit is None else [ball / unit for ball in balls]

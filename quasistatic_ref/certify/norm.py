@@ -32,7 +32,7 @@ from quasistatic_ref.step.hessian import Hessian
 from quasistatic_ref.step.standard_form import linear_term, standard_form
 from quasistatic_ref.tolerances import UNMOVED
 
-MOST = 16.0
+MOST_DIGITS = 16.0
 """Digits of a float64: more cannot be known."""
 Parts = Sequence[tuple[Group, StepData]]
 """The groups of a step, each as a step."""
@@ -137,7 +137,7 @@ def digits_of_error(error: float) -> float:
     """
     if not error < 1:
         return 0.0
-    return min(MOST, float(-np.log10(error))) if error > 0 else MOST
+    return min(MOST_DIGITS, float(-np.log10(error))) if error > 0 else MOST_DIGITS
 
 
 def single_loads(step: StepData, scale: float = 1.0) -> Array:
@@ -208,7 +208,7 @@ def single_lengths(parts: Parts) -> list[list[float]]:
     ]
 
 
-def joined(lengths: Sequence[Sequence[float]]) -> list[float]:
+def over_groups(lengths: Sequence[Sequence[float]]) -> list[float]:
     """Lengths of a whole step [(N m s)^0.5], joined from the lengths of its groups.
 
     Parameters
@@ -303,4 +303,4 @@ def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> floa
         for v in (delta_q - exact_delta_q, exact_delta_q)
     )
     softest = min(part.H.diagonal().min() for _, part in parts)
-    return digits_of_error(off / _length(moved, joined(single_lengths(parts)), softest))
+    return digits_of_error(off / _length(moved, over_groups(single_lengths(parts)), softest))

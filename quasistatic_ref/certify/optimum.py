@@ -135,7 +135,7 @@ def optimum_by_groups(
     step: StepData,
     parts: Parts,
     starts: Sequence[Sequence[int]],
-    proofs: Proofs | None = None,
+    proofs: ProofCache | None = None,
 ) -> ExactOptimum:
     """The exact optimum of a step, computed group by group, without a limit on its length.
 
@@ -153,7 +153,7 @@ def optimum_by_groups(
     ------
     StepInfeasible
     """
-    proofs = Proofs() if proofs is None else proofs
+    proofs = ProofCache() if proofs is None else proofs
     optima: list[tuple[Group, ExactOptimum]] = []
     for i, ((group, part), start) in enumerate(zip(parts, starts, strict=True)):
         optimum = proofs.kept(i, part, start)
@@ -188,7 +188,7 @@ def optimum_by_groups(
     )
 
 
-class Proofs:
+class ProofCache:
     """A cache of the last step's proofs, by group: equal data and start give the same proof.
 
     What it gives depends on nothing else, and so on no step before.

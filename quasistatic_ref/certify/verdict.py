@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.text.quoting import clipped
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
 from quasistatic_ref.certify.groups import flat_rows, group_steps, row_owners
 from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
-from quasistatic_ref.certify.working_set import Point, fraction_point
+from quasistatic_ref.certify.working_set import KktPoint, fraction_point
 from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.numbers.precision import nearest, working_precision
@@ -291,7 +291,7 @@ def unique_and_smooth(
 
 
 def _wrong_claim(
-    solved: Sequence[tuple[ExactForm, Sequence[int], Point, Sequence[arb]]],
+    solved: Sequence[tuple[ExactForm, Sequence[int], KktPoint, Sequence[arb]]],
     claims: Certificate,
     lam_w: Array,
 ) -> str:

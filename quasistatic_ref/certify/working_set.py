@@ -30,12 +30,12 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.modulo import PRIME
 from quasistatic_ref.numbers.precision import working_precision
 
-FEW = 4
+FEW_ROWS = 4
 """Rows that may enter and leave a base of any size, beside a quarter of its rows."""
 
 
 @dataclass(frozen=True, eq=False)
-class Point:
+class KktPoint:
     """The x and y of H x = g + A_W'y, A_W x + c_W = 0, as numerators and a denominator.
 
     Parameters
@@ -89,7 +89,7 @@ class Point:
         return self.in_fractions(self.x)
 
 
-class Pull(NamedTuple):
+class RowResponse(NamedTuple):
     """The response of the minimiser on a base set to a unit multiplier of one row.
 
     Parameters
@@ -106,7 +106,7 @@ class Pull(NamedTuple):
     changes: list[arb]
 
 
-class NearSets:
+class UpdatedInverse:
     """Solves for the multipliers on a base and on working sets near it.
 
     Parameters
@@ -135,20 +135,20 @@ class NearSets:
             one = arb_mat(k, k, [int(i == j) for i in range(k) for j in range(k)])
             self._G = responses(form, rows, self._A, bits).solve(one, algorithm="lu")
         self._G_rows = self._G.tolist()
-        self._pulls: dict[int, Pull] = {}
+        self._pulls: dict[int, RowResponse] = {}
 
     def has_near(self, working: Sequence[int]) -> bool:
         """Whether a working set differs by few rows."""
-        return len({*working} ^ {*self._place}) <= FEW + len(self._place) // 4
+        return len({*working} ^ {*self._place}) <= FEW_ROWS + len(self._place) // 4
 
-    def pull(self, i: int) -> Pull:
+    def pull(self, i: int) -> RowResponse:
         """The response of the base to a unit multiplier of row i."""
         if i not in self._pulls:
             a = columns(self.form.exact_rows([i]), slice(0, self.form.n))
             with working_precision(self._bits):
                 moved = self._H_inverse * a.transpose()
                 loads = self._A * moved
-                self._pulls[i] = Pull(a, moved, loads.entries(), (self._G * loads).entries())
+                self._pulls[i] = RowResponse(a, moved, loads.entries(), (self._G * loads).entries())
         return self._pulls[i]
 
     def loads(self, working: Sequence[int], p: int) -> list[arb]:
@@ -230,8 +230,8 @@ def responses(form: ExactForm, rows: Sequence[Row], A: arb_mat, bits: int) -> ar
 
 
 def ball_point(
-    form: ExactForm, working: Sequence[int], bits: int, near: NearSets | None = None
-) -> Point:
+    form: ExactForm, working: Sequence[int], bits: int, near: UpdatedInverse | None = None
+) -> KktPoint:
     """The optimum with the rows of a working set as equations, and its multipliers, as balls.
 
     Parameters
@@ -262,7 +262,7 @@ def ball_point(
         net = A.transpose() * y
         x = free + H_inverse * net
         z = arb_mat(form.n + 1, 1, [*x.entries(), 1])
-        return Point(z, y.entries(), net, arb(1), 2.0 ** (-bits // 2) * size)
+        return KktPoint(z, y.entries(), net, arb(1), 2.0 ** (-bits // 2) * size)
 
 
 class WholeSystem:
@@ -295,13 +295,13 @@ class WholeSystem:
         self._form = form
         self._powers = [e - of_row for _, of_row in rows]
 
-    def solution(self) -> Point:
+    def solution(self) -> KktPoint:
         """The point without rounding; ZeroDivisionError if rows are dependent."""
         quotients = cast("fmpq_mat", self._K.solve(self._right))
         numerators, denominator = quotients.numer_denom()  # positive
         return self._point(numerators.entries(), denominator)
 
-    def solution_modulo(self) -> Point:
+    def solution_modulo(self) -> KktPoint:
         """A point whose numbers are those of the solution modulo a prime.
 
         A number that is a sum of them, each some halves of times, is not zero if it is not zero of
@@ -315,7 +315,7 @@ class WholeSystem:
         z = nmod_mat(self._K, PRIME).solve(nmod_mat(self._right, PRIME))
         return self._point([fmpz(int(v)) for v in z.entries()], fmpz(1))
 
-    def _point(self, numbers: Sequence[fmpz], denominator: fmpz) -> Point:
+    def _point(self, numbers: Sequence[fmpz], denominator: fmpz) -> KktPoint:
         n = self.n
         with working_precision(EXACT):
             x = arb_mat(n, 1, [arb(v) for v in numbers[:n]])
@@ -323,9 +323,9 @@ class WholeSystem:
             y = [arb(v) * arb(2) ** power for v, power in scaled_y]
             z = arb_mat(n + 1, 1, [*x.entries(), denominator])
             net = self._form.H * x - self._form.g * arb(denominator)
-        return Point(z, y, net, arb(denominator))
+        return KktPoint(z, y, net, arb(denominator))
 
 
-def fraction_point(form: ExactForm, working: Sequence[int]) -> Point:
+def fraction_point(form: ExactForm, working: Sequence[int]) -> KktPoint:
     """The point of :func:`ball_point` without rounding; ZeroDivisionError if rows are dependent."""
     return WholeSystem(form, working).solution()

@@ -10,8 +10,8 @@ from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.files.content import LARGEST_TEXT
 from quasistatic_ref.files.step import save_step
 from quasistatic_ref.files.trajectory import load_trajectory
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.step.text import step_text
+from quasistatic_ref.text.quoting import suggestion
 
 OF_ENTRY = 5
 """Bytes of an entry that is zero, as nearly all are in a large step."""

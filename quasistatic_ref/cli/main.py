@@ -16,7 +16,7 @@ from typing import Any, NoReturn
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError, QuasistaticError
-from quasistatic_ref.formats.quoting import clipped, nearest_name, suggestion
+from quasistatic_ref.text.quoting import clipped, nearest_name, suggestion
 
 CORE = "quasistatic_ref.cli"
 LAB = "quasistatic_ref.lab.commands"

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from quasistatic_ref.files.content import toml_read
-from quasistatic_ref.formats.json_text import json_text
+from quasistatic_ref.text.json_text import json_text
 
 BARE: Final = re.compile(r"[A-Za-z0-9_-]+")
 """What TOML takes as a key without quotes."""

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any, Final
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.option_change import OptionChange
 from quasistatic_ref.files.step import load_step, save_step
-from quasistatic_ref.formats.json_text import json_text
-from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.text.json_text import json_text
+from quasistatic_ref.text.quoting import aligned
 
 OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "step": {"type": Path, "help": "a step file (quasistatic-ref/step)"},

@@ -248,9 +248,9 @@ def scenario_of(options: argparse.Namespace) -> Scenario:
                 raise InputError("is for a MuJoCo scene (.xml)", field=f"--{option}")
         return load_scenario(options.scenario, settings)
     with needing("a MuJoCo scene"):
-        from quasistatic_ref.optional.guests.compiler import compiled_model
-        from quasistatic_ref.optional.guests.scene import mujoco_scenario, words
-        from quasistatic_ref.optional.guests.settled import settled
+        from quasistatic_ref.optional.mujoco.compiler import compiled_model
+        from quasistatic_ref.optional.mujoco.scene import mujoco_scenario, words
+        from quasistatic_ref.optional.mujoco.settled import settled
     with about_file(path):
         model = compiled_model(path, options.roots)
         keyframe = options.keyframe

@@ -33,7 +33,7 @@ from quasistatic_ref.tolerances import REPEATED
 Kind = tuple[type[Batch], Hashable]
 """A batch and what is the same of all of its pairs."""
 
-MOST: Final = 512
+MOST_PAIRS: Final = 512
 """Most corners of a solid of a batch: with more, numbers take the time and not calls."""
 
 FEW_POINTS: Final = 16_384
@@ -161,7 +161,7 @@ def kind_of(pair: ContactPair) -> Kind | None:
     plane_first = isinstance(sides[0], HalfSpace)
     plane, solid = sides if plane_first else sides[::-1]
     known = isinstance(solid, Box | Capsule | ConvexMesh)
-    known = known and 1 < pair.n_c <= solid.corner_count <= MOST and _corners_are_apart(solid)
+    known = known and 1 < pair.n_c <= solid.corner_count <= MOST_PAIRS and _corners_are_apart(solid)
     if isinstance(plane, HalfSpace) and (known or isinstance(solid, Sphere)):
         return OnHalfSpaces, (plane_first, solid.corner_count, pair.n_c)
     return None

@@ -24,7 +24,7 @@ from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, Shape
 from quasistatic_ref.tolerances import FACING, SAME_NORMAL
 
-FEW: Final = 16
+FEW_CORNERS: Final = 16
 """Corners of which all are looked at: bounds would take as long."""
 STEEP = np.tan(FACING + SAME_NORMAL)
 """The tangent of t, or a little more [-]."""
@@ -51,7 +51,7 @@ def least_distances(shape: Shape, x: Array, n: Array, near: float) -> Array:
     ndarray, shape (N,)
         [m].
     """
-    if len(x) <= FEW:
+    if len(x) <= FEW_CORNERS:
         return np.full(len(x), -np.inf)
     if isinstance(shape, HalfSpace):
         height, _ = shape.signed_distance(x)

@@ -34,7 +34,7 @@ from quasistatic_ref.contact.corners import least_distances
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.normals import (
     BISECTOR,
-    FAR,
+    FAR_PLACES,
     TURNED,
     UNIQUE_NORMAL,
     Surface,
@@ -51,10 +51,10 @@ from quasistatic_ref.contact.shape_in_world import (
     on_plane,
     poses_in_world,
 )
-from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud
+from quasistatic_ref.text.quoting import counted
 from quasistatic_ref.tolerances import FILLED, ON_RIM, OVER_FACE, REPEATED, SAME_NORMAL, UPRIGHT
 
 SPANNED: Final = 1e-6
@@ -66,7 +66,7 @@ START: Final = 4
 """For how many corners of each contact distances are formed at first, and how many times more
 where fewer than k of them are candidates."""
 
-FEW = 50
+FEW_POINTS = 50
 """Most points of a plane of which each two are taken in turn; of more, those of its outline."""
 
 WEIGHTS: Final = np.cos(np.arange(7))
@@ -136,7 +136,7 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
         return _cloud_on_solid(pair, a, b)
     if isinstance(a.shape, PointCloud):
         return _cloud_on_solid(pair, b, a).swapped()
-    if _places(a, b) < FAR * pair.size:
+    if _places(a, b) < FAR_PLACES * pair.size:
         return _solid_on_solid(pair, a, b)
     a, b, origin = _from_near(a, b)
     points = _solid_on_solid(pair, a, b)
@@ -241,7 +241,7 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
     if isinstance(a.shape, PointCloud):
         phi, _ = b.shape.signed_distance(b.pose.of(a.pose).points(a.shape.points))
     else:
-        if _places(a, b) >= FAR * pair.size:
+        if _places(a, b) >= FAR_PLACES * pair.size:
             a, b, _ = _from_near(a, b)
         pair = replace(pair, k=pair.candidates)
         _, phi = ranked_candidates(pair, a, b, nearest_of_solids(pair, a, b))
@@ -307,7 +307,7 @@ def spanned(nearest: ClosestPoints, others: ClosestPoints, pair: ContactPair) ->
     away = others.alpha[level] - nearest.alpha
     if not len(away):
         return False
-    if len(away) > FEW:
+    if len(away) > FEW_POINTS:
         away = away[_outline(away, n)]
         between = away - np.roll(away, 1, axis=0)
         between = np.concatenate([between, -between])

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
-from quasistatic_ref.model.column_map import ColumnMap
+from quasistatic_ref.model.column_map import JacobianColumns
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.numbers.arrays import Array, Indices, Scalar, read_only
 from quasistatic_ref.numbers.compiled import compiled
@@ -42,7 +42,7 @@ class ContactGeometry:
         Which columns are added to which coordinates; none where each is of one.
     """
 
-    def __init__(self, layout: ContactLayout, column_map: ColumnMap) -> None:
+    def __init__(self, layout: ContactLayout, column_map: JacobianColumns) -> None:
         self.layout = layout
         self.n_v = column_map.n_v
         self.n_x = column_map.moves.shape[-1]

@@ -34,7 +34,7 @@ TOUCHING_FACES: Final = 1e-9
 """Depth relative to the same at which bodies that are as deep along two normals touch [-]: with one
 between them. Deeper, the push-out along it would part them along neither."""
 
-FAR: Final = 1e3
+FAR_PLACES: Final = 1e3
 """Places relative to a solid's size [-] up to which their rounding, 1e-16 of them, is far below the
 length to which distances are rounded, 1e-9 of the size. Beyond, a pair is seen from a point of it,
 what is over a half-space from its foot there: corners and crossings then rank as the closest pair

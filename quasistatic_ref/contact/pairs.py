@@ -12,11 +12,11 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.numbers.arrays import Array, Indices, checked_array
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.quoting import clipped
 
 RANKED: Final = 1e-9
 """Fraction of the size of a pair's smaller shape to whose nearest multiple distances are rounded

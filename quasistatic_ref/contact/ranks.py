@@ -15,11 +15,11 @@ from quasistatic_ref.contact.shape_in_world import Pose
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.ordered import dot, product
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
-from quasistatic_ref.shapes.facets import FEW
+from quasistatic_ref.shapes.facets import FEW_FACETS
 from quasistatic_ref.shapes.placed_shape import PointCloud, Shape
 from quasistatic_ref.shapes.point_cloud import Groups
 
-MANY: Final = 4096
+MANY_POINTS: Final = 4096
 """Points of a cloud from which groups of neighbours are dropped at once."""
 
 ROUNDED: Final = 1e-8
@@ -67,7 +67,7 @@ def closest(phi: Array, k: int) -> Indices:
     return phi.argsort(kind="stable")
 
 
-def may_be_first(
+def cannot_be_excluded(
     solid: Shape, bound: Array, some: Array, k: int, resolution: float = 0.0
 ) -> Indices:
     """Numbers of bounds that do not rank after the distance of each of some k points.
@@ -110,17 +110,17 @@ def near_points(
         The points in the solid's frame [m].
     """
     number = np.arange(len(cloud.points))
-    if len(number) >= MANY and k < len(number):
+    if len(number) >= MANY_POINTS and k < len(number):
         number = points_of_groups(solid, cloud, pose, k, resolution)
     x = pose.points(cloud.points[number])
     if not isinstance(solid, ConvexMesh) or k >= len(number):
         return number, x
 
     facets = solid.facets
-    for above in (facets.above_planes, facets.above_faces)[len(facets.normals) <= FEW :]:
+    for above in (facets.above_planes, facets.above_faces)[len(facets.normals) <= FEW_FACETS :]:
         bound = above(x)
         nearest = x[bound.argpartition(k - 1)[:k]]
-        kept = may_be_first(solid, bound, nearest, k, resolution)
+        kept = cannot_be_excluded(solid, bound, nearest, k, resolution)
         number = number[kept]
         x = x[kept]
     return number, x

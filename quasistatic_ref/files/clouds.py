@@ -16,10 +16,10 @@ from quasistatic_ref.errors import InputError, ModelError, about_field, about_fi
 from quasistatic_ref.files.content import text_read
 from quasistatic_ref.files.mesh_files import loaded_mesh
 from quasistatic_ref.files.text import check_equal, check_points, number_or_nan, point_lines
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.placed_shape import PointCloud
+from quasistatic_ref.text.quoting import suggestion
 from quasistatic_ref.tolerances import LARGE
 
 FilePoints = Callable[[Path], Array]
@@ -159,7 +159,7 @@ TEXTS = (".xyz", ".csv", ".txt", ".pts")
 VERTICES = (".off", ".obj")
 """Extensions of files whose vertices are taken."""
 OF_PART = (".ply", ".pcd", ".npy", ".npz")
-"""Extensions of files that ``optional/readers`` reads."""
+"""Extensions of files that ``optional/mesh_formats`` reads."""
 KINDS = (*TEXTS, *VERTICES, *OF_PART)
 
 

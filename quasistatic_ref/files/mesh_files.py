@@ -8,15 +8,15 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.files.mesh import Mesh
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull, hull_of_mesh
+from quasistatic_ref.text.quoting import suggestion
 
 FileMesh = Callable[[Path, str], Mesh]
 """A file and its extension, as ``.stl`` -> what it holds."""
 MESHES = (".stl", ".obj", ".off", ".ply", ".gltf", ".glb", ".dae")
-"""Extensions of files that ``optional/readers`` reads."""
+"""Extensions of files that ``optional/mesh_formats`` reads."""
 PACKAGE = "package://"
 MODEL = "model://"
 """Gazebo's word for a package, which URDFs of iCubs have."""

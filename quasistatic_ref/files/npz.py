@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.files.content import LARGEST_TEXT, bytes_read, text_of, unique_fields
-from quasistatic_ref.formats.json_text import json_text
+from quasistatic_ref.text.json_text import json_text
 
 LARGEST_UNPACKED = 2**30
 """Largest sum of all arrays [bytes]: 50,000 full steps of the paper's size."""

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 from quasistatic_ref.errors import ScenarioError
-from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.text.quoting import suggestion
 
 
 def models_folder() -> Path:

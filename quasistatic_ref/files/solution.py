@@ -18,12 +18,12 @@ from quasistatic_ref.certify.verification import rounded_wrenches, verify_answer
 from quasistatic_ref.errors import StepDataError, about_file, check_kind
 from quasistatic_ref.files.content import json_read, text_written
 from quasistatic_ref.files.table_reader import TableReader
-from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.solution import Certificate, Kind, StepSolution
 from quasistatic_ref.step.text import step_sha256
+from quasistatic_ref.text.json_text import json_text
 
 UNPROVED = ("residual", "none")
 """Kinds of certificate that claim nothing which could be proved."""

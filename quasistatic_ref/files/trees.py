@@ -3,8 +3,8 @@
 from collections.abc import Collection, Mapping, Sequence
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.tree import TreeJoint
+from quasistatic_ref.text.quoting import suggestion
 
 
 def checked_tree(

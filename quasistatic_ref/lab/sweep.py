@@ -20,8 +20,6 @@ from quasistatic_ref.files.resources import scenario_path
 from quasistatic_ref.files.scenario.overrides import parsed
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.files.trajectory import load_trajectory, save_trajectory
-from quasistatic_ref.formats.json_text import json_text
-from quasistatic_ref.formats.quoting import no_formula
 from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.parallel import workers as workers_here
@@ -29,6 +27,8 @@ from quasistatic_ref.optional.doctor.telling import by_name, numbers_of
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.text.json_text import json_text
+from quasistatic_ref.text.quoting import no_formula
 from quasistatic_ref.tolerances import LARGE
 
 TABLE = "runs.csv"

@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, about_field, check_kind
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.solid import Homogeneous, solid_tree
 from quasistatic_ref.model.tree import Tree
 from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.frozen import finite_number, freeze_array
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.quoting import suggestion
 
 if TYPE_CHECKING:
     import pinocchio as pin
@@ -174,7 +174,8 @@ class Body(Plain):
         Raises
         ------
         InputError
-            If `model` or `geometry` is something else, or there is no ``optional/models``.
+            If `model` or `geometry` is something else, or
+            ``optional/pinocchio_models`` is missing.
         ModelError
             If a joint or a shape is of another kind, or `base` is not that of the Model.
 

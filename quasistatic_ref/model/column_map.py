@@ -10,7 +10,7 @@ from quasistatic_ref.model.world import Part
 from quasistatic_ref.numbers.arrays import Array, Indices
 
 
-class ColumnMap(ABC):
+class JacobianColumns(ABC):
     """Which columns of a Jacobian move a link, and with which coordinate.
 
     Parameters
@@ -42,7 +42,7 @@ class ColumnMap(ABC):
         """Columns per unit of delta_q, shape (..., n_v), from `columns` (..., n_x) [m, rad]."""
 
 
-class JointColumns(ColumnMap):
+class JointColumns(JacobianColumns):
     """The columns of pinocchio's Jacobian ``data.J``.
 
     A link is moved by the joints between it and the world. A mimic joint has columns, but no

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-from quasistatic_ref.formats.quoting import counted
-from quasistatic_ref.model.column_map import ColumnMap
+from quasistatic_ref.model.column_map import JacobianColumns
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import crossed
+from quasistatic_ref.text.quoting import counted
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -31,7 +31,7 @@ class Kinematics:
     R: Array
     t: Array
     columns: Array
-    column_map: ColumnMap
+    column_map: JacobianColumns
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} of {counted(len(self.t) - 1, 'link')}>"

@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.column_map import ColumnMap
+from quasistatic_ref.model.column_map import JacobianColumns
 from quasistatic_ref.model.coordinates import joint_key
 from quasistatic_ref.model.joints.joint import Coordinate, Joint
 from quasistatic_ref.model.kinematics import Kinematics
@@ -48,7 +48,7 @@ class MassMatrix:
 
     def __init__(
         self,
-        column_map: ColumnMap,
+        column_map: JacobianColumns,
         n_a: int,
         masses: Array,
         centres: Array,

@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, check_kind
-from quasistatic_ref.formats.quoting import clipped, counted, suggestion
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.column_map import ColumnMap
+from quasistatic_ref.model.column_map import JacobianColumns
 from quasistatic_ref.model.configuration import (
     UnitParts,
     configuration,
@@ -32,6 +31,7 @@ from quasistatic_ref.numbers.arrays import (
 )
 from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.text.quoting import clipped, counted, suggestion
 
 
 class Mechanism(ABC):
@@ -80,7 +80,7 @@ class Mechanism(ABC):
     """
 
     of_mjcf = False
-    column_map: ColumnMap
+    column_map: JacobianColumns
 
     def __init__(
         self,

@@ -7,9 +7,9 @@ from abc import ABC, abstractmethod
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.formats.quoting import shown_value
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.text.quoting import shown_value
 
 
 class State(ABC):

@@ -11,7 +11,7 @@ from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.compiled import compiled
 
-MANY: Final = 12
+MANY_JOINTS: Final = 12
 """Joints of one kind from which arrays are quicker than numbers."""
 
 
@@ -42,7 +42,7 @@ class Sums:
         self.many = [
             (some[0], _entries([one.q for one in some]), _entries([one.v for one in some]))
             for kind, some in kinds.items()
-            if kind in BY_ENTRIES and len(some) >= MANY
+            if kind in BY_ENTRIES and len(some) >= MANY_JOINTS
         ]
         at_once = {type(joint) for joint, _, _ in self.many}
         self.few = [joint for joint in joints if type(joint) not in at_once]

@@ -11,10 +11,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.shape import Shape
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.quoting import counted
 
 MOST_COORDINATES = 250
 """Most coordinates of the joints of a tree: pinocchio takes memory with the cube of their number,

@@ -15,8 +15,6 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.body import FIXED, Body
 from quasistatic_ref.model.coordinates import MimicJoint, joint_key, no_coordinate
 from quasistatic_ref.model.joints import BASES, JOINTS
@@ -29,6 +27,8 @@ from quasistatic_ref.model.tree_model import TreeModel, body_frame, tree_model
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.text.together import together
 
 ReadUrdf = Callable[[str | PathLike[str], Sequence[str | Path]], Tree]
 """A URDF's file, or its text that begins with ``<``, and where ``package://`` URIs are looked for

@@ -44,7 +44,7 @@ UNIT = 2.0**-53
 """Largest relative error of one operation."""
 RANGE = 2.0**-500, 2.0**500
 """Diagonal entries whose products and roots are far from the ends of float64's range."""
-MANY = 200
+MANY_ROWS = 200
 """Rows of a matrix from which its blocks are looked at one by one, sooner than all of it."""
 
 
@@ -115,7 +115,7 @@ def positive_pivots(S: Array) -> bool:
     S : ndarray, shape (..., n, n)
         Symmetric and finite [any unit].
     """
-    many = S.ndim == 2 and len(S) > MANY
+    many = S.ndim == 2 and len(S) > MANY_ROWS
     if not many and surely_positive(S):
         return True
     if S.ndim > 2:

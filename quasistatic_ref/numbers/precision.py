@@ -39,7 +39,7 @@ def working_precision(bits: int) -> Iterator[None]:
 
 
 ONE = 1.0
-TINY = 2.0**-60
+ROUNDING_PROBE = 2.0**-60
 """Added to 1 or taken from it, it changes nothing, unless rounding is upwards or downwards."""
 NORMAL = 2.0**-1022
 HALF = 0.5
@@ -57,9 +57,9 @@ def check_arithmetic() -> None:
     InputError
         If rounding is not to nearest, or subnormal numbers are flushed to zero.
     """
-    if ONE + TINY == ONE - TINY and NORMAL * HALF > 0.0:
+    if ONE + ROUNDING_PROBE == ONE - ROUNDING_PROBE and NORMAL * HALF > 0.0:
         return
-    rounds = ONE + TINY != ONE - TINY
+    rounds = ONE + ROUNDING_PROBE != ONE - ROUNDING_PROBE
     what = "does not round to nearest" if rounds else "flushes subnormal numbers to zero"
     raise InputError(
         f"nothing can be proved in this thread: its arithmetic {what}, a mode of the processor "

@@ -9,7 +9,7 @@ from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.ordered import dot, norm, product
 from quasistatic_ref.shapes.shape import CHUNK
 
-FEW: Final = 64
+FEW_FACETS: Final = 64
 """Triangles of which none are left out, nor of that many points: to tell which would take as long
 as their distances."""
 SAFE: Final = 1e-6
@@ -99,7 +99,7 @@ class Facets:
             Of triangles, in ascending order, the last one several times.
         """
         T = len(self.normals)
-        if T <= FEW or T * len(points) <= FEW**2:
+        if T <= FEW_FACETS or T * len(points) <= FEW_FACETS**2:
             yield np.arange(len(points)), np.arange(T)[None]
             return
         squares = np.zeros((len(points), T))

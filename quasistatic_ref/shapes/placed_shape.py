@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.box import Box as Box
 from quasistatic_ref.shapes.capsule import Capsule as Capsule
@@ -21,6 +20,7 @@ from quasistatic_ref.shapes.half_space import HalfSpace as HalfSpace
 from quasistatic_ref.shapes.point_cloud import PointCloud as PointCloud
 from quasistatic_ref.shapes.shape import Shape as Shape
 from quasistatic_ref.shapes.sphere import Sphere as Sphere
+from quasistatic_ref.text.plain import Plain
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))

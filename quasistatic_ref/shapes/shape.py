@@ -7,8 +7,8 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
+from quasistatic_ref.text.plain import Plain
 
 DIRECTIONS = np.concatenate([np.eye(3), -np.eye(3)])
 BALL = 4 / 3 * math.pi

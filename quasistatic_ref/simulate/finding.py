@@ -4,9 +4,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from quasistatic_ref.errors import InputError, check_kind
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import is_there, part
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.quoting import suggestion
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.simulate.distances import CLOSED
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX
+from quasistatic_ref.text.plain import Plain
 
 Record = Literal["full", "light", "forces"]
 RECORDS: tuple[Record, ...] = get_args(Record)

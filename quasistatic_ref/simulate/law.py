@@ -3,8 +3,8 @@
 from typing import Final, Literal, get_args
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import part
+from quasistatic_ref.text.quoting import suggestion
 
 CONVEX: Final = "convex"
 COULOMB: Final = "coulomb"

@@ -13,8 +13,6 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.normals import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.state import State
 from quasistatic_ref.numbers.arrays import Array, freeze_copies
 from quasistatic_ref.simulate import wrenches
@@ -22,6 +20,8 @@ from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.wrenches import ContactsOverSteps
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import StepSolution
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.shown import Shown
 
 StepArrays = dict[str, NDArray[Any]]
 """Arrays over some steps that follow one another."""

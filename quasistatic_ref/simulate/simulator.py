@@ -20,8 +20,6 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, checked_pairs, contact_layout
 from quasistatic_ref.errors import InputError, StepDataError, check_kind, keywords_named
-from quasistatic_ref.formats.quoting import counted
-from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.state import State
@@ -50,14 +48,16 @@ from quasistatic_ref.solve.backends import DAQP, DEFAULT, NONE, Certify, spares
 from quasistatic_ref.solve.by_group import GroupLayout
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.many import KnownAnswers, ManyLoads
-from quasistatic_ref.solve.solve import solve_step, solved
+from quasistatic_ref.solve.solve import solution_of, solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import StepData, no_rows, row_layout, seconds
+from quasistatic_ref.step.data import StepData, no_extra, row_layout, seconds
 from quasistatic_ref.step.extension import ExtensionOfQ, StepExtension
 from quasistatic_ref.step.hessian import Hessian, hessian
 from quasistatic_ref.step.solution import StepSolution
+from quasistatic_ref.text.quoting import counted
+from quasistatic_ref.text.shown import Shown
 
 GRAVITY = (0.0, 0.0, -9.81)
 FROM_LOADS = 'system.load(q, "BODY", force=(1, 0, 0)) makes it from a force in world axes'
@@ -516,7 +516,7 @@ class Simulator(Settings, Shown):
             hessian=last,
             contacts=contacts,
             cone=self.cone,
-            extra=no_rows(system.n_v),
+            extra=no_extra(system.n_v),
             **{name: read_only(load + 0.0) for name, load in loads.items()},
         )
 
@@ -608,7 +608,7 @@ class Simulator(Settings, Shown):
     def solved(self, scaled: ScaledStep, solver: Solver) -> StepSolution:
         """The solution of a scaled step by a given solver; raises the errors of ``solve_step``."""
         solution = without_warnings(
-            solved, scaled, solver, self.accuracy, self.certify, self.working_set
+            solution_of, scaled, solver, self.accuracy, self.certify, self.working_set
         )
         if self.backend == NONE:
             self.working_set = flat_rows(scaled.step, solution.certificate.active)

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from quasistatic_ref.errors import MissingKey
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.quoting import aligned, nearest_name
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.quoting import aligned, nearest_name
 
 NOTHING_FREE = "nothing in this scene is free: all of its coordinates are actuated"
 WORDS = {True: "yes", False: "no", None: "not decided"}

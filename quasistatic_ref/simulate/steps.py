@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import ModelError, StepDataError
-from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.model.state import State
 from quasistatic_ref.numbers.arrays import Array, Indices, checked_numbers, read_only
 from quasistatic_ref.simulate import wrenches
@@ -21,6 +20,7 @@ from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.wrenches import ContactsOverSteps
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import StepSolution
+from quasistatic_ref.text.quoting import counted
 
 if TYPE_CHECKING:
     from quasistatic_ref.model.system import System

@@ -9,13 +9,13 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from quasistatic_ref.errors import ScenarioError
-from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.numbers.ordered import total
+from quasistatic_ref.text.plain import Plain
 
 
 def piecewise_linear(times: Array, values: Array, t: float | Array) -> Array:

@@ -11,17 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, MissingKey, check_kind
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.quoting import nearest_name
-from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.parts import part
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.standing import Standings
-from quasistatic_ref.step.data import Contacts, Extra, StepData, no_rows
+from quasistatic_ref.step.data import Contacts, Extra, StepData, no_extra
 from quasistatic_ref.step.solution import UNKNOWN, ContactForces, ForcesOfStep
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.quoting import nearest_name
+from quasistatic_ref.text.shown import HasPage
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -211,7 +211,7 @@ class Trajectory(RecordArrays, Plain, HasPage):
             **{key: a[key] for key in ("mu_v", "mu_omega", "rows")},
         )
         names = self.header.extra
-        extra = no_rows(n_v)
+        extra = no_extra(n_v)
         if names:
             extra = Extra(names, a["extra_A"][k], a["extra_b"][k])
         if "extra_H" in a:

@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.model.configuration import surely_configurations
 from quasistatic_ref.model.named import Values
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, checked_numbers, read_only
 from quasistatic_ref.simulate.simulator import FROM_LOADS, checked_force
 from quasistatic_ref.simulate.target import Targets
+from quasistatic_ref.text.quoting import known_names
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.result import StepResult

@@ -21,9 +21,9 @@ from importlib.util import find_spec
 from typing import Any, Literal, get_args
 
 from quasistatic_ref.errors import BackendError, InputError
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import is_there, part
 from quasistatic_ref.step.cones import checked_cone
+from quasistatic_ref.text.quoting import suggestion
 
 Options = dict[str, Any]
 OptionSets = tuple[Options, ...]

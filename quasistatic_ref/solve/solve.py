@@ -23,7 +23,6 @@ from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.norm import check_length, correct_digits
 from quasistatic_ref.certify.optimum import ExactOptimum, optimum_by_groups
 from quasistatic_ref.errors import keywords_named
-from quasistatic_ref.formats.plain import Late
 from quasistatic_ref.numbers.arrays import Array, all_finite, positive_number, without_warnings
 from quasistatic_ref.numbers.precision import check_arithmetic
 from quasistatic_ref.parts import part
@@ -36,6 +35,7 @@ from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.extension import StepExtension
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
 from quasistatic_ref.step.standard_form import Units
+from quasistatic_ref.text.plain import LazyFields
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
 
 ExtendedStep = Callable[
@@ -43,7 +43,7 @@ ExtendedStep = Callable[
     StepSolution,
 ]
 """The arguments of :func:`solve_step` -> the solution of a step with what a user adds."""
-FEW = 100
+ROWS_AT_ONCE = 100
 """Most rows of which a start is chosen from all groups at once, and not from each. Where lam is not
 unique, the start decides on it; that of small scenes is in committed runs."""
 WITHIN_RANGE = 1e100
@@ -128,10 +128,10 @@ def solve_step(
         solver.check(step)
     else:
         solver = solver_for(step, backend)
-    return without_warnings(solved, ScaledStep(step), solver, accuracy, certify)
+    return without_warnings(solution_of, ScaledStep(step), solver, accuracy, certify)
 
 
-def solved(
+def solution_of(
     scaled: ScaledStep,
     solver: Solver,
     accuracy: float,
@@ -157,12 +157,12 @@ def solved(
         As of :func:`solve_step`.
     """
     if certify == "full":
-        solution = proved(scaled, solver, accuracy, start)
+        solution = proved_solution(scaled, solver, accuracy, start)
     else:
         reply = solver.answer(scaled, accuracy)
         if not reply.solved:
             raise StepNotSolved(solver.name, reply.status, scaled.step, reply.accuracy)
-        solution = judged(scaled, solver, reply, certify)
+        solution = judged_solution(scaled, solver, reply, certify)
     step = solution.step
     numbers = [solution.delta_q, solution.lam]
     checked = certify != "off" or step.extra.names
@@ -182,7 +182,7 @@ def _surely_finite(step: StepData, lam: Array) -> bool:
     return bool(most < WITHIN_RANGE * step.h)
 
 
-def answered(
+def backend_answer(
     scaled: ScaledStep, solver: Solver, accuracy: float
 ) -> tuple[Reply | None, SolverStatistics]:
     """A backend's answer, its status and time; it may not call its answer a solution."""
@@ -215,7 +215,7 @@ def statistics_of(solver: Solver, reply: Reply) -> SolverStatistics:
     )
 
 
-def proved(
+def proved_solution(
     scaled: ScaledStep, solver: Solver, accuracy: float, start: Sequence[int]
 ) -> StepSolution:
     """The proved optimum. The backend's answer, right or wrong, is only where its search starts.
@@ -239,19 +239,19 @@ def proved(
         If no enclosure is found, and the backend has no answer that passes the judge.
     """
     step = scaled.step
-    reply, statistics = answered(scaled, solver, accuracy)
+    reply, statistics = backend_answer(scaled, solver, accuracy)
     claimed = reply if reply is not None and reply.solved else None
     begin = time.perf_counter()
     answer = None if reply is None else in_si(*reply.answer, scaled.units)
     optimum: Enclosed | ExactOptimum | None
     if cone(step.cone).polyhedral:
-        begins = starts(scaled, solver, claimed, start)
+        begins = starting_rows(scaled, solver, claimed, start)
         optimum = optimum_by_groups(step, scaled.groups, begins, solver.proofs)
     else:
         check_arithmetic()  # a backend may have changed it
         optimum = curved_cone(step).optimum(step, None if claimed is None else answer)
         if optimum is None and claimed is not None:
-            return judged(scaled, solver, claimed, "residual")
+            return judged_solution(scaled, solver, claimed, "residual")
         if optimum is None:
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, statistics.accuracy)
@@ -274,7 +274,7 @@ def proved(
     return StepSolution(delta_q, lam, step, certificate, statistics, optimum.net)
 
 
-def starts(
+def starting_rows(
     scaled: ScaledStep, solver: Solver, claimed: Reply | None, start: Sequence[int]
 ) -> list[list[int]]:
     """For each group, the rows from which the exact method starts.
@@ -294,7 +294,7 @@ def starts(
     x, y = claimed.answer
     if solver.basic:
         return [basic_rows(y[group.rows]) for group in groups]
-    if len(groups) > 1 and scaled.step.m <= FEW:
+    if len(groups) > 1 and scaled.step.m <= ROWS_AT_ONCE:
         form = scaled.natural
         rows = warm_rows(form.A, y, form.A @ x - form.b)
         return [group.within(rows) for group in groups]
@@ -304,7 +304,9 @@ def starts(
     ]
 
 
-def judged(scaled: ScaledStep, solver: Solver, reply: Reply, certify: Certify) -> StepSolution:
+def judged_solution(
+    scaled: ScaledStep, solver: Solver, reply: Reply, certify: Certify
+) -> StepSolution:
     """A backend's answer as a solution in SI units, with its residuals as certificate.
 
     Parameters
@@ -340,7 +342,7 @@ def judged(scaled: ScaledStep, solver: Solver, reply: Reply, certify: Certify) -
     return StepSolution(delta_q, lam, step, certificate, statistics)
 
 
-class ExactCertificate(Late, Certificate):
+class ExactCertificate(LazyFields, Certificate):
     """The certificate of an exact optimum; its other fields are computed when they are read.
 
     Attributes
@@ -423,7 +425,7 @@ def exact_certificate(step: StepData, optimum: ExactOptimum, units: Units) -> Ce
     return certificate
 
 
-class ProofStatistics(Late, SolverStatistics):
+class ProofStatistics(LazyFields, SolverStatistics):
     """The statistics of a solver whose answer can be compared with the optimum.
 
     Attributes

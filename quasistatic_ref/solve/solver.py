@@ -12,9 +12,8 @@ from typing import ClassVar, Final
 import numpy as np
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.optimum import Proofs
+from quasistatic_ref.certify.optimum import ProofCache
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.numbers.arrays import Array, Mask, all_finite
 from quasistatic_ref.solve.backends import (
     BACKENDS,
@@ -27,6 +26,7 @@ from quasistatic_ref.solve.backends import (
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, differences
+from quasistatic_ref.text.quoting import one_line
 
 ALIKE: Final = 1e3
 """Largest ratio of the lengths of a step's rows, in natural units [-], at which a solver is called
@@ -125,7 +125,7 @@ class Solver(ABC):
     def __init__(self, template: StepData, name: str) -> None:
         self.template = template
         self.name = name
-        self.proofs = Proofs()
+        self.proofs = ProofCache()
         self.bare_name = bare(name)
         self.unsafe = self.bare_name in UNSAFE
         if self.bare_name == "highs":

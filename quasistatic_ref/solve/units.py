@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify.groups import Group, group_step
-from quasistatic_ref.certify.norm import energy_norm, joined, single_lengths
+from quasistatic_ref.certify.norm import energy_norm, over_groups, single_lengths
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.arrays import Array, Mask, all_finite
@@ -38,7 +38,7 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import (
     StandardForm,
     Units,
-    ends_within,
+    clipped_gaps,
     linear_term,
     own_inequalities,
     row_constants,
@@ -334,7 +334,7 @@ class ScaledStep:
     @cached_property
     def ends(self) -> tuple[Array, Array]:
         """Gaps phi (n_c,) and ends b of the user's rows, within reach: natural units [-]."""
-        return ends_within(self.step, self.units)
+        return clipped_gaps(self.step, self.units)
 
     @cached_property
     def out_of_reach(self) -> Mask:
@@ -375,7 +375,7 @@ class ScaledStep:
         residuals = Residuals(*worst.max(axis=0).tolist())
         if not self.step.n_v:
             return residuals
-        length = max(joined(self.lengths)[:-1])
+        length = max(over_groups(self.lengths)[:-1])
         size = self.units.size
         return residuals.in_size(length / size if size < length < math.inf else 1.0)
 

@@ -29,10 +29,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.numbers.angles import cos_sin_of_turn
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.parts import part
+from quasistatic_ref.text.quoting import nearest_name
 
 if TYPE_CHECKING:
     import cvxpy as cp

@@ -11,8 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.numbers.arrays import (
     Array,
     Indices,
@@ -25,6 +23,8 @@ from quasistatic_ref.numbers.arrays import (
     read_only,
 )
 from quasistatic_ref.step.cones import has_torsion
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.shown import Shown
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 IDENTITY = np.eye(3)

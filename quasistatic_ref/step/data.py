@@ -17,8 +17,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import StepDataError, check_kind
-from quasistatic_ref.formats.plain import Plain, field_values
-from quasistatic_ref.formats.shown import HasPage, Shown
 from quasistatic_ref.numbers.arrays import (
     Array,
     Indices,
@@ -35,6 +33,8 @@ from quasistatic_ref.step.cones import PYRAMID, checked_cone
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.hessian import Hessian
+from quasistatic_ref.text.plain import Plain, field_values
+from quasistatic_ref.text.shown import HasPage, Shown
 
 __all__ = ["Contacts", "Extra", "StepData"]
 
@@ -109,7 +109,7 @@ class Extra(Plain, Shown):
     def of(self, rows: Indices, coordinates: Indices) -> Extra:
         """Some rows, shape (k,), and the cost, of some coordinates alone, shape (n,)."""
         if self.empty:
-            return no_rows(len(coordinates))
+            return no_extra(len(coordinates))
         cost = self.cost
         return Extra(
             tuple(self.names[i] for i in rows),
@@ -121,7 +121,7 @@ class Extra(Plain, Shown):
 
 
 @lru_cache(maxsize=8)
-def no_rows(n_v: int) -> Extra:
+def no_extra(n_v: int) -> Extra:
     """No rows of the user's own, of n_v coordinates."""
     return Extra((), np.zeros((0, n_v)), np.zeros(0))
 
@@ -232,7 +232,7 @@ class StepData(Plain, HasPage):
         n_a = sorted(_lengths(of_a))[1]
         n_u = sorted([*_lengths({"M_u": M_u, "tau_u": tau_u}), contacts.n_v - n_a])[1]
         n_v = n_a + n_u
-        extra = no_rows(n_v) if extra is None else extra
+        extra = no_extra(n_v) if extra is None else extra
         for key, columns in (("contacts.J", contacts.n_v), ("extra.A", extra.A.shape[1])):
             if columns != n_v:
                 problem = f"must have n_a + n_u = {n_v} columns"

@@ -10,9 +10,9 @@ from typing import Any, TypeVar
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
 from quasistatic_ref.numbers.blocks import entries_of, nonzeros, whole
+from quasistatic_ref.text.plain import Plain
 
 Result = TypeVar("Result")
 

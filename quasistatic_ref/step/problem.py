@@ -17,7 +17,13 @@ import scipy.sparse as sp
 
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.standard_form import FAR, Units, ends_within, page_units, si_units
+from quasistatic_ref.step.standard_form import (
+    OUT_OF_REACH,
+    Units,
+    clipped_gaps,
+    page_units,
+    si_units,
+)
 
 
 @dataclass(eq=False)
@@ -149,7 +155,9 @@ def paper_problem(step: StepData) -> Page:
     return Page(problem, parameters, a_a, a_u, *displacement, motion, contact_rows)
 
 
-def set_values(page: Page, step: StepData, units: Units | None = None, far: float = FAR) -> None:
+def set_values(
+    page: Page, step: StepData, units: Units | None = None, far: float = OUT_OF_REACH
+) -> None:
     """Set the parameters of a page to those of a `step` of its kind.
 
     They have been checked where the step was made. An assignment to the ``value`` of K_q or M_u is
@@ -166,7 +174,7 @@ def set_values(page: Page, step: StepData, units: Units | None = None, far: floa
         see :func:`~quasistatic_ref.step.standard_form.page_units`. SI units by default.
     far : float
         How far the contacts, and ends of own rows, may be in natural units [-]: see
-        :func:`~quasistatic_ref.step.standard_form.ends_within`.
+        :func:`~quasistatic_ref.step.standard_form.clipped_gaps`.
     """
     if units is None:
         S, ell, rho = si_units(step.n_v)
@@ -186,7 +194,7 @@ def set_values(page: Page, step: StepData, units: Units | None = None, far: floa
         return part
 
     tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
-    phi, b_extra = ends_within(step, Units(S, ell, rho), far)
+    phi, b_extra = clipped_gaps(step, Units(S, ell, rho), far)
     values = {
         "K_q": step.K_q * np.outer(S_a, S_a),
         "M_u": step.M_u * np.outer(S_u, S_u),

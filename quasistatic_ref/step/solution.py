@@ -8,13 +8,13 @@ from functools import cached_property
 from typing import Literal
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.shown import HasPage, Shown
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
 from quasistatic_ref.parts import part
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.text import step_sha256
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.shown import HasPage, Shown
 
 ForcesOfStep = Callable[[StepData, None, tuple[Array, Array] | None], "ContactForces"]
 """A step, compliances (its own), and delta_q (n_v,) [m, rad] and wrenches (n_c, 4) [N, N m] to

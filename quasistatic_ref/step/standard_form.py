@@ -19,7 +19,7 @@ from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts, spread
 from quasistatic_ref.step.data import StepData, check_step
 
-FAR: Final = 100.0
+OUT_OF_REACH: Final = 100.0
 """Distance, in natural units [-], beyond which a contact is as good as infinitely far.
 
 The unconstrained step has a length of about one. Solvers lose digits where 1e6 and 1 stand
@@ -224,7 +224,7 @@ def _power_of_two(exponent: float) -> float:
     return 2.0 ** min(round(exponent), 1023)  # the largest in float64
 
 
-def ends_within(step: StepData, units: Units, far: float = FAR) -> tuple[Array, Array]:
+def clipped_gaps(step: StepData, units: Units, far: float = OUT_OF_REACH) -> tuple[Array, Array]:
     """Gaps of the contacts and ends of the user's rows; those out of reach put nearer.
 
     They bear nothing, and numbers of very different size cost solvers digits.

@@ -7,8 +7,8 @@ import hashlib
 from dataclasses import asdict
 from typing import Any
 
-from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.text.json_text import json_text
 
 STEP_FORMAT = "quasistatic-ref/step"
 VERSION = 1

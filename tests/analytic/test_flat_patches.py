@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.scenes.rigid import rigid_step
+from quasistatic_ref.lab.made_steps.rigid import rigid_step
 from quasistatic_ref.lab.thresholds import threshold
 from tests.oracles.balance import balances
 

@@ -16,8 +16,8 @@ from quasistatic_ref import (
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.norm import ILL_POSED, relative_length
 from quasistatic_ref.certify.optimum import step_optimum
-from quasistatic_ref.lab.scenes.contacts import no_contacts
-from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.made_steps.contacts import no_contacts
+from quasistatic_ref.lab.made_steps.rigid import free_step
 from tests.helpers import EAST, NORTH, WEST, point_between_walls, sphere_on_floor
 
 

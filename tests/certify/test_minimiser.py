@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref.certify.form import StepForm, implied, independent_rows
 from quasistatic_ref.certify.minimiser import Minimiser
-from quasistatic_ref.certify.working_set import NearSets, ball_point
+from quasistatic_ref.certify.working_set import UpdatedInverse, ball_point
 from tests.helpers import resting_point
 from tests.oracles.forms import exact_form_of
 
@@ -32,7 +32,7 @@ def test_balls_that_hide_x_are_formed_again():
     """What rows (1, 0) and (1, 2^-150) say of another set loses 300 of 320 bits."""
     A = np.array([[1.0, 0.0], [1.0, 2.0**-150], [0.0, 1.0]])
     form = exact_form_of(np.eye(2), np.array([-1.0, 1.0]), A, np.array([1.0, 2.0, 3.0]))
-    near = NearSets(form, (0, 1), form.bits)
+    near = UpdatedInverse(form, (0, 1), form.bits)
     minimiser = Minimiser(form, (1, 2), near)
     _, radius = ball_point(form, (1, 2), form.bits, near).floats
     _, formed_again = minimiser.balls.floats

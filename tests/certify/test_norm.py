@@ -15,8 +15,8 @@ from quasistatic_ref.certify.norm import (
     single_loads,
 )
 from quasistatic_ref.certify.optimum import step_optimum
-from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
-from quasistatic_ref.lab.scenes.rigid import actuated_step
+from quasistatic_ref.lab.made_steps.contacts import Z, contacts_of, frames_about, no_contacts
+from quasistatic_ref.lab.made_steps.rigid import actuated_step
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import EAST, point_between_walls
 

@@ -9,9 +9,9 @@ from quasistatic_ref.certify import form, optimum
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.certify.working_set import WholeSystem
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.text.plain import bits
 from tests.helpers import point_on_floor
 
 
@@ -73,7 +73,7 @@ def test_a_group_that_rests_is_kept_beside_one_that_moves(proofs_made):
 def test_what_differs_in_one_bit_or_starts_elsewhere_is_proved(proofs_made):
     step = point_on_floor(force=(0.1, 0.0, -1.0))
     (part,) = group_steps(step)
-    kept = optimum.Proofs()
+    kept = optimum.ProofCache()
     for one, start in [(step, [0]), (step.replace(), [0]), (step.replace(), [1])]:
         optimum.optimum_by_groups(one, [(part[0], one)], [start], kept)
     assert len(proofs_made) == 2

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, StepData, solve_step
-from quasistatic_ref.lab.scenes.contacts import no_contacts
-from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.made_steps.contacts import no_contacts
+from quasistatic_ref.lab.made_steps.rigid import free_step
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.units import ScaledStep
 from tests.closeness import assert_relative, assert_within

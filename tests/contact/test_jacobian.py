@@ -9,8 +9,8 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.contact.jacobian import ContactGeometry, columns_at, tangents
 from quasistatic_ref.contact.pairs import ContactLayout
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.step.contacts import spread
+from quasistatic_ref.text.plain import bits
 from tests.closeness import assert_within
 from tests.model.mechanisms import WHEELS
 

@@ -19,7 +19,7 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.distance import in_world
-from quasistatic_ref.contact.ranks import MANY, closest, near_points, rounded_gaps
+from quasistatic_ref.contact.ranks import MANY_POINTS, closest, near_points, rounded_gaps
 from quasistatic_ref.contact.shape_in_world import Pose
 from quasistatic_ref.shapes import facets
 from tests.contact.still import pair, placed_shape, standing_links
@@ -48,7 +48,7 @@ MESHES = {
 CLOUDS = {
     "sphere": PointCloud(0.03 * sphere(500)),
     "grid": PointCloud(0.06 * grid(300)),
-    "large": PointCloud(0.06 * grid(MANY + 1)),
+    "large": PointCloud(0.06 * grid(MANY_POINTS + 1)),
 }
 
 
@@ -70,7 +70,7 @@ def test_contacts_of_a_cloud_are_those_of_all_points_over_all_triangles(name, on
             found = closest_points([one], links)
             a, b = in_world(one, links.R, links.t)
             with monkeypatch.context() as all_triangles:
-                all_triangles.setattr(facets, "FEW", len(mesh.triangles))
+                all_triangles.setattr(facets, "FEW_FACETS", len(mesh.triangles))
                 x = a.pose.of(b.pose).points(cloud.points)
                 rank, _ = mesh.signed_distance(x)
             expected = closest(rounded_gaps(rank, one.resolution), k)
@@ -88,7 +88,7 @@ SOLIDS = [
     Ellipsoid((0.01, 0.02, 0.03)),
     MESHES["box"],
 ]
-PLANE = np.random.default_rng(0).uniform(-0.04, 0.04, size=(3 * MANY, 3)) * [1.0, 1.0, 0.0]
+PLANE = np.random.default_rng(0).uniform(-0.04, 0.04, size=(3 * MANY_POINTS, 3)) * [1.0, 1.0, 0.0]
 
 
 @pytest.mark.parametrize("solid", SOLIDS, ids=lambda solid: type(solid).__name__)

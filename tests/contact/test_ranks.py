@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref import Box, Capsule, Cylinder, HalfSpace, PointCloud, Sphere, convex_hull
 from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.distance import (
-    FEW,
+    FEW_POINTS,
     ClosestPoints,
     repeated,
 )
@@ -100,7 +100,7 @@ def test_contacts_rank_by_a_share_of_the_smaller_shape_and_keep_their_distances(
 
 
 def test_a_face_of_many_corners_is_borne_by_them_and_not_by_a_point_between():
-    sides = 4 * FEW
+    sides = 4 * FEW_POINTS
     R, t = lowered(prism(sides), np.zeros(3), 0.3)
     found = found_on(FLOOR, prism(sides), (R, t), sides)
     assert len(np.unique(found.point)) == sides

@@ -5,7 +5,7 @@ Under test: contact.jacobian.ContactGeometry.
 
 import numpy as np
 
-from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
+from quasistatic_ref.lab.made_steps.link_jacobian import contact_jacobian
 from tests.cases import cases
 from tests.closeness import assert_close, assert_relative
 from tests.oracles.printed_rows import LINKS, relative_velocity

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
+from quasistatic_ref.lab.made_steps.link_jacobian import contact_jacobian
 from tests.oracles.printed_rows import LINKS, relative_velocity
 from tests.tolerances import DIFFERENCE
 

@@ -6,7 +6,7 @@ import pytest
 
 from quasistatic_ref import save_step
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.formats.quoting import clipped
+from quasistatic_ref.text.quoting import clipped
 from tests.cases import cases
 from tests.errors.scene import SCENE, changed, scene_written
 from tests.files.urdf.urdf_texts import urdf_of_text

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from quasistatic_ref.formats.json_text import plain
 from quasistatic_ref.step.text import step_record
+from quasistatic_ref.text.json_text import plain
 from tests.cases import cases
 from tests.errors.scene import changed, dotted, numeric_fields
 from tests.helpers import planted_step

@@ -13,7 +13,7 @@ import pytest
 from quasistatic_ref import InputError, load_trajectory
 from quasistatic_ref.files.content import json_read, text_of, text_written, toml_read
 from quasistatic_ref.files.content import written_whole as whole
-from quasistatic_ref.formats.json_text import json_text
+from quasistatic_ref.text.json_text import json_text
 from tests.cases import cases, refusal
 from tests.files.urdf.urdf_texts import loaded_urdf
 

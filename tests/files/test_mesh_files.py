@@ -14,7 +14,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.files.mesh_files import loaded_mesh, mesh_hull, mesh_path
 from quasistatic_ref.files.urdf import shapes as urdf_shapes
-from quasistatic_ref.optional.readers import files, placed_meshes
+from quasistatic_ref.optional.mesh_formats import files, placed_meshes
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from tests.cases import cases
 from tests.closeness import assert_within

@@ -7,7 +7,7 @@ import numpy as np
 
 from quasistatic_ref import Extra, load_step, save_step
 from quasistatic_ref.files.step import step_from_record
-from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.lab.made_steps.contacts import no_contacts
 from quasistatic_ref.step.text import step_sha256, step_text
 from tests.cases import cases
 from tests.errors.scene import changed

@@ -21,10 +21,10 @@ from quasistatic_ref import (
     solve_step,
     verify_answer,
 )
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.numbers.precision import check_arithmetic
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.text.plain import bits
 from tests.oracles.random_steps import mixed_step
 
 STEP = mixed_step(1)

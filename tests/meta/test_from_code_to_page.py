@@ -47,7 +47,7 @@ def test_every_finding_is_on_its_page():
     table = text(file).partition("| finding | when |\n|---|---|\n")[2].partition("\n\n")[0]
     rows_of_states = [row.split("|")[1] for row in table.splitlines()]
     assert_alike(
-        names_of_findings("guests"),
+        names_of_findings("mujoco"),
         re.findall(r"\w+", " ".join(rows_of_states)),
         f'The finding "{{}}" of a state has no row: add it to {file}',
         f'{file} tells of the finding "{{}}", which no code gives: remove its row',

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import ModelError, load_scenario
-from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.text.plain import bits
 from tests.closeness import assert_same
 
 GRAVITY = (0.0, 0.0, -9.81)

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.joints import BY_ENTRIES
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.model.sums import MANY, Sums
+from quasistatic_ref.model.sums import MANY_JOINTS, Sums
+from quasistatic_ref.text.plain import bits
 
 KINDS = sorted(BY_ENTRIES, key=lambda kind: kind.__name__)
 
@@ -45,14 +45,14 @@ def turned(joints, rng):
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_many_joints_at_once_are_each_by_itself(kind, rng):
-    check(joints_of(*[kind, KINDS[0], Odd] * (2 * MANY)), rng)
+    check(joints_of(*[kind, KINDS[0], Odd] * (2 * MANY_JOINTS)), rng)
 
 
 @pytest.mark.parametrize("other", KINDS, ids=lambda kind: kind.__name__)
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_joints_by_compiled_code_are_each_by_itself(kind, other, rng):
     check(joints_of(kind, other), rng)
-    check(joints_of(*[kind] * (1 + 2 * MANY)), rng)
+    check(joints_of(*[kind] * (1 + 2 * MANY_JOINTS)), rng)
 
 
 def check(joints, rng):

@@ -6,8 +6,8 @@ from scipy.linalg import block_diag
 
 from quasistatic_ref import Extra, StepData, StepDataError, solve_step
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.lab.scenes.contacts import no_contacts
-from quasistatic_ref.numbers.pivots import DEFINITE, MANY, positive_pivots
+from quasistatic_ref.lab.made_steps.contacts import no_contacts
+from quasistatic_ref.numbers.pivots import DEFINITE, MANY_ROWS, positive_pivots
 from tests.closeness import assert_relative
 from tests.oracles.attacked_steps import positive_definite, singular
 
@@ -57,12 +57,12 @@ def test_a_stack_obeys_the_rule_if_each_of_its_matrices_does():
 
 @pytest.mark.parametrize("last", [[[2.0]], [[-1.0]], [[0.0]]])
 def test_blocks_of_a_large_matrix_obey_the_rule_one_by_one(last):
-    S = block_diag(*[NEAR] * MANY, last)
+    S = block_diag(*[NEAR] * MANY_ROWS, last)
     assert positive_pivots(S) == (last[0][0] > 0)
 
 
 def test_a_large_matrix_of_one_block_obeys_the_rule():
-    assert positive_pivots(np.eye(3 * MANY) + 0.5) is True
+    assert positive_pivots(np.eye(3 * MANY_ROWS) + 0.5) is True
 
 
 def test_a_nearly_singular_stiffness_has_norms_and_an_exact_answer():
@@ -109,7 +109,7 @@ def test_a_cost_is_added_without_rounding_also_where_numbers_are_subnormal(
 
 
 def test_a_large_dense_matrix_that_is_indefinite_is_not_taken():
-    S = np.eye(MANY + 1) + 1e-3
+    S = np.eye(MANY_ROWS + 1) + 1e-3
     assert positive_pivots(S)
     S[0, 1] = S[1, 0] = 2.0
     assert not positive_pivots(S)

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.scenes.contacts import GRAVITY
-from quasistatic_ref.lab.scenes.systems import (
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY
+from quasistatic_ref.lab.made_steps.systems import (
     cloud_on,
     joint_text,
     link_text,

@@ -63,7 +63,7 @@ GOOD = {
 ELSEWHERE = {
     *("draw_scene", "draw_scenes"),  # tests/optional/show
     *("exact_lp", "exact_ls", "exact_qp"),  # tests/optional/qp
-    *("mujoco_opinion", "mujoco_scenario", "mujoco_step"),  # tests/optional/guests
+    *("mujoco_opinion", "mujoco_scenario", "mujoco_step"),  # tests/optional/mujoco
 }
 OTHERS = {"scanned_body": {"mass": 1.0}}
 ANY = {

@@ -12,7 +12,6 @@ from quasistatic_ref.files.clouds import FilePoints
 from quasistatic_ref.files.mesh_files import FileMesh
 from quasistatic_ref.files.scenario import scenario
 from quasistatic_ref.files.urdf import file
-from quasistatic_ref.formats.shown import Page
 from quasistatic_ref.model.body import Described
 from quasistatic_ref.model.world import ReadUrdf
 from quasistatic_ref.numbers.arrays import Array
@@ -25,9 +24,9 @@ from quasistatic_ref.optional.doctor import checks, names, observer
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 from quasistatic_ref.optional.extensions import by_function, extended, of_scenario
 from quasistatic_ref.optional.forces import forces
-from quasistatic_ref.optional.models import described
+from quasistatic_ref.optional.mesh_formats import meshes, points
+from quasistatic_ref.optional.pinocchio_models import described
 from quasistatic_ref.optional.qpsolvers import through_qpsolvers
-from quasistatic_ref.optional.readers import meshes, points
 from quasistatic_ref.optional.show import pages, table
 from quasistatic_ref.optional.stands import after, slow, stands
 from quasistatic_ref.parts import PARTS, is_there, part
@@ -48,6 +47,7 @@ from quasistatic_ref.solve.solve import ExtendedStep
 from quasistatic_ref.step.cones import FrictionCone
 from quasistatic_ref.step.extension import Posed
 from quasistatic_ref.step.solution import ForcesOfStep
+from quasistatic_ref.text.shown import Page
 
 
 class Expected:

@@ -6,8 +6,8 @@ body. Contacts are between the gripper and the body, six rows, or a floor and th
 
 import numpy as np
 
-from quasistatic_ref.lab.scenes.at_random import Rng
-from quasistatic_ref.lab.scenes.contacts import (
+from quasistatic_ref.lab.made_steps.at_random import Rng
+from quasistatic_ref.lab.made_steps.contacts import (
     GRAVITY,
     X,
     Y,

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.made_steps.contacts import contacts_of
+from quasistatic_ref.lab.made_steps.rigid import free_step
 
 H = 0.01
 

@@ -1,6 +1,6 @@
 """Random steps that may be anything: what the exact answer and its certificate are tried on.
 
-Those that commands and the vectors draw are in ``lab/scenes/at_random.py``.
+Those that commands and the vectors draw are in ``lab/made_steps/at_random.py``.
 """
 
 from dataclasses import replace
@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from quasistatic_ref import Extra, StepData
-from quasistatic_ref.lab.scenes.at_random import random_frames, spread_matrix
-from quasistatic_ref.lab.scenes.contacts import contacts_of, repeated
-from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.made_steps.at_random import random_frames, spread_matrix
+from quasistatic_ref.lab.made_steps.contacts import contacts_of, repeated
+from quasistatic_ref.lab.made_steps.rigid import free_step
 from tests.oracles.grasp_steps import grasp_step
 
 CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.simulate.steps import Ways
+from quasistatic_ref.text.plain import bits
 from tests.model.mechanisms import every_joint
 
 N = 5

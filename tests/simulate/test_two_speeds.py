@@ -5,7 +5,7 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref import load_scenario
-from quasistatic_ref.lab.scenes.systems import on_link
+from quasistatic_ref.lab.made_steps.systems import on_link
 from tests.extras import SCENARIOS_TO_RUN
 from tests.processes import python
 

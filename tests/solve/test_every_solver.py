@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.lab.made_steps.contacts import repeated
 from quasistatic_ref.solve.backends import NONE, installed_backends, others_installed
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solver import FREE

@@ -64,7 +64,7 @@ def test_a_wrench_that_is_not_finite_is_refused_where_anything_is_claimed(monkey
     lam = np.full(len(good.lam), 1e300)
     with np.errstate(over="ignore"):
         bad = replace(good, lam=lam)
-    monkeypatch.setattr(solve, "judged", lambda *_: bad)
+    monkeypatch.setattr(solve, "judged_solution", lambda *_: bad)
     with pytest.raises(StepDataError, match="range of float64"):
         solve_step(step, certify="residual")
     assert solve_step(step, certify="off") is bad

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, standard_form
-from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.lab.scenes.contacts import no_contacts
-from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.made_steps.contacts import no_contacts
+from quasistatic_ref.lab.made_steps.rigid import free_step
 from quasistatic_ref.solve.units import ScaledStep
-from quasistatic_ref.step.standard_form import FAR, ends_within
+from quasistatic_ref.step.standard_form import OUT_OF_REACH, clipped_gaps
+from quasistatic_ref.text.plain import bits
 from tests.cases import cases
 from tests.closeness import assert_relative, assert_same
 from tests.helpers import (
@@ -126,12 +126,12 @@ def test_contacts_and_rows_out_of_reach_are_moved_nearer_and_the_others_are_not(
     step = sphere_on_floor(phi=1e9, wrench=(0, 0, -1.0, 0, 0, 0)).replace(extra=walls)
     scaled = ScaledStep(step)
     natural = step_in_units(step, scaled.units)
-    phi, b = ends_within(step, scaled.units)
-    assert_relative(phi, [FAR * max(1.0, np.linalg.norm(natural.contacts.J[0]))])
-    own = FAR * max(1.0, np.linalg.norm(natural.extra.A[1]))
+    phi, b = clipped_gaps(step, scaled.units)
+    assert_relative(phi, [OUT_OF_REACH * max(1.0, np.linalg.norm(natural.contacts.J[0]))])
+    own = OUT_OF_REACH * max(1.0, np.linalg.norm(natural.extra.A[1]))
     assert_relative(b, [natural.extra.b[0], -own])
     assert scaled.out_of_reach.tolist() == [True] * (step.m - 2) + [False, True]
     form = scaled.near
     assert_same(form.A, scaled.natural.A)
     assert_same(form.b, [*-np.repeat(phi, step.m - 2), *b])
-    assert_same(ends_within(step, scaled.units, np.inf)[0], natural.contacts.phi)
+    assert_same(clipped_gaps(step, scaled.units, np.inf)[0], natural.contacts.phi)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Contacts, Extra, StepDataError
-from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.lab.made_steps.contacts import no_contacts
 from quasistatic_ref.numbers.pivots import SYMMETRIC
 from quasistatic_ref.tolerances import ORTHONORMAL
 from tests.cases import cases, refusal

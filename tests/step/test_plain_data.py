@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from quasistatic_ref import Box, Cone, Cylinder, Extra, Simulator, Sphere, load_scenario
-from quasistatic_ref.formats.plain import Plain, bits
+from quasistatic_ref.text.plain import Plain, bits
 from tests.cases import cases
 from tests.closeness import assert_same
 from tests.scenes import written_scenario

@@ -4,9 +4,9 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref import Extra, standard_form
-from quasistatic_ref.lab.scenes.rigid import point_step
+from quasistatic_ref.lab.made_steps.rigid import point_step
 from quasistatic_ref.solve.step_problem import StepProblem
-from quasistatic_ref.step.standard_form import Units, ends_within
+from quasistatic_ref.step.standard_form import Units, clipped_gaps
 from tests.closeness import assert_close
 from tests.helpers import random_step
 from tests.tolerances import ROUNDING
@@ -30,5 +30,5 @@ def test_a_row_out_of_reach_is_put_at_its_reach_in_the_units_that_are_asked_for(
     step = point_step(0.3, (0.0, 0.0, 0.0), 0.5, 0.0, 0.01)
     rows = [[3.0, 0.0, 4.0]] * 2
     step = step.replace(extra=Extra(("near", "far"), rows, [-8.0, -1e9]))
-    _, b = ends_within(step, Units(np.array([2.0, 4.0, 8.0]), 2.0, 4.0), 10.0)
+    _, b = clipped_gaps(step, Units(np.array([2.0, 4.0, 8.0]), 2.0, 4.0), 10.0)
     assert b.tolist() == [-1.0, -10 * np.hypot(3.0, 16.0)]

@@ -31,8 +31,8 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.clouds import seen_points
 from quasistatic_ref.files.mesh_files import loaded_mesh, mesh_hull
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.optional.guests.compiler import compiled_model
-from quasistatic_ref.optional.guests.scene import mujoco_scenario
+from quasistatic_ref.optional.mujoco.compiler import compiled_model
+from quasistatic_ref.optional.mujoco.scene import mujoco_scenario
 from validation.tools.scripts import RESULTS, script_options
 
 WHEELS = (

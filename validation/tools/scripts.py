@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.files.content import text_written
-from quasistatic_ref.formats.json_text import plain
+from quasistatic_ref.text.json_text import plain
 
 ROOT = Path(__file__).parents[2]
 """Of the checkout."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.contact.batches.batch import Batch
 from quasistatic_ref.contact.distance import ClosestPoints, contacts_over
-from quasistatic_ref.contact.normals import FAR, TIED_FACES, UNIQUE_NORMAL
+from quasistatic_ref.contact.normals import FAR_PLACES, TIED_FACES, UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import Pose, on_plane
 from quasistatic_ref.numbers.arrays import Array, Mask
@@ -29,7 +29,7 @@ def points_of(solid: Shape) -> tuple[Array, float]:
     return solid.corners(DIRECTIONS[0])
 
 
-class Balls(Batch):
+class RoundedPoints(Batch):
     """Pairs of a solid and N points with balls about them, searched together."""
 
     def __init__(self, pairs: Sequence[ContactPair]) -> None:
@@ -76,7 +76,7 @@ class Balls(Batch):
         return known, points if self._turn > 0 else points.swapped()
 
 
-class OnHalfSpaces(Balls):
+class OnHalfSpaces(RoundedPoints):
     """Points on half-spaces."""
 
     def __init__(self, pairs: Sequence[ContactPair]) -> None:
@@ -102,10 +102,10 @@ class OnHalfSpaces(Balls):
 
     def known(self, nearest: Array, seen: Array, places: Array) -> Mask:
         """Pairs that are not too far apart, (P,); `nearest`, `seen` and `places` are (P,) [m]."""
-        return np.asarray(seen < FAR * self.size)
+        return np.asarray(seen < FAR_PLACES * self.size)
 
 
-class Spheres(Balls):
+class Spheres(RoundedPoints):
     """Centres of spheres on solids that are :class:`Rounded`."""
 
     def __init__(self, pairs: Sequence[ContactPair]) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.normals import FAR
+from quasistatic_ref.contact.normals import FAR_PLACES
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import Pose, poses_in_world
 from quasistatic_ref.numbers.arrays import Array, Mask
@@ -42,7 +42,7 @@ class Batch(ABC):
         """
         alpha, beta = poses_in_world(self.links, self.poses, R, t)
         places = self.places(alpha, beta)
-        far = ~(places < FAR * self.size)[:, None]
+        far = ~(places < FAR_PLACES * self.size)[:, None]
         if not far.any():
             return self.of_poses(alpha, beta, places, places)
         origin, of_alpha, of_beta = self.from_near(alpha, beta)

@@ -21,11 +21,11 @@ from quasistatic_ref.numbers.ordered import norm
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.tolerances import ON_SURFACE
 
-MANY: Final = 20_000
+MANY_FEATURES: Final = 20_000
 """Pairs of edges from which some are left out: of fewer each is looked at in less time."""
 ROUNDED: Final = 4e-16 / ON_SURFACE
 """How far the direction of the common normal of two edges is off that are nearly parallel [-]."""
-FAR: Final = 10.0
+FAR_SIZES: Final = 10.0
 """Sizes [-] beyond which bodies count as that far.
 
 There a normal that is off counts only where it leads from one of the nearest points to the other,
@@ -41,7 +41,7 @@ def are_fine(a: Polytope, b: Polytope) -> bool:
     """Whether a pair has so many edges that bounds on them save time."""
     one = a.vertices.shape[0] == 1
     of_mesh = isinstance(a.shape, ConvexMesh) or isinstance(b.shape, ConvexMesh)
-    return one and of_mesh and len(a.edges) * len(b.edges) > MANY
+    return one and of_mesh and len(a.edges) * len(b.edges) > MANY_FEATURES
 
 
 def giving_way(a: Polytope, b: Polytope) -> float:
@@ -54,7 +54,7 @@ def giving_way(a: Polytope, b: Polytope) -> float:
     """
     size = sum(float(np.ptp(one.vertices[0], axis=0).max()) for one in (a, b))
     apart = float(norm(a.vertices[0, 0] - b.vertices[0, 0]))
-    return ROUNDED * (size + min(apart, FAR * size))
+    return ROUNDED * (size + min(apart, FAR_SIZES * size))
 
 
 class _Side:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.contact.ranks import may_be_first
+from quasistatic_ref.contact.ranks import cannot_be_excluded
 from quasistatic_ref.contact.shape_in_world import Pose, Witnesses
 from quasistatic_ref.contact.solids.near_features import (
     are_fine,
@@ -272,7 +272,7 @@ def _nearest_corner(
     number = np.arange(corners.shape[1])
     if gives < np.inf and isinstance(body.shape, ConvexMesh):
         bound = corners[0] @ n[0] - (body.vertices[0] @ n[0]).max() - gives
-        number = may_be_first(body.shape, bound, corners[0, bound.argmin()][None], 1)
+        number = cannot_be_excluded(body.shape, bound, corners[0, bound.argmin()][None], 1)
     phi, normal = body.core_distance(corners[:, number])
     first = phi.argmin(axis=1)
     return number[first], phi[every, first], normal[every, first]

@@ -19,8 +19,6 @@ from quasistatic_ref.files.scenario.scenario_table import (
     pose,
 )
 from quasistatic_ref.files.table_reader import TableReader
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.coordinates import no_coordinate
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
@@ -29,6 +27,8 @@ from quasistatic_ref.model.tree import BASE
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.simulate.target import JointTrack, Wrenches
 from quasistatic_ref.step.extension import ExtensionOfQ, StepExtension
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.quoting import suggestion
 
 
 @dataclass(frozen=True, eq=False)

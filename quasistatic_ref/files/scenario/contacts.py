@@ -22,11 +22,11 @@ from quasistatic_ref.files.scenario.scenario_table import CONTACT, SHAPE, WITHIN
 from quasistatic_ref.files.scenario.world_solids import SOLIDS
 from quasistatic_ref.files.table_reader import REQUIRED, TableReader
 from quasistatic_ref.files.text import decimal
-from quasistatic_ref.formats.quoting import known_names, suggestion
-from quasistatic_ref.formats.together import once
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.text.quoting import known_names, suggestion
+from quasistatic_ref.text.together import once
 
 Shapes = dict[str, list[PlacedShape]]
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}

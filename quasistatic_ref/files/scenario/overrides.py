@@ -12,7 +12,7 @@ from quasistatic_ref.errors import InputError, ScenarioError
 from quasistatic_ref.files.content import LONG_KEY, MOST_PARTS
 from quasistatic_ref.files.option_change import OptionChange
 from quasistatic_ref.files.table_reader import TableReader
-from quasistatic_ref.formats.json_text import plain
+from quasistatic_ref.text.json_text import plain
 
 Changes = Sequence[str] | Mapping[str, Any]
 
@@ -110,7 +110,7 @@ def apply_settings(
         keys += map(str, settings)
         for key, value in settings.items():
             origins.changes.append((_parts(str(key)), ""))
-            _put(tables, str(key), python_value(key, value), "settings", key)
+            _put(tables, str(key), own_value(key, value), "settings", key)
     else:
         for setting in settings:
             key, equals, text = str(setting).partition("=")
@@ -121,13 +121,13 @@ def apply_settings(
     made = _second_level(tables) - before
     for key in itertools.filterfalse(_is_dotted, named):
         origins.changes.append(((key,), ""))
-        value = python_value(key, named[key])
+        value = own_value(key, named[key])
         _check_whole(key, tables.get(key), value)
         tables[key] = value
     before = _second_level(tables)
     for key in filter(_is_dotted, named):
         origins.changes.append((_parts(key), ""))
-        _put(tables, key, python_value(key, named[key]), "settings", key)
+        _put(tables, key, own_value(key, named[key]), "settings", key)
     made |= _second_level(tables) - before
     return {pair: _leading_to(pair, keys) for pair in made & _second_level(tables)}
 
@@ -196,7 +196,7 @@ def parsed(text: str) -> Any:
     return tables["value"] if list(tables) == ["value"] else text.strip()
 
 
-def python_value(field: object, value: Any) -> Any:
+def own_value(field: object, value: Any) -> Any:
     """A Python value in the form in which a TOML parser would return it.
 
     Raises

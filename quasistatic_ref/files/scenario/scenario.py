@@ -42,9 +42,6 @@ from quasistatic_ref.files.scenario.paths import folders_in
 from quasistatic_ref.files.scenario.scenario_table import FORMAT, TOP, VERSION
 from quasistatic_ref.files.scenario.scene_words import HERE, scene_tables
 from quasistatic_ref.files.table_reader import TableReader
-from quasistatic_ref.formats.plain import Plain, fingerprint
-from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import part
@@ -61,6 +58,9 @@ from quasistatic_ref.simulate.user_functions import Target
 from quasistatic_ref.solve.backends import DEFAULT, Certify, is_function
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ
+from quasistatic_ref.text.plain import Plain, fingerprint
+from quasistatic_ref.text.shown import Shown
+from quasistatic_ref.text.together import together
 
 MOST_BODIES = 1000
 """Most bodies of a scenario: of 1000 free ones H, where it is formed whole, has 288 MB."""

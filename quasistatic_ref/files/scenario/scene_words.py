@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from quasistatic_ref.errors import ScenarioError
-from quasistatic_ref.files.scenario.overrides import python_value
+from quasistatic_ref.files.scenario.overrides import own_value
 from quasistatic_ref.files.scenario.scenario_table import FORMAT, VERSION
 from quasistatic_ref.files.scenario.world_solids import solid_table
 from quasistatic_ref.model.body import Body
@@ -35,7 +35,7 @@ def scene_tables(scene: Mapping[str, Any]) -> dict[str, Any]:
     tables = {"format": FORMAT, "version": VERSION, **scene}
     tables["bodies"] = {name: _body(name, one) for name, one in _named(tables, "bodies")}
     tables["shapes"] = {name: _shape(name, one) for name, one in _named(tables, "shapes")}
-    return {str(name): python_value(name, value) for name, value in tables.items()}
+    return {str(name): own_value(name, value) for name, value in tables.items()}
 
 
 def _named(tables: Mapping[str, Any], kind: str) -> list[tuple[str, Any]]:

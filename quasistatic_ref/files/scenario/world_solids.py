@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.files.declared import Field
 from quasistatic_ref.files.mesh_files import mesh_hull
-from quasistatic_ref.formats.json_text import plain
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import (
     Box,
@@ -19,6 +18,7 @@ from quasistatic_ref.shapes.placed_shape import (
     Shape,
     Sphere,
 )
+from quasistatic_ref.text.json_text import plain
 
 
 class Kind(NamedTuple):

@@ -9,10 +9,10 @@ from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.files.mesh_files import MissingMesh, hull_note, hull_of_loaded, loaded_mesh
 from quasistatic_ref.files.trees import is_own_name
 from quasistatic_ref.files.urdf.geometry import FileMesh, FileShape
-from quasistatic_ref.formats.together import once
 from quasistatic_ref.model.tree import LinkShape
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.shape import Shape
+from quasistatic_ref.text.together import once
 
 
 class Collision(NamedTuple):

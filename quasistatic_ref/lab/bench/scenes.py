@@ -10,7 +10,7 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.files.scenario.scenario import load_scenario
-from quasistatic_ref.lab.scenes.systems import on_link
+from quasistatic_ref.lab.made_steps.systems import on_link
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PlacedShape

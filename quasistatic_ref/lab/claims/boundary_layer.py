@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.files.scenario.scenario import load_scenario
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, within
-from quasistatic_ref.lab.scenes.spun_sphere import LIMIT, RADIUS, layer_at_rate, layer_at_torque
+from quasistatic_ref.lab.made_steps.spun_sphere import LIMIT, RADIUS, layer_at_rate, layer_at_torque
 from quasistatic_ref.lab.thresholds import slope
 
 FITTED: Final = 0.02

@@ -5,8 +5,8 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison
-from quasistatic_ref.lab.scenes.free_pair import geometry, pair_system
-from quasistatic_ref.lab.scenes.systems import cloud_on, on_link
+from quasistatic_ref.lab.made_steps.free_pair import geometry, pair_system
+from quasistatic_ref.lab.made_steps.systems import cloud_on, on_link
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere

@@ -4,10 +4,10 @@ import numpy as np
 
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, sum_of_terms
-from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
-from quasistatic_ref.lab.scenes.contacts import GRAVITY
-from quasistatic_ref.lab.scenes.rigid import point_step
-from quasistatic_ref.lab.scenes.systems import body_text, simulator_of, steps_of, system_of
+from quasistatic_ref.lab.made_steps.at_random import random_contacts, random_step
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY
+from quasistatic_ref.lab.made_steps.rigid import point_step
+from quasistatic_ref.lab.made_steps.systems import body_text, simulator_of, steps_of, system_of
 from quasistatic_ref.lab.thresholds import exact, grid
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.tolerances import CLOSED_FORM

@@ -3,8 +3,8 @@
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison
-from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, contacts_of, point_jacobian
-from quasistatic_ref.lab.scenes.pinch import pinch_step
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY, X, Y, contacts_of, point_jacobian
+from quasistatic_ref.lab.made_steps.pinch import pinch_step
 from quasistatic_ref.lab.thresholds import exact, grid, thresholds
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM

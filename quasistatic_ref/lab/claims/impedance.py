@@ -3,8 +3,8 @@
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, sum_of_terms
-from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
-from quasistatic_ref.lab.scenes.rigid import actuated_step
+from quasistatic_ref.lab.made_steps.contacts import contacts_of, no_contacts
+from quasistatic_ref.lab.made_steps.rigid import actuated_step
 from quasistatic_ref.lab.thresholds import exact, grid
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM

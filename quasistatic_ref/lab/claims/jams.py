@@ -3,8 +3,8 @@
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison
-from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of
-from quasistatic_ref.lab.scenes.rigid import free_step, rigid_step
+from quasistatic_ref.lab.made_steps.contacts import X, Y, Z, contacts_of
+from quasistatic_ref.lab.made_steps.rigid import free_step, rigid_step
 from quasistatic_ref.lab.thresholds import exact, grid, thresholds
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import StepSolution

@@ -7,9 +7,15 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, within
-from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
-from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of, words
+from quasistatic_ref.lab.made_steps.contacts import contacts_of
+from quasistatic_ref.lab.made_steps.link_jacobian import contact_jacobian
+from quasistatic_ref.lab.made_steps.systems import (
+    joint_text,
+    link_text,
+    robot_text,
+    system_of,
+    words,
+)
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import pyramid

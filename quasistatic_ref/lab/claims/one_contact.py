@@ -3,8 +3,8 @@
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, sum_of_terms
-from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of, point_jacobian
-from quasistatic_ref.lab.scenes.rigid import free_step, point_step, sphere_step
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY, contacts_of, point_jacobian
+from quasistatic_ref.lab.made_steps.rigid import free_step, point_step, sphere_step
 from quasistatic_ref.lab.thresholds import exact, grid, thresholds
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.data import StepData

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison
-from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z, contacts_of
-from quasistatic_ref.lab.scenes.rigid import rigid_step
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY, Z, contacts_of
+from quasistatic_ref.lab.made_steps.rigid import rigid_step
 from quasistatic_ref.lab.thresholds import exact, grid, threshold_near
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.data import StepData

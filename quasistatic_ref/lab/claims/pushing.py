@@ -4,8 +4,8 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, sum_of_terms, within
-from quasistatic_ref.lab.scenes.contacts import GRAVITY
-from quasistatic_ref.lab.scenes.slider import (
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY
+from quasistatic_ref.lab.made_steps.slider import (
     GYRATION,
     RADII,
     SPEEDS,
@@ -15,7 +15,7 @@ from quasistatic_ref.lab.scenes.slider import (
     rotated,
     turns,
 )
-from quasistatic_ref.lab.scenes.systems import (
+from quasistatic_ref.lab.made_steps.systems import (
     RAIL,
     body_text,
     cloud_on,

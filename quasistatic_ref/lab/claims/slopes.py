@@ -4,9 +4,9 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, sum_of_terms
-from quasistatic_ref.lab.scenes.contacts import GRAVITY
-from quasistatic_ref.lab.scenes.rigid import sphere_step
-from quasistatic_ref.lab.scenes.systems import (
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY
+from quasistatic_ref.lab.made_steps.rigid import sphere_step
+from quasistatic_ref.lab.made_steps.systems import (
     body_text,
     cloud_on,
     on_link,

@@ -4,8 +4,8 @@ import argparse
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.files.content import text_written, writable_folder
-from quasistatic_ref.formats.json_text import json_text
 from quasistatic_ref.lab.bench.report import measured, page, rows
+from quasistatic_ref.text.json_text import json_text
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

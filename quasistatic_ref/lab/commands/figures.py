@@ -4,7 +4,7 @@ import argparse
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.text.quoting import suggestion
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

@@ -41,10 +41,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print both answers, and what is found."""
     with needing("opinion"):
-        from quasistatic_ref.optional.guests.compared import WINDOW
-        from quasistatic_ref.optional.guests.compiler import compiled_model
-        from quasistatic_ref.optional.guests.mujoco_opinion import mujoco_opinion
-        from quasistatic_ref.optional.guests.settled import settled
+        from quasistatic_ref.optional.mujoco.compared import WINDOW
+        from quasistatic_ref.optional.mujoco.compiler import compiled_model
+        from quasistatic_ref.optional.mujoco.mujoco_opinion import mujoco_opinion
+        from quasistatic_ref.optional.mujoco.settled import settled
     control = controls(options.control)
     with about_file(options.scene):
         model = compiled_model(options.scene, options.roots)

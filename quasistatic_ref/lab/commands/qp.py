@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.quoting import listed, one_line
 from quasistatic_ref.lab.qp_files.load import SUFFIXES, load_qp
 from quasistatic_ref.optional.qp.answer import NO_OPTIMUM, Answer, ExactQP
 from quasistatic_ref.optional.qp.exact import exact_qp
+from quasistatic_ref.text.quoting import listed, one_line
 
 if TYPE_CHECKING:
     from quasistatic_ref.lab.study.row import Row

@@ -40,8 +40,8 @@ def scenario_schema() -> dict[str, Any]:
 def opinion_schema() -> dict[str, Any]:
     """The JSON Schema of a second opinion."""
     with needing("opinion"):
-        from quasistatic_ref.optional.guests.opinion import TABLES as TABLES_OF_OPINION
-        from quasistatic_ref.optional.guests.opinion import TOP as TOP_OF_OPINION
+        from quasistatic_ref.optional.mujoco.opinion import TABLES as TABLES_OF_OPINION
+        from quasistatic_ref.optional.mujoco.opinion import TOP as TOP_OF_OPINION
     return json_schema("A second opinion", TABLES_OF_OPINION, {}, TOP_OF_OPINION)
 
 

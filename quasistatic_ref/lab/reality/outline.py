@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from quasistatic_ref.lab.scenes.slider import turned
+from quasistatic_ref.lab.made_steps.slider import turned
 from quasistatic_ref.numbers.arrays import Array
 
 

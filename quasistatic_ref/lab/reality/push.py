@@ -11,11 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY, contacts_of
+from quasistatic_ref.lab.made_steps.slider import turned
 from quasistatic_ref.lab.reality.measurements import Pair
 from quasistatic_ref.lab.reality.outline import Outline, rotation
 from quasistatic_ref.lab.reality.settings import Settings
-from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of
-from quasistatic_ref.lab.scenes.slider import turned
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.data import StepData
 

@@ -3,7 +3,7 @@
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from quasistatic_ref.lab.scenes.contacts import GRAVITY
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.step.cones import ELLIPSOID
 

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.lab.study.saying import INFEASIBLE, SOLVED, saying
 from quasistatic_ref.lab.study.solvers import CVXPY, FUNCTION, QPSOLVERS, Solver
@@ -16,6 +15,7 @@ from quasistatic_ref.optional.extensions.by_function import real_numbers
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.solver import Reply
 from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.text.plain import bits
 
 Call = Callable[[Program, Options], Reply]
 WORDS = 200

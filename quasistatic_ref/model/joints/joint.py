@@ -5,10 +5,10 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.quoting import clipped, counted
 from quasistatic_ref.model.screw import Vector
 from quasistatic_ref.numbers.angles import Number
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.quoting import clipped, counted
 
 QUATERNION = "quaternion"
 COSINE_SINE = "(cos, sin)"

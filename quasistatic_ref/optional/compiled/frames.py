@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactLayout
-from quasistatic_ref.model.column_map import ColumnMap
+from quasistatic_ref.model.column_map import JacobianColumns
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.compiled.library import addresses, function
 
@@ -34,7 +34,7 @@ def frames(geometry: ContactGeometry) -> Frames | None:
     return answer
 
 
-class _Columns(ColumnMap):
+class _Columns(JacobianColumns):
     """Columns of which each is of one coordinate."""
 
     def of_coordinates(self, columns: Array) -> Array:

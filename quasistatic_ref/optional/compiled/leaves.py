@@ -6,8 +6,8 @@ from functools import cache
 from importlib import import_module
 from typing import Any, Final
 
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.compiled.library import missing
+from quasistatic_ref.text.plain import bits
 
 LEAVES: Final[Mapping[str, str]] = {
     "Clouds.contacts": "points:contacts",

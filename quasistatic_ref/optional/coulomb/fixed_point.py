@@ -37,7 +37,6 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.errors import InputError, check_kind, keywords_named
-from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.numbers.arrays import Array, all_finite, checked_numbers, read_only
 from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
 from quasistatic_ref.optional.friction import slip_norm
@@ -49,13 +48,14 @@ from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import frame_jacobian
+from quasistatic_ref.text.plain import field_values
 from quasistatic_ref.tolerances import ACCURACY
 
 COULOMB_RESIDUAL: Final = 1e-12
 """Largest difference of s from that of the next iterate, relative to the longest motion of a
 contact [-], at which s is its own: each iterate is exact, and s a sum of rounded products."""
 
-MOST = 200
+MOST_STEPS = 200
 """Iterates after which no fixed point is expected."""
 
 
@@ -133,7 +133,7 @@ def coulomb_step(
     *,
     accuracy: float = ACCURACY,
     start: ArrayLike | None = None,
-    most: int = MOST,
+    most: int = MOST_STEPS,
 ) -> CoulombSolution:
     """The step under Coulomb's law with the friction of the step's cone.
 
@@ -188,7 +188,7 @@ def fixed_point_from(
     certify: Certify = "full",
     within: float = COULOMB_RESIDUAL,
     least: float = 0.0,
-    most: int = MOST,
+    most: int = MOST_STEPS,
 ) -> CoulombSolution:
     """The iteration from s; what :func:`coulomb_step` returns.
 

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.certify.groups import linked
+from quasistatic_ref.certify.groups import connected_components
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.law import CONVEX
@@ -32,7 +32,7 @@ def default_backend(system: System, pairs: Sequence[ContactPair], cone_name: str
     moved = [moves[pair.alpha.link] | moves[pair.beta.link] for pair in pairs]
     pair, joint = np.nonzero(np.reshape(moved, (len(pairs), moves.shape[1])))
     shape = len(pairs), system.n_v
-    of_coordinate, of_pair = linked(pair, system.column_map.owner[joint], shape)
+    of_coordinate, of_pair = connected_components(pair, system.column_map.owner[joint], shape)
     n_c = np.array([one.n_c for one in pairs], dtype=np.int64)
     sizes = np.bincount(of_coordinate)
     entries = 4 * np.bincount(of_pair, n_c, len(sizes)) * sizes

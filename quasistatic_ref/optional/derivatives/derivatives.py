@@ -14,8 +14,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import InputError, check_kind
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, checked_array, checked_numbers
 from quasistatic_ref.optional.derivatives.column import Column, column
@@ -25,6 +23,8 @@ from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, by_one_thread
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.shown import Shown
 
 EVERY_STEP = ("q", "q_bar_a", "tau")
 """What changes from step to step."""

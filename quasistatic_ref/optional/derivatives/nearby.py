@@ -15,7 +15,7 @@ from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, checked_force
 from quasistatic_ref.solve.backends import DAQP, NONE
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.solve import solve_step, solved
+from quasistatic_ref.solve.solve import solution_of, solve_step
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import StepSolution
@@ -131,7 +131,7 @@ class Nearby:
         of_loads = step.contacts is here.contacts and step.hessian is here.hessian
         scaled = self._scaled.under(step) if of_loads else ScaledStep(step)
         accuracy = self.simulator.accuracy
-        return without_warnings(solved, scaled, self._solver, accuracy, "full", self._rows)
+        return without_warnings(solution_of, scaled, self._solver, accuracy, "full", self._rows)
 
     def _changed(self, start: State, changes: Changes) -> StepData:
         """The data of a step from there under other parameters; q alone goes through geometry."""

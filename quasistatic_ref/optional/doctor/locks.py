@@ -8,7 +8,6 @@ from typing import Any, Final
 import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.numbers.arrays import Array
@@ -19,6 +18,7 @@ from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.standard_form import frame_jacobian
+from quasistatic_ref.text.quoting import listed
 from quasistatic_ref.tolerances import REPEATED
 
 CRAWL: Final = 0.1

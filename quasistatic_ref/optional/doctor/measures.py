@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Mask
@@ -21,6 +20,7 @@ from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import friction_coefficients
+from quasistatic_ref.text.plain import Plain
 from quasistatic_ref.tolerances import FILLED
 
 if TYPE_CHECKING:

@@ -8,7 +8,6 @@ from typing import Any, Self
 
 import numpy as np
 
-from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.artifacts import boundary_layer, gives, quasi_dynamic_number
@@ -27,6 +26,7 @@ from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.observer import Observer, Recording
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.text.plain import field_values
 
 
 class Doctor(Observer):

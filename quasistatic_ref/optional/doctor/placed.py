@@ -6,7 +6,6 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor.contradictions import farthest_points, hull_of
 from quasistatic_ref.optional.doctor.start import (
     Start,
@@ -26,6 +25,7 @@ from quasistatic_ref.shapes.half_space import HalfSpace
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.simulator import StandingsOf
+from quasistatic_ref.text.quoting import listed
 from quasistatic_ref.tolerances import SAME_NORMAL
 
 BEARING = 0.1

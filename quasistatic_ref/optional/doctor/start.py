@@ -19,7 +19,7 @@ from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Extra, no_rows
+from quasistatic_ref.step.data import Extra, no_extra
 from quasistatic_ref.step.extension import StepExtension
 
 FARTHEST = 1.0
@@ -89,7 +89,7 @@ class Start:
     def rows(self) -> Extra:
         """Rows of the extension that are numbers, such as stops of joints."""
         rows = None if self.extension is None else self.extension.rows
-        return no_rows(self.system.n_v) if rows is None else rows
+        return no_extra(self.system.n_v) if rows is None else rows
 
     @property
     def raised(self) -> Indices:

@@ -10,7 +10,6 @@ import numpy as np
 from quasistatic_ref.contact.distance import in_world, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.doctor.measures import side
@@ -23,6 +22,7 @@ from quasistatic_ref.optional.doctor.undecided import Undecided
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Shape
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.standard_form import frame_jacobian
+from quasistatic_ref.text.quoting import listed
 from quasistatic_ref.tolerances import FILLED
 
 LAGS: Final = 0.1

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.text.quoting import one_line
 
 if TYPE_CHECKING:
     from scipy.optimize import OptimizeResult

@@ -16,7 +16,7 @@ from typing import NamedTuple
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.form import EXACT, ExactForm, fraction, independent_rows
-from quasistatic_ref.certify.working_set import Point, fraction_point
+from quasistatic_ref.certify.working_set import KktPoint, fraction_point
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks, inside, outside_of_cones
@@ -39,7 +39,7 @@ class Apex(NamedTuple):
     """
 
     rows: tuple[int, ...]
-    solution: Point
+    solution: KktPoint
     refutation: str
 
 
@@ -66,7 +66,7 @@ def apex(step: StepData, form: ExactForm, lam: Array) -> Apex:
 
 
 def _refutation(
-    step: StepData, form: ExactForm, rows: Sequence[int], solution: Point, lam: Array
+    step: StepData, form: ExactForm, rows: Sequence[int], solution: KktPoint, lam: Array
 ) -> str:
     """Why a solution is not the optimum; empty if it is."""
     with working_precision(EXACT):

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.errors import InputError, StepDataError
-from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array, Indices, checked_array, freeze_copies
 from quasistatic_ref.step.data import Extra
+from quasistatic_ref.text.plain import Plain
 
 if TYPE_CHECKING:
     import cvxpy as cp

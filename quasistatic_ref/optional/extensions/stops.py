@@ -8,12 +8,12 @@ from itertools import compress
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, freeze_copies
 from quasistatic_ref.optional.extensions.urdf_joints import urdf_joints
 from quasistatic_ref.step.data import Extra
+from quasistatic_ref.text.plain import Plain
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,16 +15,16 @@ from quasistatic_ref.certify.farkas import fractions_read
 from quasistatic_ref.certify.verdict import Verdict
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.files.content import text_written
-from quasistatic_ref.formats.json_text import json_text
-from quasistatic_ref.formats.plain import Plain, field_values
-from quasistatic_ref.formats.quoting import counted, listed
-from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import nearest_fraction
 from quasistatic_ref.optional.qp.digits import correct_digits, multiplier_digits
 from quasistatic_ref.optional.qp.numbers import texts
 from quasistatic_ref.optional.qp.program import FIELDS, QuadraticProgram
 from quasistatic_ref.optional.qp.verdict import Proof, optimum_verdict
+from quasistatic_ref.text.json_text import json_text
+from quasistatic_ref.text.plain import Plain, field_values
+from quasistatic_ref.text.quoting import counted, listed
+from quasistatic_ref.text.shown import Shown
 
 QP_FORMAT: Final = "quasistatic-ref/qp"
 VERSION: Final = 2

@@ -15,7 +15,7 @@ from typing import Any, Final, TypeVar, cast
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz, fmpz_mat
 
-from quasistatic_ref.certify.form import TINY, UNIT
+from quasistatic_ref.certify.form import UNDERFLOW, UNIT
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import all_nearest, nearest, working_precision
 from quasistatic_ref.optional.qp.block import Block, Convex, Sparse, Unlucky, shortest
@@ -226,8 +226,8 @@ class Face:
         """The rows outside of W whose slacks float64 does not show to be positive."""
         block = self.block
         with np.errstate(all="ignore"):
-            sizes = (np.abs(block.a) + TINY) @ (np.abs(self.x) + TINY) + np.abs(block.c)
-            shown = block.a @ self.x + block.c > (2 * block.n + 64) * UNIT * sizes + TINY
+            sizes = (np.abs(block.a) + UNDERFLOW) @ (np.abs(self.x) + UNDERFLOW) + np.abs(block.c)
+            shown = block.a @ self.x + block.c > (2 * block.n + 64) * UNIT * sizes + UNDERFLOW
         shown[self.W] = True
         shown[: block.equations] = False
         return [i for i in np.flatnonzero(~shown).tolist() if i not in self.Y]

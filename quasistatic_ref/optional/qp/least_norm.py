@@ -10,7 +10,7 @@ from flint import arb, arb_mat, fmpq, fmpz
 from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.form import EXACT, MatrixForm, whole_numbers
 from quasistatic_ref.certify.minimiser import Minimiser
-from quasistatic_ref.certify.working_set import Point, fraction_point
+from quasistatic_ref.certify.working_set import KktPoint, fraction_point
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.qp.block import matrix_form
 from quasistatic_ref.optional.qp.face import Face, along
@@ -72,7 +72,7 @@ class LeastNorm:
             return None
         return self.at(end.fractions), [self.rows[t] for t in end.working]
 
-    def at(self, point: Point) -> Face:
+    def at(self, point: KktPoint) -> Face:
         """The face at the point of some w."""
         face, shift = self.face, int(self.face.d).bit_length()
         with working_precision(EXACT):

@@ -12,10 +12,10 @@ from typing import Any, Final, Protocol
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.qp.numbers import exact_numbers
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.shown import Shown
 
 FIELDS = ("P", "q", "G", "h", "A", "b", "lb", "ub")
 """The names of its arrays, in the order of the arguments of qpsolvers."""

@@ -11,13 +11,13 @@ from quasistatic_ref.errors import InputError, about_file, check_kind
 from quasistatic_ref.files.clouds import seen_points
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.files.mesh_files import MESHES, loaded_mesh
-from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies, positive_number
 from quasistatic_ref.optional.scans.closed import closed_mesh
 from quasistatic_ref.optional.scans.cloud import spacing, stray, thinned
 from quasistatic_ref.optional.scans.solid import Solid, hull_of_points
+from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.quoting import suggestion
 
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254}
 """[m]"""

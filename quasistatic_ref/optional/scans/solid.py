@@ -7,8 +7,8 @@ import numpy as np
 import trimesh
 from scipy.spatial import ConvexHull, QhullError
 
-from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.text.plain import Plain
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,12 +4,12 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from numbers import Real
 
-from quasistatic_ref.formats import quoting
-from quasistatic_ref.formats.quoting import aligned, one_line
+from quasistatic_ref.text import quoting
+from quasistatic_ref.text.quoting import aligned, one_line
 
 WIDTH, LINES = 100, 20
 """Most columns and lines of a text."""
-MOST = 12
+MOST_SHOWN = 12
 """Most rows of a table in a text."""
 MOST_IN_HTML = 50
 NAME = 32
@@ -41,15 +41,15 @@ def direction(n: Iterable[float]) -> str:
 def text_page(page: Page) -> str:
     """Title, facts, and the first rows of the table, as at most LINES lines of WIDTH columns."""
     title, facts, header, rows = page
-    lines = [title, *(f"  {fact}" for fact in facts)][: LINES - MOST - 2]
+    lines = [title, *(f"  {fact}" for fact in facts)][: LINES - MOST_SHOWN - 2]
     if rows:
         cells = [
             [quoting.clipped(one_line(cell), NAME) for cell in row]
-            for row in [header, *rows[:MOST]]
+            for row in [header, *rows[:MOST_SHOWN]]
         ]
         lines += [f"  {line}" for line in aligned(cells)]
-        if len(rows) > MOST:
-            lines.append(f"  ... and {len(rows) - MOST} more")
+        if len(rows) > MOST_SHOWN:
+            lines.append(f"  ... and {len(rows) - MOST_SHOWN} more")
     return "\n".join(clipped(line) for line in lines)
 
 

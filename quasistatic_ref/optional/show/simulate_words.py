@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.formats.quoting import counted
 from quasistatic_ref.optional.show.loads import bearing, shown_forces
 from quasistatic_ref.optional.show.show import Page, number
 from quasistatic_ref.optional.show.step_words import CONTACT
+from quasistatic_ref.text.quoting import counted
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.trajectory import Trajectory

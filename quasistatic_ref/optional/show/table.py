@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.content import written_whole
-from quasistatic_ref.formats.quoting import no_formula
 from quasistatic_ref.numbers.arrays import Mask
 from quasistatic_ref.optional.show.loads import shown_forces
 from quasistatic_ref.parts import needed_package
+from quasistatic_ref.text.quoting import no_formula
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.groups import linked
-from quasistatic_ref.formats.quoting import listed
+from quasistatic_ref.certify.groups import connected_components
+from quasistatic_ref.text.quoting import listed
 
 if TYPE_CHECKING:
     from quasistatic_ref.model.joints.joint import Joint
@@ -160,7 +160,7 @@ def bodies(scene: Scene, coupled: tuple[Indices, Indices]) -> tuple[Body, ...]:
     i, j = coupled
     coupling = np.concatenate([np.repeat(np.arange(len(joints)), counts), len(joints) + i])
     coordinate = np.concatenate([np.arange(n_u), j])
-    label, _ = linked(coupling, coordinate, (len(joints) + n_u, n_u))
+    label, _ = connected_components(coupling, coordinate, (len(joints) + n_u, n_u))
     together: dict[int, list[Joint]] = {}
     for joint in joints:
         together.setdefault(int(label[joint.v.start - n_a]), []).append(joint)

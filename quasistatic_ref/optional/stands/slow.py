@@ -21,7 +21,6 @@ import numpy as np
 
 from quasistatic_ref.certify.groups import Group, labels
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.numbers.arrays import Array, Indices, read_only
 from quasistatic_ref.optional.stands.bodies import Body, Missing
 from quasistatic_ref.parts import is_there
@@ -32,6 +31,7 @@ from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import frame_jacobian
+from quasistatic_ref.text.quoting import one_line
 from quasistatic_ref.tolerances import ACCURACY
 
 FIRST = 1e-3

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.certify.groups import Group, group_step, parted
+from quasistatic_ref.certify.groups import Group, group_step, groups_of
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.stands.bodies import COUNTS, Body, bodies, coupled_joints
 from quasistatic_ref.optional.stands.slow import STRAIGHT, Answer, SlowGroup, as_polygon
@@ -130,7 +130,7 @@ def _groups(step: StepData, every: tuple[Body, ...]) -> tuple[Group, ...]:
     j = np.concatenate([j, *(body.coordinates for body in every)]).astype(np.int64)
     coupling = np.concatenate([contact, n_c + row, n_rows + i])
     coordinate = np.concatenate([of_contact, of_row, j])
-    return parted(coupling, coordinate, (n_rows + step.n_v, step.n_v), step.counts)
+    return groups_of(coupling, coordinate, (n_rows + step.n_v, step.n_v), step.counts)
 
 
 def _row(body: Body, answer: Answer, R: Array) -> Standing:

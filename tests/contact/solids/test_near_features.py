@@ -12,8 +12,8 @@ from quasistatic_ref.contact import corners, crossings, distance
 from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.contact.solids import near_features, polytope_pair
 from quasistatic_ref.contact.solids.polytope import polytope
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.shapes import facets
+from quasistatic_ref.text.plain import bits
 from tests.contact.still import in_world, pair, placed_shape, standing_links
 
 KINDS = ("apart", "far", "touching", "flush", "crossing", "deep", "nearly aligned")
@@ -77,7 +77,7 @@ def contacts(a, b, k):
 def look_at_all(patch):
     """Leave out no faces, edges, triangles, corners or crossings."""
     patch.setattr(polytope_pair, "are_fine", lambda *_: False)
-    patch.setattr(facets, "FEW", np.inf)
+    patch.setattr(facets, "FEW_FACETS", np.inf)
     patch.setattr(
         crossings, "overlapping", lambda a, b, n: np.indices((len(a), len(b))).reshape(2, -1)
     )
@@ -111,7 +111,7 @@ def test_random_pairs_have_the_bits_of_a_search_of_all(monkeypatch, count, rando
             whole = contacts(a, b, k)
         with monkeypatch.context() as patch:
             patch.setattr(polytope_pair, "are_fine", lambda *_: True)
-            patch.setattr(corners, "FEW", 0)
+            patch.setattr(corners, "FEW_CORNERS", 0)
             assert contacts(a, b, k) == whole, seed
 
 

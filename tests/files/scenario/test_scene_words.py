@@ -10,7 +10,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.resources import scenario_path
 from quasistatic_ref.files.scenario.world_solids import SOLIDS, solid_table
-from quasistatic_ref.lab.scenes.systems import RAIL
+from quasistatic_ref.lab.made_steps.systems import RAIL
 
 
 @pytest.mark.parametrize("name", ["bunny_grasp", "door"])

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, solve_step
+from quasistatic_ref.lab.made_steps.slider import sliding_motion, sticking_motion
 from quasistatic_ref.lab.reality.measurements import Pair
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.predict import finger_waypoints, prediction
 from quasistatic_ref.lab.reality.push import FINGER, pushed_scene
 from quasistatic_ref.lab.reality.settings import Settings
-from quasistatic_ref.lab.scenes.slider import sliding_motion, sticking_motion
 from tests.tolerances import QUASI_STATIC
 
 RATIO = 0.03

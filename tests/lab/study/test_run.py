@@ -92,7 +92,7 @@ def test_two_studies_at_once_in_one_folder_lose_no_rows(three, tmp_path):
 
     with (
         locked(tmp_path),
-        pytest.raises(InputError, match="is being written by another study"),
+        pytest.raises(InputError, match="is being written by another process"),
     ):
         of(broken.denies)
     of(broken.denies)

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref import Box, Capsule, ContactPair, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.contact.batches.clouds import Clouds
 from quasistatic_ref.contact.normals import TIED_FACES
-from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.text.plain import bits
 from tests.contact.still import placed_shape
 
 pytestmark = pytest.mark.extra("compiled")

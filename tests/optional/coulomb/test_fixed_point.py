@@ -20,8 +20,8 @@ from quasistatic_ref import (
     solve_step,
     verify,
 )
-from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of
-from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.made_steps.contacts import GRAVITY, contacts_of
+from quasistatic_ref.lab.made_steps.rigid import free_step
 from quasistatic_ref.optional.coulomb.fixed_point import slip_norms
 from quasistatic_ref.step.standard_form import frame_jacobian
 from tests.helpers import point_on_floor, random_step, sphere_on_floor

@@ -23,7 +23,6 @@ from quasistatic_ref import (
     verify_answer,
 )
 from quasistatic_ref.files.trajectory import save_trajectory
-from quasistatic_ref.optional.doctor.checks import scene_findings
 from tests.closeness import assert_relative, assert_same
 from tests.scenes import written_scenario
 
@@ -94,17 +93,13 @@ def slot(clearance, **settings):
 PUSH = 20.0 * np.eye(6)[0]
 
 
-def test_a_guide_is_named_as_undetermined_and_stays_locked():
+def test_a_guide_stays_locked_unless_it_has_clearance():
     """Each iterate with clearance c raises s by c: X mu / c of them lead to Coulomb's slip."""
     locked = slot(0.0)
-    (found,) = scene_findings(locked, locked.system.q_start)
-    assert found.name == "guided-friction"
-    assert "where Coulomb's law has many solutions" in found.sentence
     result = locked.step(locked.system.q_start, [], PUSH)
     assert not result.solution.delta_q.any()
     X = H**2 * 20.0
     loose = slot(X / 20)
-    assert scene_findings(loose, loose.system.q_start) == []
     result = loose.step(loose.system.q_start, [], PUSH)
     assert_relative(result.solution.delta_q[0], X)
     assert 10 <= result.solution.s_iterations <= 30

@@ -25,8 +25,8 @@ from quasistatic_ref import (
     load_trajectory,
 )
 from quasistatic_ref.files.trajectory import header_table, save_trajectory
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.curved.clouds_by_coal import MeasuredByCoal
+from quasistatic_ref.text.plain import bits
 from tests.closeness import assert_same, assert_within
 from tests.contact.still import pair, placed_shape, standing_links
 from tests.tolerances import CLOSED_FORM

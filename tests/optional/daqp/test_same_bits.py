@@ -12,13 +12,13 @@ import re
 import pytest
 
 from quasistatic_ref import StepIllPosed, StepInfeasible, load_scenario, solve_step
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.folders import contact_qp_folder
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.problem import EXACT
 from quasistatic_ref.lab.vectors.layers.qp import step_of
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.text.plain import bits
 from tests.extras import SCENARIOS
 from tests.lab.vectors.committed_cases import cases
 from tests.oracles.random_steps import designed_step, equal_groups

@@ -12,7 +12,7 @@ from quasistatic_ref import (
     Sphere,
     derivatives,
 )
-from quasistatic_ref.lab.scenes.nudge import RADIUS, body_at_rest, points
+from quasistatic_ref.lab.made_steps.nudge import RADIUS, body_at_rest, points
 from quasistatic_ref.optional.derivatives.nearby import Nearby
 from quasistatic_ref.optional.derivatives.step_jax import step_jax
 from tests.closeness import assert_same, assert_within

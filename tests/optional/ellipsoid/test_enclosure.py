@@ -18,8 +18,8 @@ from quasistatic_ref import (
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.cli.certificate_words import in_words
-from quasistatic_ref.lab.scenes.contacts import Y, frames_about
-from quasistatic_ref.lab.scenes.rigid import rigid_step
+from quasistatic_ref.lab.made_steps.contacts import Y, frames_about
+from quasistatic_ref.lab.made_steps.rigid import rigid_step
 from quasistatic_ref.optional.ellipsoid import enclosure as of_enclosure
 from quasistatic_ref.optional.ellipsoid import forces as of_forces
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure

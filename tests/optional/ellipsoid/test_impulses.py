@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra
-from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.made_steps.contacts import contacts_of
+from quasistatic_ref.lab.made_steps.rigid import free_step
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.optional.gap import fractions
 

@@ -15,8 +15,8 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.files.trajectory import save_trajectory
-from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
-from quasistatic_ref.lab.scenes.rigid import actuated_step
+from quasistatic_ref.lab.made_steps.contacts import contacts_of, no_contacts
+from quasistatic_ref.lab.made_steps.rigid import actuated_step
 from tests.closeness import assert_relative, assert_same, assert_within
 from tests.helpers import error, pinch, random_step
 from tests.pages import ROOT

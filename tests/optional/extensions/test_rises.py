@@ -18,8 +18,8 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.files.trajectory import save_trajectory
-from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
-from quasistatic_ref.lab.scenes.rigid import actuated_step, free_step
+from quasistatic_ref.lab.made_steps.contacts import contacts_of, no_contacts
+from quasistatic_ref.lab.made_steps.rigid import actuated_step, free_step
 from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.optional.extensions.extension import Rises
 from quasistatic_ref.optional.extensions.rises import with_rises

@@ -12,8 +12,8 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.certify.optimum import step_optimum
-from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of, repeated
-from quasistatic_ref.lab.scenes.rigid import free_step, rigid_step
+from quasistatic_ref.lab.made_steps.contacts import X, Y, Z, contacts_of, repeated
+from quasistatic_ref.lab.made_steps.rigid import free_step, rigid_step
 from quasistatic_ref.optional.forces.of_group import COMPLIANCE, HARDLY_MOVES, group_compliance
 from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.friction import contact_wrenches

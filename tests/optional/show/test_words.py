@@ -15,10 +15,10 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.files.trajectory import save_trajectory
-from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.lab.made_steps.contacts import no_contacts
 from quasistatic_ref.optional.show.show import (
-    MOST,
     MOST_IN_HTML,
+    MOST_SHOWN,
     clipped,
     html_page,
     text_page,
@@ -140,7 +140,7 @@ def test_words_and_numbers_are_cut_where_they_must():
     assert text_page(page).endswith("\n  grip(gripper/l...er#0, bunny)/17")
     page = text_page(("t", [str(i) for i in range(99)], ("a", "b"), [("1", "2")] * 99))
     assert len(page.splitlines()) == LINES
-    assert text_page(("t", (), ("a",), [("1",)] * (MOST + 1))).endswith("... and 1 more")
+    assert text_page(("t", (), ("a",), [("1",)] * (MOST_SHOWN + 1))).endswith("... and 1 more")
     page = html_page(("t", (), ("a",), [("1",)] * (MOST_IN_HTML + 1)))
     assert page.count("<tr>") == 1 + MOST_IN_HTML
     assert page.endswith("<p>and 1 more</p></div>")

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 import quasistatic_ref
 from quasistatic_ref import ContactPair, PlacedShape, Simulator, contact_forces
-from quasistatic_ref.lab.scenes.systems import (
+from quasistatic_ref.lab.made_steps.systems import (
     body_text,
     joint_text,
     link_text,

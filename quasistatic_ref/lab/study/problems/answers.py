@@ -9,7 +9,7 @@ from quasistatic_ref.certify.form import ExactForm, StepForm
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.optimum import optimum_by_groups
-from quasistatic_ref.lab.scenes.rigid import program_step
+from quasistatic_ref.lab.made_steps.rigid import program_step
 from quasistatic_ref.lab.study.problems.problem import EXACT, Answer
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.standard_form import StandardForm

@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
+from quasistatic_ref.lab.made_steps.rigid import conic_step, program_step
 from quasistatic_ref.lab.study.problems.answers import exact_answer
 from quasistatic_ref.lab.study.problems.problem import SOCP, Problem
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure

@@ -11,12 +11,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.lab.made_steps.at_random import Rng
 from quasistatic_ref.lab.program.candidates import candidates
 from quasistatic_ref.lab.program.layers import plain
 from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.lab.program.step import contacts_of, sides_of, step_at
-from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.agreed import agreed_record
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import few_digits, random_step
 from quasistatic_ref.lab.vectors.challenge.random_scenes import EASY, HARD, random_scene

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.made_steps.at_random import Rng
 from quasistatic_ref.lab.program.mechanism import slices
-from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.tables import at, follower, link
 from quasistatic_ref.lab.vectors.trees import Json
 

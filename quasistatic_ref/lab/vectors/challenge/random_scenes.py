@@ -8,11 +8,11 @@ along any direction, and targets are near or far. Of bricks and clouds several p
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref.lab.made_steps.at_random import Rng, spread_matrix
 from quasistatic_ref.lab.program.distance import closest_points
 from quasistatic_ref.lab.program.mechanism import kinematics, slices
 from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.program.step import pose_in_world
-from quasistatic_ref.lab.scenes.at_random import Rng, spread_matrix
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
     BASES,
     KINDS,

@@ -26,7 +26,7 @@ from quasistatic_ref.lab.vectors.trees import Json
 
 EASY_CASES = 5
 """The first cases of a layer; plain ones and hard ones take turns after them."""
-MOST = 3
+MOST_FINDINGS = 3
 """Findings of a layer, after which it gets no further cases."""
 CASES = 1000
 """How many are asked if neither they nor the time is limited."""
@@ -172,7 +172,7 @@ def _goes_on(outcome: Outcome, player: Program | Function, layer: str) -> bool:
     seen = sum(finding.layer == layer for finding in outcome.findings)
     cases = outcome.cases(layer)
     refused = cases >= EASY_CASES and outcome.verdicts[layer, "unsupported"] == cases
-    return layer in player.layers and seen < MOST and not refused
+    return layer in player.layers and seen < MOST_FINDINGS and not refused
 
 
 def _asked(

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.lab.vectors.check.compare import (
     CONTACT,
     OPTIONAL,
@@ -20,6 +19,7 @@ from quasistatic_ref.lab.vectors.check.multipliers import farkas_verdict
 from quasistatic_ref.lab.vectors.check.verdict import FAILED, PASSED, Verdict, acceptance, failure
 from quasistatic_ref.lab.vectors.layers.derivative import FIELDS
 from quasistatic_ref.lab.vectors.trees import Json
+from quasistatic_ref.text.quoting import one_line
 
 IN_PART = ("step", "derivative")
 """Layers whose answers may leave fields out; nothing is said of these."""

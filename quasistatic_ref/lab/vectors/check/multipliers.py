@@ -10,8 +10,8 @@ from operator import mul
 import numpy as np
 
 from quasistatic_ref.certify.farkas import farkas_refutation, fractions_read
+from quasistatic_ref.lab.made_steps.rigid import program_step
 from quasistatic_ref.lab.program.wrench import contact_wrench
-from quasistatic_ref.lab.scenes.rigid import program_step
 from quasistatic_ref.lab.vectors.check.compare import ROUNDING, number_problem, tolerance_of
 from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptance, failure
 from quasistatic_ref.lab.vectors.layers.rows import by_contact

@@ -7,7 +7,7 @@ from quasistatic_ref.lab.vectors.trees import Json
 
 def own(case_input: Json) -> Json:
     """The package's J: rows 0-2 nu_beta - nu_alpha, row 3 n'(omega_beta - omega_alpha)."""
-    from quasistatic_ref.lab.scenes.link_jacobian import contact_jacobian
+    from quasistatic_ref.lab.made_steps.link_jacobian import contact_jacobian
     from quasistatic_ref.lab.vectors.own.system import own_system
 
     contacts = case_input["contacts"]

@@ -10,7 +10,7 @@ from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.optimum import optimum_by_groups
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
+from quasistatic_ref.lab.made_steps.rigid import conic_step, program_step
 from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.data import StepData

@@ -4,7 +4,7 @@ from itertools import islice
 
 import numpy as np
 
-from quasistatic_ref.lab.scenes.contacts import NUMBERS
+from quasistatic_ref.lab.made_steps.contacts import NUMBERS
 from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Contacts

@@ -13,12 +13,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.formats.json_text import plain
+from quasistatic_ref.lab.made_steps.systems import (
+    joint_text,
+    link_text,
+    robot_text,
+    system_of,
+    words,
+)
 from quasistatic_ref.lab.program.rotation import rotation
-from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of, words
 from quasistatic_ref.lab.vectors.converters import places
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.text.json_text import plain
 
 _BASES = ("floating", "planar")
 

@@ -11,7 +11,6 @@ from matplotlib.patches import Patch
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import InputError, check_kind
-from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.looks import CONE_EDGE, CONE_FACE, FORCE
@@ -29,6 +28,7 @@ from quasistatic_ref.optional.show.figures.pens import (
 )
 from quasistatic_ref.optional.show.figures.style import legend_above, scaled
 from quasistatic_ref.optional.show.loads import BEARING
+from quasistatic_ref.text.quoting import listed
 
 PARTS: Final = ("contacts", "frames", "cones", "forces")
 """What of contacts can be drawn."""

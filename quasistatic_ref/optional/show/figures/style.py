@@ -18,7 +18,7 @@ from matplotlib.transforms import Bbox
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.content import written_whole
-from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.text.quoting import suggestion
 
 PAGE: Final = 6.3
 """Width of the text on a page [in]: A4 or letter with the usual margins."""

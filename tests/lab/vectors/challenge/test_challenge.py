@@ -15,7 +15,7 @@ from quasistatic_ref.lab.vectors.challenge.fresh import (
     record_of,
 )
 from quasistatic_ref.lab.vectors.challenge.random_scenes import EASY, HARD, PLAIN
-from quasistatic_ref.lab.vectors.challenge.run import MOST, challenge
+from quasistatic_ref.lab.vectors.challenge.run import MOST_FINDINGS, challenge
 from tests.lab.vectors.challenge.programs import command
 
 CURVED = {"cylinder", "cone", "ellipsoid"}
@@ -31,7 +31,7 @@ def test_the_same_seed_gives_the_same_findings_and_another_other_cases():
         return [finding.record for finding in found.findings]
 
     assert first(3) == first(3)
-    assert len(first(3)) == MOST
+    assert len(first(3)) == MOST_FINDINGS
     one, other = (fresh_case("rows", (seed, 0), PLAIN)[0] for seed in (3, 4))
     assert one != other
 

@@ -43,7 +43,7 @@ def test_a_program_that_is_right_has_no_findings(tmp_path):
     ],
 )
 def test_it_is_reported(name, kind, words, tmp_path, monkeypatch):
-    monkeypatch.setattr("quasistatic_ref.lab.vectors.challenge.run.MOST", 1)
+    monkeypatch.setattr("quasistatic_ref.lab.vectors.challenge.run.MOST_FINDINGS", 1)
     found = outcome(name, tmp_path)
     assert found.status == 1
     (finding,) = found.findings
@@ -89,7 +89,10 @@ def test_a_first_line_that_cannot_be_is_bad_input(tmp_path):
 @pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGHUP])
 def test_a_program_that_hangs_is_ended_with_the_challenge(tmp_path, end):
     words = ["vectors", "challenge", "--command", command("hangs", tmp_path), "--timeout", "60"]
-    code = f"import sys, runpy; sys.argv[1:] = {words}\n"
+    words += ["--layer", "selection", "--seed", "0"]
+    code = "import signal, sys, runpy\n"
+    code += f"signal.signal({int(end)}, signal.SIG_DFL)\n"  # a process in the background ignores it
+    code += f"sys.argv[1:] = {words}\n"
     process = started(f"{code}runpy.run_module('quasistatic_ref', run_name='__main__')", tmp_path)
     waited_for(lambda: len(descendants(process.pid)) == 2)  # it, and what it started
     asked = descendants(process.pid)

@@ -1,0 +1,276 @@
+"""A MuJoCo scene that runs."""
+
+import pickle
+
+import mujoco
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.errors import InputError, ModelError, QuasistaticError
+from quasistatic_ref.files.trajectory import load_trajectory
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.mujoco.mujoco import mujoco_step
+from quasistatic_ref.optional.mujoco.scene import mujoco_scenario
+from tests.closeness import assert_close
+from tests.optional.mujoco.models import model_of, posed
+
+G, KP, RANGE, RUB, MASS = 9.81, 2000.0, 6.0, 0.1, 0.1
+HAND = 0.3
+"""Mass of the hand with its fingers [kg]."""
+SCENE = f"""<mujoco><size memory="1M"/><default><default class="pad">
+<geom type="box" size=".005 .01 .02" mass=".05" condim="4" friction=".8 .01" conaffinity="0"/>
+</default></default><worldbody>
+<geom name="floor" type="plane" size="1 1 .1" conaffinity="0"/>
+<body name="hand" pos="0 0 .1"><joint name="lift" type="slide" axis="0 0 1" range="-.2 .3"/>
+<geom size=".01" pos="0 0 .1" mass=".2" contype="0" conaffinity="0"/>
+<body name="left" pos="-.05 0 0"><joint name="l" type="slide" axis="1 0 0" frictionloss="{RUB}"/>
+<geom name="left" class="pad"/></body>
+<body name="right" pos=".05 0 0"><joint name="r" type="slide" axis="-1 0 0"/>
+<geom name="right" class="pad"/></body>
+</body>
+<body name="ball" pos="0 0 .1"><freejoint/>
+<geom name="ball" size=".03" mass="{MASS}" contype="0"/></body>
+<geom name="post" size=".07" conaffinity="0"/>
+</worldbody>
+<equality><joint joint1="r" joint2="l"/></equality>
+<actuator><position name="up" joint="lift" kp="{KP}"/>
+<position name="grip" joint="l" kp="400" forcerange="-{RANGE} {RANGE}"/></actuator>
+<keyframe><key name="open" qpos="0 0 0 0 0 .1 1 0 0 0"/>
+<key name="closed" qpos="0 0 0 0 0 .1 1 0 0 0" ctrl="0 .04"/>
+<key name="raised" qpos="0 0 0 0 0 .1 1 0 0 0" ctrl=".05 .04"/></keyframe></mujoco>"""
+
+
+def model(text=SCENE):
+    return model_of(text)
+
+
+def grasp(t):
+    """Close for 0.06 s, lift for 0.1 s by 1 mm a step, and wait."""
+    return {"grip": min(t, 0.06) / 0.06 * 0.04, "up": float(np.clip(t - 0.06, 0, 0.1) * 0.1)}
+
+
+@pytest.fixture(scope="module")
+def lifted():
+    """The scene, and a run of it."""
+    scene = mujoco_scenario(model(), targets=grasp, steps=24)
+    return scene, scene.run()
+
+
+def test_a_gripper_lifts_what_it_holds(lifted):
+    """At the end its servo carries (hand + ball) g, and gives way by that over kp.
+
+    Before it had let go of the post, that was hand g: the ball rises by 0.01 less the difference.
+    """
+    scene, run = lifted
+    assert set(run.certificate.tolist()) == {"exact"}
+    rise = scene.system.of(run.q[-1], "ball.z") - 0.1
+    assert rise == pytest.approx(0.01 - MASS * G / KP, abs=2e-6)
+    # Both fingers move by one coordinate: its force is that of both, but for joint friction.
+    normal = run.pair_forces()["ball-hand(ball, left)"][-1, 0]
+    assert abs(2 * abs(normal) - RANGE) <= RUB * (1 + 1e-6)
+
+
+def test_the_step_is_that_of_the_state():
+    """`mujoco_step` of the same state, whose gaps it takes as they are, has the same numbers."""
+    text = SCENE.replace('<equality><joint joint1="r" joint2="l"/></equality>', "").replace(
+        "</actuator>", '<position joint="r" kp="300"/></actuator>'
+    )
+    state = posed(text, ctrl=[0.01, 0.013, 0.02])
+    state[1].qpos[1:3] = 0.0175
+    scene = mujoco_scenario(*state)
+    step = scene.simulator().step(scene.system.q_start, scene.target(0.01, scene.system.q_start))
+    expected, _ = mujoco_step(*state, scene.h, depth="as is")
+    for name in ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"):
+        assert_close(getattr(step.step, name), getattr(expected, name))
+    mine, theirs = step.step.contacts, expected.contacts
+    near = np.flatnonzero(mine.phi < 0)
+    assert len(near) == len(theirs.phi) == 2
+    near = near[np.lexsort(mine.n[near].round(3).T)]
+    order = np.lexsort(theirs.n.round(3).T)
+    for name in ("phi", "J", "rows"):
+        assert_close(getattr(mine, name)[near], getattr(theirs, name)[order])
+
+
+class Listening:
+    """A system that notes which of its names are asked for."""
+
+    def __init__(self, system):
+        self.system = system
+        self.names = set()
+
+    def __getattr__(self, name):
+        self.names.add(name)
+        return getattr(self.system, name)
+
+
+def test_a_step_asks_a_system_for_six_names_and_no_others(lifted):
+    scene, run = lifted
+    simulator = scene.simulator()
+    listening = Listening(scene.drive.system)
+    vars(simulator)["system"] = listening
+    simulator.step(run.q[0], run.q_bar_a[0])
+    assert listening.names == {"n_a", "n_v", "links", "column_map", "lock", "at"}
+    assert not isinstance(scene.drive.system, System)
+
+
+def test_a_copy_of_a_scene_in_another_process_takes_the_same_step(lifted):
+    scene, run = lifted
+    simulator = pickle.loads(pickle.dumps(scene.simulator()))
+    assert simulator.step(run.q[0], run.q_bar_a[0]).q.tolist() == run.q[1].tolist()
+
+
+def test_derivatives_of_a_scene_that_mujoco_moves_are_refused(lifted):
+    scene, run = lifted
+    with pytest.raises(InputError, match="system: has no derivatives where MuJoCo moves it"):
+        qr.derivatives(scene.simulator(), run.q[0], run.q_bar_a[0])
+
+
+BALL = '<body name="b"><joint name="j" type="hinge"/><geom size=".1"/>{}</body>'
+
+
+@pytest.mark.parametrize(
+    ("body", "rest", "field"),
+    [
+        ('<joint name="k"/>', '<equality><joint joint1="j" joint2="k" polycoef="0 0 1 0 0"/>'
+         "</equality>", "polycoef"),
+        ('<site name="s" pos=".1 0 0"/>', '<actuator><general biastype="affine" site="s" '
+         'refsite="f" gear="1 0 0 0 0 0" biasprm="0 -1 0"/></actuator>', "biasprm"),
+        ("", '<actuator><adhesion body="b" ctrlrange="0 1"/></actuator>', "actuator[0].body"),
+        ("", '<tendon><fixed stiffness="1" springlength="0 1"><joint joint="j" coef="1"/></fixed>'
+         "</tendon>", "springlength"),
+    ],
+)  # fmt: skip
+def test_what_no_run_has_is_refused_before_the_first_step(body, rest, field):
+    """By element and field."""
+    text = BALL.format(body).replace("<geom", '<geom name="g"', 1)
+    world = f'<worldbody><geom name="f" size=".1"/><site name="f"/>{text}</worldbody>'
+    with pytest.raises(QuasistaticError) as refused:
+        mujoco_scenario(model(f"<mujoco>{world}{rest}</mujoco>"))
+    assert field in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("table", "says"),
+    [
+        ("time,up\n0,1\n", "begin with a row"),
+        *((f"t,up\n{rows}\n", "rows of 2 numbers") for rows in ("", "# none", "0,1,2")),
+        ("t,up\n0,1\n0,2\n", "increase"),
+        ("t,lift\n0,1\n", "no actuator"),
+    ],
+)
+def test_a_table_that_is_none_is_refused(table, says, tmp_path):
+    """With the file's name."""
+    path = tmp_path / "targets.csv"
+    path.write_text(table)
+    with pytest.raises(InputError, match=says):
+        mujoco_scenario(model(), targets=path)
+
+
+@pytest.mark.parametrize(
+    ("spoilt", "number", "field"),
+    [
+        ("opt.timestep", 0.0, "option.timestep"),
+        ("opt.gravity", np.nan, "option.gravity"),
+        ("jnt_stiffness", np.nan, "model.jnt_stiffness"),
+        ("geom_size", np.inf, "model.geom_size"),
+    ],
+)
+@pytest.mark.parametrize("asked", ["scene", "opinion"])
+def test_numbers_that_no_step_can_take_are_refused_by_name(spoilt, number, field, asked):
+    bad = model()
+    owner, _, name = spoilt.rpartition(".")
+    owner = bad.opt if owner else bad
+    if isinstance(getattr(owner, name), np.ndarray):
+        getattr(owner, name).flat[0] = number
+    else:
+        setattr(owner, name, number)
+    ask = mujoco_scenario if asked == "scene" else qr.mujoco_opinion
+    with pytest.raises(ModelError, match=f"^{field}: must "):
+        ask(bad, mujoco.MjData(bad))
+
+
+def test_joints_without_servos_have_springs_and_fields_their_names():
+    """A joint gives way by load / k; one with a servo takes no spring."""
+    text = SCENE[: SCENE.index("<equality>")] + "</mujoco>"
+    stiff = {"stiffness.lift": 1000.0, "stiffness.l": 1e6, "stiffness.r": 1e6}
+    scene = mujoco_scenario(model(text), settings=stiff, targets=lambda t: {"lift": 0.01}, steps=1)
+    run = scene.run()
+    assert scene.system.of(run.q[-1], "hand/lift") == pytest.approx(0.01 - HAND * G / 1000)
+    with pytest.raises(InputError, match="has a servo"):
+        mujoco_scenario(model(), settings={"stiffness.lift": 1.0})
+    with pytest.raises(InputError, match=r"targets: must be a file, names of keyframes or a"):
+        mujoco_scenario(model(), targets=())
+    with pytest.raises(InputError, match=r"gravity.*not for a MuJoCo scene"):
+        mujoco_scenario(model(), gravity=[0, 0, -1])
+
+
+@pytest.mark.usefixtures("compiled_here")
+@pytest.mark.parametrize(
+    ("setting", "problem"),
+    [
+        ("contacts.a.mu_v=3", "is not for a MuJoCo scene"),
+        ("contacts.a.mu_v", "must be table.field=value"),
+        ("solver.frob=1", "is unknown"),
+        ("limits.reach=-1", "must "),
+    ],
+)
+def test_a_setting_that_a_scene_has_not_is_blamed_itself(setting, problem, tmp_path, cli):
+    """And not the file, in which it does not stand."""
+    path = tmp_path / "scene.xml"
+    path.write_text(SCENE)
+    said = cli("run", path, "--set", setting, "--out", tmp_path, status=2).err
+    assert said.startswith(f"quasistatic-ref: --set {setting}: {problem}")
+
+
+@pytest.mark.extra("view")
+def test_the_command_runs_a_scene(tmp_path, cli):
+    """With keyframes, a table and a page."""
+    path = tmp_path / "scene.xml"
+    path.write_text(SCENE)
+    asked = "--targets open,closed,raised --view --set steps=4 --out"
+    assert "4 of 4 steps exact" in cli("run", path, asked, tmp_path).out
+    assert (tmp_path / "scene.html").stat().st_size > 1000
+    run = load_trajectory(tmp_path / "scene.npz")
+    # Halfway the controls are those of "closed".
+    assert run.q_bar_a[1, 0] == pytest.approx(0.0, abs=1e-12)
+    assert run.q_bar_a[3, 0] == pytest.approx(0.05, abs=1e-12)
+    cli("run bunny_grasp --targets x.csv", status=2)
+
+
+def test_a_load_on_welded_bodies_acts_at_their_common_centre():
+    """Two equal balls on a stick along x: from the first to the middle it is half the way L."""
+    L = 0.2
+    scene = mujoco_scenario(
+        model(f"""<mujoco><worldbody>
+        <geom type="plane" size="1 1 .1"/><body name="post"><geom size=".01"/></body>
+        <body name="stick" pos="0 0 1"><freejoint/><geom size=".01" mass="1"/>
+        <body name="end" pos="{L} 0 0"><geom size=".01" mass="1"/></body></body>
+        </worldbody></mujoco>""")
+    )
+    system = scene.system
+    of_both = system.load(system.q_start, "stick", force=(0, 0, 1))
+    of_end = system.load(system.q_start, "stick/end", force=(0, 0, 1))
+    assert_close(of_both, [0, 0, 1, 0, -L / 2, 0])
+    assert_close(of_end, [0, 0, 1, 0, -L, 0])
+    with pytest.raises(ModelError, match="name: has a fixed base"):
+        system.load(system.q_start, "post", force=(0, 0, 1))
+
+
+SUCTION = """<mujoco><worldbody><body name="hand" pos="0 0 0.5"><joint name="z" type="slide"
+ axis="0 0 1"/><geom type="sphere" size="0.02" mass="0.1" contype="0" conaffinity="0"/></body>
+<body name="box" pos="0 0 0.03"><freejoint/><geom type="box" size="0.04 0.04 0.03" mass="1"/></body>
+</worldbody><equality><weld name="suck" body1="hand" body2="box"{}/></equality>
+<actuator><position joint="z" kp="2000"/></actuator></mujoco>"""
+
+
+@pytest.mark.parametrize(("relpose", "gap"), [("", 430), (' relpose="0 0 -0.04 1 0 0 0"', 0)])
+def test_an_equality_that_the_first_state_violates_is_said_in_millimetres(relpose, gap):
+    """The hand, which collides with nothing, is 430 mm lower than in the model's first state."""
+    model = mujoco.MjModel.from_xml_string(SUCTION.format(relpose))
+    data = mujoco.MjData(model)
+    data.qpos[0] = -0.43
+    scene = qr.mujoco_scenario(model, data, steps=1)
+    said = [note for note in scene.drive.system.notes if "violated" in note]
+    start = ["equality[suck] is violated by 430 mm at the start, and the first step closes"]
+    assert [note[: len(start[0])] for note in said] == start * bool(gap)
