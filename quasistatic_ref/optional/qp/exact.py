@@ -124,7 +124,7 @@ def exact_ls(
     D: Matrix = None,
     initvals: ArrayLike | HasAnswer | None = None,
 ) -> ExactQP:
-    """The exact optimum of a cost by factors: as :func:`exact_qp`, with P formed without rounding.
+    """The exact optimum of a cost by factors: as :func:`.exact_qp`, with P formed without rounding.
 
     Minimise 1/2 (R x - s)'W (R x - s) + 1/2 x'Dx + q'x, as ``qpsolvers.solve_ls`` does without D
     and q. A covariance X'X of fewer samples than assets is singular so, and not indefinite.
@@ -133,7 +133,7 @@ def exact_ls(
     ----------
     R, s : array_like, shapes (r, n) and (r,)
     G, h, A, b, lb, ub, initvals
-        As of :func:`exact_qp`.
+        As of :func:`.exact_qp`.
     W : array_like, shape (r, r), optional
         Of each residual one by default.
     q : array_like, shape (n,), optional
@@ -147,7 +147,7 @@ def exact_ls(
     Raises
     ------
     QPInfeasible, QPUnbounded, QPNotConvex, InputError
-        As of :func:`exact_qp`.
+        As of :func:`.exact_qp`.
 
     Examples
     --------
@@ -210,7 +210,7 @@ def exact_lp(
     Raises
     ------
     QPInfeasible, QPUnbounded, InputError
-        As of :func:`exact_qp`.
+        As of :func:`.exact_qp`.
 
     Examples
     --------
