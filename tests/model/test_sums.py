@@ -48,6 +48,7 @@ def test_many_joints_at_once_are_each_by_itself(kind, rng):
     check(joints_of(*[kind, KINDS[0], Odd] * (2 * MANY_JOINTS)), rng)
 
 
+@pytest.mark.extra("compiled")
 @pytest.mark.parametrize("other", KINDS, ids=lambda kind: kind.__name__)
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_joints_by_compiled_code_are_each_by_itself(kind, other, rng):
