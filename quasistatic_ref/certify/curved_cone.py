@@ -82,7 +82,10 @@ class CurvedCone(FrictionCone):
         claims: Certificate | None,
         net: Array | None = None,
     ) -> Verdict:
-        """As :func:`~quasistatic_ref.certify.verification.verify_answer`, its wrench left out."""
+        """As :func:`~quasistatic_ref.certify.verification.verify_answer`, its wrench left out.
+
+        `net` is A'lam, shape (n_v,) [N s, N m s].
+        """
 
 
 def curved_cone(step: StepData) -> CurvedCone:

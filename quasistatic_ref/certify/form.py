@@ -459,10 +459,12 @@ def row_sizes(A: Array, b: Array, most: Array) -> Array:
 def exact_hessian(hessian: Hessian, of_cost: Array | None = None) -> tuple[arb_mat, ...]:
     """h^2 K_q; H = h^2 K_q + M_u + h H of a cost; and the inverse of H in balls.
 
+    `of_cost` is the exact H of a user's cost, (n_v, n_v) [N s/m], or None.
+
     Parameters
     ----------
     hessian : Hessian
-    of_cost : ndarray, shape (n_v, n_v), optional
+    of_cost : ndarray, shape (n_v, n_v), optional [N s/m]
         H of a user's cost.
     """
     n_a = hessian.n_a

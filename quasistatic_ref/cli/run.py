@@ -86,6 +86,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Simulate the scenario of the options, write its trajectory and print a summary.
 
+    InputError if an option does not suit the scene.
+
     The exit status is 3 if a step has no solution; the steps before it are written. With
     ``--strict`` it is 1 if a finding is grave.
     """

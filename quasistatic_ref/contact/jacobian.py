@@ -123,7 +123,10 @@ class ContactGeometry:
     def frames(
         self, columns: Array, alpha: Array, beta: Array, n: Array
     ) -> tuple[Array, Array, Array]:
-        """Tangents d1 and d2, (n_c, 3), and J, of the arguments of :meth:`jacobian`."""
+        """Tangents d1 and d2, (n_c, 3), and J, of the arguments of :meth:`jacobian`.
+
+        `columns`, shape (6, n_x) [m, rad], are those of the links' joints.
+        """
         d1, d2 = tangents(n)
         return d1 + 0.0, d2, self.jacobian(columns, alpha, beta, n)
 
@@ -161,13 +164,15 @@ class ContactGeometry:
 def padded(row: Indices, value: NDArray[Scalar], rows: int, none: float) -> NDArray[Scalar]:
     """Values by rows, each from the left, in an array filled up with `none`: shape (rows, w).
 
+    `value` (k,) and `none` have any unit [that of the array].
+
     Parameters
     ----------
     row : ndarray of int, shape (k,)
         Ascending.
-    value : ndarray, shape (k,)
+    value : ndarray, shape (k,) [any unit]
     rows : int
-    none : int or float
+    none : int or float [any unit]
     """
     count = np.bincount(row, minlength=rows)
     array = np.full((rows, int(count.max(initial=0))), none, value.dtype)

@@ -131,6 +131,8 @@ def points_of_groups(
 ) -> Indices:
     """Numbers, in ascending order, of the points of all groups that may hold one of the first k.
 
+    `resolution` is that of gaps [m].
+
     The signed distance from a convex solid is convex, with the normal as its slope: at p it is at
     least phi + n . (p - c) of the middle c of a cuboid. Down the nearest cuboids are k points, and
     none counts that is farther than the last of these. The arguments are those of

@@ -48,7 +48,10 @@ class State(ABC):
 
     @property
     def masses(self) -> Array:
-        """M_u, or its diagonal blocks, (k, n_u / k, n_u / k) [kg, kg m, kg m^2]."""
+        """M_u, or its diagonal blocks, (k, n_u / k, n_u / k) [kg, kg m, kg m^2].
+
+        M_u by its entries, shape (k,), or whole, (n_u, n_u).
+        """
         return self.M_u
 
     @abstractmethod

@@ -260,7 +260,10 @@ class SystemState(State):
 
     @property
     def masses(self) -> Array:
-        """M_u, or the blocks that it has at every q."""
+        """M_u, or the blocks that it has at every q.
+
+        M_u by its entries, shape (k,), or whole, (n_u, n_u).
+        """
         constant = self.system.constant_mass_matrix
         return self.system.mass_blocks if constant else self.M_u
 

@@ -132,7 +132,10 @@ def _exactly_positive(S: Any) -> bool:
 
 
 def surely_positive(S: Array) -> bool:
-    """Whether float64 shows that all matrices (..., n, n) are positive definite [any unit]."""
+    """Whether float64 shows that all matrices (..., n, n) are positive definite [any unit].
+
+    `S` is symmetric, shape (n, n) [any unit].
+    """
     n = S.shape[-1]
     least, most = RANGE
     try:

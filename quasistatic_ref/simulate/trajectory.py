@@ -35,6 +35,10 @@ StandsAfter = Callable[["Trajectory", int, "Scene", str], Standings]
 class RecordArrays:
     """The arrays of a record as attributes with types; which of them there are, the record says.
 
+    `certificate`, `worst_residual`, `motion`, `lam_extra`, `extra_A`, `extra_b`, `extra_H`,
+    `extra_g`, `s` and `s_residual` have the shapes (T, ...) of the table
+    of the record [its units].
+
     ``forces`` and ``imbalance`` are not among them: a trajectory forms them where they are missing.
     """
 

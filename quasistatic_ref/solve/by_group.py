@@ -24,11 +24,13 @@ from quasistatic_ref.step.standard_form import StandardForm, Units
 class NaturalHessian(NamedTuple):
     """H of steps in their natural units, by groups.
 
+    `own_unit` is that of each coordinate [m, rad].
+
     Parameters
     ----------
     unit : ndarray, shape (n_v,)
         Diagonal of S [m or rad, per (N m s)^0.5].
-    own_unit : ndarray, shape (m_c, w)
+    own_unit : ndarray, shape (m_c, w) [m, rad]
         The same of the own columns of each contact's rows.
     blocks : list of ndarray, shape (n, n)
         H of each group in these units [-].
@@ -55,10 +57,12 @@ class NaturalHessian(NamedTuple):
 class Programs(NamedTuple):
     """min 1/2 x'Hx - g'x subject to A x >= b of each group, one after the other: natural units [-].
 
+    `blocks` are in natural units [-].
+
     Parameters
     ----------
     layout : GroupLayout
-    blocks : list of ndarray, shape (n, n)
+    blocks : list of ndarray, shape (n, n) [-]
         H of each group.
     g, A, b : ndarray
         Of all groups.
@@ -76,7 +80,10 @@ class Programs(NamedTuple):
         return all(map(all_finite, (self.g, self.A, self.b)))
 
     def joined(self, each: Sequence[Array]) -> Array:
-        """A vector of the step, (n_v,), from those of its groups, (n,) each."""
+        """A vector of the step, (n_v,), from those of its groups, (n,) each.
+
+        `each` holds an array a group [any unit].
+        """
         x = np.zeros(len(self.g))
         x[self.layout.coordinates] = np.concatenate(each)
         return x

@@ -103,7 +103,10 @@ class Sizes(NamedTuple):
 
 
 def sizes_of(squares: Array, b: Array, free_length: float) -> Sizes:
-    """The sizes of a step from squared lengths of rows and ends b, shapes (m,)."""
+    """The sizes of a step from squared lengths of rows and ends b, shapes (m,).
+
+    `squares` (m,) are lengths of rows squared, `free_length` that of the free step [-].
+    """
     median = _median_length(squares[squares != 0])
     return Sizes(median, float(squares.max(initial=0.0)), float(b.max(initial=0.0)), free_length)
 

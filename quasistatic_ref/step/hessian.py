@@ -72,7 +72,10 @@ class Hessian(Plain):
         return self._parts[key]
 
     def changed(self, masses: Array) -> Hessian:
-        """H with other masses, of this shape; a part whose numbers stay is the same object."""
+        """H with other masses, of this shape; a part whose numbers stay is the same object.
+
+        `masses` are M_u by entries or whole [kg, kg m, kg m^2].
+        """
         other = Hessian(self.h, self.K_q, masses)
         for key, part in self._parts.items():
             coordinates = np.frombuffer(key, np.int64)

@@ -57,7 +57,10 @@ def load_qp(path: str | Path) -> dict[str, QuadraticProgram]:
 
 
 def check_size(n: int, rows: int) -> None:
-    """Refuse a program that is too large to be solved, before its zeros are formed."""
+    """Refuse a program that is too large to be solved, before its zeros are formed.
+
+    InputError if the file asks for more.
+    """
     if n * (n + rows) > MOST_NUMBERS:
         problem = f"has {n} variables and {rows} rows; at most {MOST_NUMBERS} entries are held"
         raise InputError(problem)

@@ -43,7 +43,10 @@ class _Columns(JacobianColumns):
 
 
 def trials_of_frames() -> list[tuple[ContactGeometry, tuple[Array, ...]]]:
-    """Contacts of a body with six columns, of two bodies, and with the world."""
+    """Contacts of a body with six columns, of two bodies, and with the world.
+
+    Each array has its shape (k, ...) of the NumPy function.
+    """
     moves = np.zeros((3, 1, 8))
     moves[1, 0, 2:] = 1.0
     moves[2, 0, :2] = 1.0

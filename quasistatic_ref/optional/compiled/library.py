@@ -27,9 +27,11 @@ _address = FFI().from_buffer
 def addresses(read: Iterable[NDArray[Any]], written: Iterable[NDArray[Any]] = ()) -> list[Any]:
     """Addresses of arrays, as C takes them, which keep these alive.
 
+    `read` and `written` are arrays [any unit].
+
     Parameters
     ----------
-    read, written : iterable of ndarray
+    read, written : iterable of ndarray [any unit] [any unit]
         Of numbers of 64 bits or truth values, of any shape and unit. Those that are read are copied
         where they are not contiguous.
     """

@@ -11,7 +11,10 @@ from quasistatic_ref.solve.units import Sizes
 
 
 def step_sizes(_: None) -> Callable[[Array, Array, Array, NaturalHessian], Sizes | None]:
-    """``step_sizes``; it declines numbers that are not finite."""
+    """``step_sizes``; it declines numbers that are not finite.
+
+    It returns sizes, shape (groups,), or None.
+    """
     compiled = function("step_sizes")
 
     def answer(A: Array, b: Array, g: Array, H: NaturalHessian) -> Sizes | None:
@@ -25,7 +28,10 @@ def step_sizes(_: None) -> Callable[[Array, Array, Array, NaturalHessian], Sizes
 
 
 def trials_of_step_sizes() -> list[tuple[None, tuple[Array, Array, Array, NaturalHessian]]]:
-    """An even and an odd number of rows, of which some are zero."""
+    """An even and an odd number of rows, of which some are zero.
+
+    Arrays of shapes (m, w), (m,), (n_v,).
+    """
     numbers = np.sin(np.arange(1.0, 94.0))
     A, unit, b = numbers[:30].reshape(10, 3), numbers[30:60].reshape(10, 3), numbers[60:70]
     A = A * (numbers[60:70] < 0.9)[:, None]

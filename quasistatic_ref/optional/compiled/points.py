@@ -21,7 +21,10 @@ from quasistatic_ref.shapes.placed_shape import (
 
 
 def contacts(batch: Clouds) -> Callable[[Array, Array], tuple[Mask, ClosestPoints]]:
-    """``Clouds.contacts`` of a batch: the pairs that it declines are not known."""
+    """``Clouds.contacts`` of a batch: the pairs that it declines are not known.
+
+    It returns a mask, shape (pairs,), and the points of the pairs.
+    """
     count = len(batch.links)
     shape = count, batch.n_c
     cloud_last = [1, 0] if batch.cloud_is_alpha else [0, 1]
@@ -52,7 +55,10 @@ def contacts(batch: Clouds) -> Callable[[Array, Array], tuple[Mask, ClosestPoint
 
 
 def trials_of_contacts() -> list[tuple[Clouds, tuple[Array, Array]]]:
-    """A cloud on either side of three kinds of solids, near, far and through them."""
+    """A cloud on either side of three kinds of solids, near, far and through them.
+
+    Rotations, shape (L, 3, 3), and origins, (L, 3).
+    """
     grid = np.indices((5, 5, 5)).reshape(3, -1).T
     cloud = PointCloud(grid * [0.11, 0.07, 0.13] - 0.2)
     turn = np.array([[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]])

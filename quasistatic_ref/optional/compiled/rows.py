@@ -11,7 +11,10 @@ from quasistatic_ref.step.contacts import Contacts
 
 
 def inequalities(_: None) -> Callable[[Contacts, str, Mask], tuple[Array, Array] | None]:
-    """``contact_inequalities``, in the pyramid."""
+    """``contact_inequalities``, in the pyramid.
+
+    It returns A, shape (m, w), and b, (m,), or None.
+    """
     compiled = function("pyramid_rows")
 
     def answer(contacts: Contacts, name: str, mask: Mask) -> tuple[Array, Array] | None:

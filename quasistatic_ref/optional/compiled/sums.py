@@ -68,7 +68,10 @@ def _of(name: str, sums: Sums, size: int) -> Callable[[Array, Array], tuple[Arra
 
 
 def trials_of_plus() -> list[tuple[Sums, tuple[Array, Array]]]:
-    """A joint of each kind, moved far, a little, and not at all."""
+    """A joint of each kind, moved far, a little, and not at all.
+
+    q, shape (n_q,), and delta_q, (n_v,).
+    """
     sums = Sums(_joints(KINDS))
     q = np.array([0.1, -0.2, 0.3, *UNIT, 0.4, 0.2, *TURN, 0.96, 0.28, 0.3, 1.5])
     delta_q = np.array([0.3, -0.1, 0.2, 0.7, -0.4, 1.1, 0.2, 0.1, 0.5, -0.3, 0.6, 0.02])
@@ -76,7 +79,10 @@ def trials_of_plus() -> list[tuple[Sums, tuple[Array, Array]]]:
 
 
 def trials_of_change() -> list[tuple[Sums, tuple[Array, Array]]]:
-    """Joints that are elsewhere, and as far around as can be."""
+    """Joints that are elsewhere, and as far around as can be.
+
+    q and q_next, shape (n_q,) each.
+    """
     sums = Sums(_joints(KINDS))
     q = np.array([0.1, -0.2, 0.3, *UNIT, 0.4, 0.2, *TURN, 0.96, 0.28, 0.3, 1.5])
     there = np.array([0.2, 0.1, -0.3, *UNIT[::-1], 0.1, 0.7, *TURN[::-1], *TURN, 0.1, 0.2])

@@ -26,6 +26,8 @@ STATUS = {1: "optimal", 2: "soft optimal", -1: "infeasible", -2: "cycling", -3: 
 class Answer(NamedTuple):
     """DAQP's answer to the program of a group.
 
+    `seconds` is the time of the calls [s].
+
     Parameters
     ----------
     x, lam : ndarray, shapes (n,) and (m,)
@@ -34,7 +36,7 @@ class Answer(NamedTuple):
     flag : int
         DAQP's word, 1 where it claims a solution.
     iterations : int
-    seconds : float
+    seconds : float [s]
     """
 
     x: Array
@@ -47,11 +49,13 @@ class Answer(NamedTuple):
 class Workspace:
     """DAQP's workspace of one group, whose active set is kept.
 
+    `f` is the linear term, in natural units [-].
+
     Parameters
     ----------
     H : ndarray, shape (n, n)
         Of the first step, in natural units [-], as all of these.
-    f, A, b : ndarray, shapes (n,), (m, n) and (m,)
+    f, A, b : ndarray, shapes (n,), (m, n) and (m,) [-]
         f = -g. DAQP reads them where they are: they are written again for each step.
     options : dict
         DAQP's own.
@@ -97,9 +101,11 @@ class Workspace:
     def cold(self, f: Array, b: Array, sizes: Array) -> tuple[Array, Array, Indices, Indices]:
         """Solve N programs with the H and A that it was set up for, each from no active set.
 
+        `f` is the linear term, in natural units [-].
+
         Parameters
         ----------
-        f : ndarray, shape (N, n)
+        f : ndarray, shape (N, n) [-]
         b : ndarray, shape (m,)
             Times the size of a step [(N m s)^0.5].
         sizes : ndarray, shape (N,)

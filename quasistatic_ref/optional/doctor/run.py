@@ -41,7 +41,10 @@ SAME = 1e-6
 
 
 def in_world(quaternions: Array, vectors: Array) -> Array:
-    """Vectors of a body's own frame, (steps, 3), in the world, by its quaternions, (steps, 4)."""
+    """Vectors of a body's own frame, (steps, 3), in the world, by its quaternions, (steps, 4).
+
+    `quaternions` [-] are those of each step, `vectors` [any unit] too.
+    """
     R: Array = np.array(rows(list(quaternions.T)))
     turned: Array = np.einsum("ijk,kj->ki", R, vectors)
     return turned

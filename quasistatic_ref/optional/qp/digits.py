@@ -21,7 +21,10 @@ from quasistatic_ref.optional.qp.program import QuadraticProgram
 
 
 def correct_digits(problem: QuadraticProgram, optimum: Array, x: ArrayLike) -> float:
-    """Correct digits of an x, (n,), as of :meth:`~quasistatic_ref.ExactQP.digits` [-]."""
+    """Correct digits of an x, (n,), as of :meth:`~quasistatic_ref.ExactQP.digits` [-].
+
+    `optimum` is the exact answer.
+    """
     off = _numbers(x, "x", len(optimum))
     costs = [(block, convex_cost(block)) for block in blocks_of(problem)]
     if all(convex.definite for _, convex in costs):
@@ -58,7 +61,10 @@ def correct_digits(problem: QuadraticProgram, optimum: Array, x: ArrayLike) -> f
 def multiplier_digits(
     problem: QuadraticProgram, optimum: Array, given: Mapping[str, ArrayLike | None]
 ) -> float:
-    """Correct digits of multipliers, as of ``ExactQP.digits_of_multipliers`` [-]."""
+    """Correct digits of multipliers, as of ``ExactQP.digits_of_multipliers`` [-].
+
+    `optimum`, shape (n,) or of rows is the exact answer.
+    """
     sizes = problem.sizes
     z, y, z_box = (
         _numbers(np.zeros(size) if empty(given[name]) else given[name], name, size)

@@ -249,7 +249,10 @@ class Face:
         return [i for i, s in self.slack_signs.items() if not s]
 
     def rounded(self, numerators: Sequence[Any], factors: Iterable[fmpq] | None = None) -> Array:
-        """Numbers times d, each over d and times a factor rounded correctly, shape (k,)."""
+        """Numbers times d, each over d and times a factor rounded correctly, shape (k,).
+
+        Undecided if a number has no nearest float64 in its ball.
+        """
         shares = [fmpq(1)] * len(numerators) if factors is None else [*factors]
         if isinstance(self.d, arb):
             scaled = [v if f == 1 else v * arb(f) for v, f in zip(numerators, shares, strict=True)]

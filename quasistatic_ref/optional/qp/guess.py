@@ -24,6 +24,8 @@ TOLERANCE: Final = 1e-11
 class Scaled:
     """A program in natural units: P with ones on its diagonal, rows of length one.
 
+    `a` is the matrix of rows, in natural units [-].
+
     Where P has a zero there, the largest entry of the column is one. The unit of x makes the
     largest entry of q one, too; where q is zero, that of b.
 
@@ -31,7 +33,7 @@ class Scaled:
     ----------
     P, q : ndarray, shapes (n, n) and (n,)
         P symmetric.
-    a, b : ndarray, shapes (m, n) and (m,)
+    a, b : ndarray, shapes (m, n) and (m,) [-]
         Of a x >= b.
     equations : int
         How many of the first rows are a x = b.
@@ -144,6 +146,8 @@ def guessed(
     program: QuadraticProgram, block: Block, scaled: Scaled, initvals: Any
 ) -> Iterator[tuple[list[int], Array]]:
     """As :func:`guesses`, from what a user gave.
+
+    Each is the numbers of rows, and multipliers of shape (m,).
 
     Parameters
     ----------

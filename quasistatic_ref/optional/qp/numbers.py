@@ -21,6 +21,8 @@ QUOTIENT: Final = re.compile(r"[+-]?\d+/\d*[1-9]\d*", re.ASCII)
 def exact_numbers(value: Any, name: str) -> tuple[Array, dict[int, Fraction]]:
     """An array of the nearest float64 numbers, and what float64 does not hold, by flat place.
 
+    The array has the shape (...) of the values.
+
     Parameters
     ----------
     value : array_like or sparse
@@ -103,6 +105,8 @@ def _no_numbers(name: str, value: Any) -> InputError:
 def texts(numbers: Array, others: Mapping[int, Fraction]) -> Any:
     """Nested lists of an array's numbers, what float64 does not hold as ``"p/q"``.
 
+    `numbers` [any unit] has shape (n,).
+
     Infinite ones are None.
     """
     flat: list[Any] = [v if np.isfinite(v) else None for v in numbers.ravel().tolist()]
@@ -115,7 +119,10 @@ def texts(numbers: Array, others: Mapping[int, Fraction]) -> Any:
 
 
 def fraction_matrix(value: Any, name: str) -> fmpq_mat:
-    """A matrix in fractions, from whatever holds its numbers; a vector is one row of it."""
+    """A matrix in fractions, from whatever holds its numbers; a vector is one row of it.
+
+    InputError if an entry is no number.
+    """
     floats, others = exact_numbers(value, name)
     if not np.isfinite(floats).all():
         raise InputError("must be finite numbers", field=name)

@@ -42,6 +42,8 @@ class HasProgram(Protocol):
 class QuadraticProgram(Plain, Shown):
     """Minimise 1/2 x'Px + q'x subject to G x <= h, A x = b, lb <= x <= ub.
 
+    `constant` is added to the objective [its unit].
+
     Parameters
     ----------
     P : ndarray, shape (n, n)
@@ -52,7 +54,7 @@ class QuadraticProgram(Plain, Shown):
     A, b : ndarray, shapes (e, n) and (e,)
     lb, ub : ndarray, shape (n,)
         Infinite where there is no bound.
-    constant : float
+    constant : float [its unit]
         Added to the objective.
     exact : mapping of str to mapping of int to Fraction
         By array and flat place, the numbers that float64 does not hold; the arrays, and the
@@ -207,7 +209,10 @@ def program_of(P: Any, *arrays: Any, constant: Any = 0.0) -> QuadraticProgram:
 
 
 def check_symmetric(P: Array) -> None:
-    """Refuse one triangle, which others ask for: which one is meant cannot be guessed."""
+    """Refuse one triangle, which others ask for: which one is meant cannot be guessed.
+
+    InputError if P is not symmetric.
+    """
     off = np.abs(P - P.T)
     if off.max() <= SYMMETRIC * np.abs(P).max():
         return
