@@ -54,7 +54,10 @@ def _wall(rng, count):
         row += 1
     at = np.array(places[:count])
     far = np.array([2.2 * x, y, 2.2 * z])
-    near = lambda i, j: bool((np.abs(at[i] - at[j]) < far).all())  # noqa: E731
+
+    def near(i, j):
+        return bool((np.abs(at[i] - at[j]) < far).all())
+
     return _boxes(half, places[:count]), [((0, 0, 1), 0.0)], near
 
 
@@ -72,7 +75,10 @@ def _grid(rng, count):
     a = float(rng.uniform(0.02, 0.04))
     places = [(2 * a * (i % 3), 2 * a * (i // 3), a) for i in range(count)]
     at = np.array(places)
-    near = lambda i, j: float(np.linalg.norm(at[i] - at[j])) < 2.1 * a  # noqa: E731
+
+    def near(i, j):
+        return float(np.linalg.norm(at[i] - at[j])) < 2.1 * a
+
     return _boxes((a, a, a), places), [((0, 0, 1), 0.0)], near
 
 
