@@ -11,12 +11,16 @@ from quasistatic_ref import (
     PlacedShape,
     Simulator,
     Sphere,
+    StepInfeasible,
     System,
 )
 
 
 def settled_step(kind, seed, count, steps=8):
-    """A step of a scene of some bodies, after others under gravity alone."""
+    """A step of a scene of some bodies, after others under gravity alone.
+
+    Where bodies press each other into a wall, the first step without a solution is that step.
+    """
     rng = np.random.default_rng(seed)
     bodies, walls, near = KINDS[kind](rng, count)
     system = System(bodies)
@@ -32,9 +36,12 @@ def settled_step(kind, seed, count, steps=8):
     ]
     simulator = Simulator(system, contacts, h=0.05, certify="residual", backend="daqp")
     q = system.q_start
-    for _ in range(steps - 1):
-        q = simulator.step(q, []).q
-    return simulator.step(q, []).step
+    try:
+        for _ in range(steps - 1):
+            q = simulator.step(q, []).q
+        return simulator.step(q, []).step
+    except StepInfeasible as proof:
+        return proof.step
 
 
 def _boxes(half, places, turns=None):
