@@ -83,20 +83,22 @@ def least(table, rows, shares):
     return min(rows, key=cmp_to_key(compared))
 
 
+def multipliers_near(point, rows, y, free=()):
+    """Of all with the impulse rows'y, >= 0 outside of `free`, the multipliers nearest a point."""
+    eye = exact(np.eye(len(y)))
+    signed = [i for i in range(len(y)) if i not in free]
+    a = np.concatenate([rows.T, -rows.T, -eye[signed]])
+    side = rows.T @ y
+    h = np.concatenate([side, -side, exact(np.zeros(len(signed)))])
+    return optimum(eye, -point, a, h)[0]
+
+
 def only_multipliers(rows, free, y):
     """Whether y is the only y with this rows'y and y_i >= 0 outside of `free`.
 
     Both y + s and y - s, for an s at random, have y as the nearest point of that convex set: if
     another point were in it, s would have to be at right angles to the way to it.
     """
-    k = len(y)
-    if not k:
-        return True
     rng = np.random.default_rng(0)
-    s = exact(rng.integers(1, 10**6, k) * rng.choice([-1, 1], k))
-    signed = [i for i in range(k) if i not in free]
-    eye = exact(np.eye(k))
-    a = np.concatenate([rows.T, -rows.T, -eye[signed]])
-    side = rows.T @ y
-    h = np.concatenate([side, -side, exact(np.zeros(len(signed)))])
-    return all(list(optimum(eye, -(y + way * s), a, h)[0]) == list(y) for way in (1, -1))
+    s = exact(rng.integers(1, 10**6, len(y)) * rng.choice([-1, 1], len(y)))
+    return all(list(multipliers_near(y + way * s, rows, y, free)) == list(y) for way in (1, -1))

@@ -1,0 +1,97 @@
+"""A second exact check of `certify/optimum.py`, by Lemke's method, sharing no code with it.
+
+Optima, multipliers and what is unique of them are fractions of another method. The drawn programs
+have ties, rows that depend on each other, numbers far apart, and contradictions of one ulp.
+"""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.active_set import Combination
+from quasistatic_ref.certify.degeneracy import form_degeneracy
+from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.certify.optimum import form_optimum
+from tests.oracles.forms import exact_form_of
+from tests.oracles.lemke import multipliers_near, only_multipliers, optimum
+from tests.oracles.random_programs import random_program
+from tests.oracles.rational_kkt import exact, farkas_refutation, refutation
+
+PROGRAMS = 50
+
+
+def drawn_program(seed):
+    """H, g, A and b of min 1/2 x'Hx - g'x with A x >= b: an equation is two rows."""
+    of = random_program(seed)
+    one = np.eye(len(of["q"]))
+    A = np.concatenate([-of["G"], of["A"], -of["A"], one, -one])
+    b = np.concatenate([-of["h"], of["b"], -of["b"], of["lb"], -of["ub"]])
+    some = np.isfinite(b)
+    return of["P"], -of["q"], A[some], b[some]
+
+
+def facts_of(A, b, x, lam):
+    """Whether lam is unique and x differentiable, and the smallest slack that does not vanish.
+
+    x is differentiable where each row without slack bears with some multipliers. With lam_i = 0,
+    lam itself is as near to lam + e_i as any multipliers without row i.
+    """
+    slack = exact(A) @ x - exact(b)
+    touch = slack == 0
+    rows, at_rows = exact(A[touch]), lam[touch]
+    pulls = exact(np.eye(len(rows)))
+    free = (i for i, value in enumerate(at_rows) if not value)
+    smooth = all(multipliers_near(at_rows + pulls[i], rows, at_rows)[i] for i in free)
+    outside = slack[~touch] if smooth else [0]
+    return only_multipliers(rows, (), at_rows), smooth, min(map(float, outside), default=None)
+
+
+def test_the_exact_optimum_agrees_with_lemkes_method():
+    kinds = Counter()
+    for seed in range(PROGRAMS):
+        H, g, A, b = drawn_program(seed)
+        truth = optimum(exact(H), -exact(g), -exact(A), -exact(b))
+        facts = None if truth is None else facts_of(A, b, *truth)
+        kinds[facts and facts[:2]] += 1
+        some = np.random.default_rng(seed).permutation(len(b)).tolist()
+        for rows in ([], range(len(b)), some):
+            form = exact_form_of(H, g, A, b)
+            found = form_optimum(form, rows)
+            if isinstance(found, Combination):
+                y = {i: str(v) for i, v in found.y.items() if v}
+                assert truth is None, seed
+                assert farkas_refutation(A, b, y) is None, seed
+                continue
+            answer = found.delta_q, found.net, exact_slack(form, found.working_set), found.lam
+            assert refutation(H, g, A, b, *answer) is None, seed
+            assert found.delta_q.tolist() == [*map(float, truth[0])], seed
+            assert form_degeneracy(form, found.working_set) == facts, seed
+            active = found.lam[found.lam != 0].tolist()
+            assert found.smallest_active_multiplier == min(active, default=None), seed
+            assert found.working_set == tuple(np.flatnonzero(found.lam).tolist()), seed
+    assert len(kinds) >= 4
+    assert min(kinds.values()) > 1
+
+
+def exact_slack(form, working_set):
+    """All slacks at the minimiser on a working set, rounded."""
+    minimiser = Minimiser(form, tuple(working_set))
+    return minimiser.rounded(lambda point: form.slacks(range(form.m), point.z))
+
+
+def bits_of(seed, bits):
+    """The bits of an optimum and of its slacks, and what is unique; None where there is none."""
+    form = exact_form_of(*drawn_program(seed), bits=bits)
+    found = form_optimum(form)
+    if isinstance(found, Combination):
+        return None
+    arrays = found.delta_q, found.net, exact_slack(form, found.working_set)
+    return [array.tobytes() for array in arrays], form_degeneracy(form, found.working_set)
+
+
+@pytest.mark.parametrize("bits", [2, 8])
+def test_bits_do_not_depend_on_the_precision_of_the_balls(bits):
+    """With balls that decide next to nothing every sign is taken from rational numbers."""
+    for seed in range(0, 320, 5):
+        assert bits_of(seed, bits) == bits_of(seed, None), seed
