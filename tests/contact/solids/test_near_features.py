@@ -1,23 +1,47 @@
-"""Of fine meshes few faces, edges and corners are looked at, and the answer has the same bits.
+"""Of fine meshes and clouds few faces, edges, corners and points are looked at, with equal bits.
 
 ``pytest tests/contact/solids/test_near_features.py --count 2000`` takes as many pairs.
 """
+
+import itertools
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, Capsule, ContactError, convex_hull
-from quasistatic_ref.contact import corners, crossings, distance
+from quasistatic_ref import (
+    Box,
+    Capsule,
+    Cone,
+    ContactError,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    PointCloud,
+    Sphere,
+    convex_hull,
+)
+from quasistatic_ref.contact import crossings, distance, ranks
 from quasistatic_ref.contact.distance import pair_closest_points
+from quasistatic_ref.contact.ranks import closest, near_points, rounded_gaps
+from quasistatic_ref.contact.shape_in_world import Pose
 from quasistatic_ref.contact.solids import near_features, polytope_pair
 from quasistatic_ref.contact.solids.polytope import polytope
-from quasistatic_ref.shapes import facets
+from quasistatic_ref.shapes.facets import Facets
 from quasistatic_ref.text.plain import bits
 from tests.contact.still import in_world, pair, placed_shape, standing_links
 
 KINDS = ("apart", "far", "touching", "flush", "crossing", "deep", "nearly aligned")
 UP = np.array([0.0, 0.0, 1.0])
+SOLIDS = [
+    HalfSpace((0.3, 0.2, 1.0), -0.02),
+    Box((0.01, 0.02, 0.03)),
+    Sphere(0.02),
+    Capsule(0.01, 0.02),
+    Cylinder(0.02, 0.01),
+    Cone(0.02, 0.02),
+    Ellipsoid((0.01, 0.02, 0.03)),
+]
 
 
 def random_mesh(rng):
@@ -75,9 +99,15 @@ def contacts(a, b, k):
 
 
 def look_at_all(patch):
-    """Leave out no faces, edges, triangles, corners or crossings."""
+    """Leave out no faces, edges, triangles, corners, crossings or points."""
+
+    def all_of_them(self, points):
+        yield np.arange(len(points)), np.arange(len(self.normals))[None]
+
     patch.setattr(polytope_pair, "are_fine", lambda *_: False)
-    patch.setattr(facets, "FEW_FACETS", np.inf)
+    patch.setattr(Facets, "near", all_of_them)
+    patch.setattr(ranks, "cannot_be_excluded", lambda solid, bound, *_: np.arange(len(bound)))
+    patch.setattr(ranks, "points_of_groups", lambda solid, cloud, *_: np.arange(len(cloud.points)))
     patch.setattr(
         crossings, "overlapping", lambda a, b, n: np.indices((len(a), len(b))).reshape(2, -1)
     )
@@ -101,17 +131,38 @@ def nearly_parallel(seed):
     return in_world(one, np.zeros(3), R_a), in_world(other, t, R_b)
 
 
-@pytest.mark.parametrize("random", [random_pair, nearly_parallel])
+def grid(side):
+    """Points of which many are as near as each other."""
+    return np.indices((side,) * 3).reshape(3, -1).T / side - 0.5
+
+
+def cloud_and_solid(seed):
+    """A solid, and a cloud about, beside or far from it; one cloud in six is large."""
+    rng = np.random.default_rng([9, seed])
+    solid = random_mesh(rng) if seed % 2 else SOLIDS[seed // 2 % len(SOLIDS)]
+    size = solid.extent if seed % 2 else 0.03
+    points = grid(17 if seed % 12 < 2 else int(rng.integers(2, 8)))
+    shape = rng.integers(4)
+    if shape == 1:
+        points /= np.maximum(np.linalg.norm(points, axis=1, keepdims=True), 0.1)
+    if shape == 2:
+        points = rng.uniform(-0.5, 0.5, points.shape) * [1.0, 1.0, 0.0]
+    R_a, R_b = Rotation.random(2, rng=rng).as_matrix()
+    t = size * rng.normal(size=3) * rng.choice([0.0, 1.0, 2.0, 1e4])
+    cloud = PointCloud(size * rng.choice([0.3, 2.0]) * points)
+    return in_world(solid, np.zeros(3), R_a), in_world(cloud, t, R_b if rng.random() < 0.5 else R_a)
+
+
+@pytest.mark.parametrize("random", [random_pair, nearly_parallel, cloud_and_solid])
 def test_random_pairs_have_the_bits_of_a_search_of_all(monkeypatch, count, random):
     for seed in range(2 * count if count < 2000 else count):
         a, b = random(seed)
-        k = (1, 2, 4, 8)[seed // len(KINDS) % 4]
+        k = (1, 2, 4, 70)[seed // len(KINDS) % 4]
         with monkeypatch.context() as patch:
             look_at_all(patch)
             whole = contacts(a, b, k)
         with monkeypatch.context() as patch:
             patch.setattr(polytope_pair, "are_fine", lambda *_: True)
-            patch.setattr(corners, "FEW_CORNERS", 0)
             assert contacts(a, b, k) == whole, seed
 
 
@@ -140,3 +191,25 @@ def test_a_fine_pair_is_looked_at_near_its_contact_alone(monkeypatch):
         with monkeypatch.context() as patch:
             look_at_all(patch)
             assert contacts(one, other, 4) == few
+
+
+def test_points_that_are_left_out_are_most_and_rank_after_the_first():
+    rng = np.random.default_rng(0)
+    points = rng.normal(size=(600, 3))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    mesh = convex_hull(points[:100] * [0.01, 0.02, 0.03])
+    clouds = [0.03 * points[100:], *(0.06 * grid(side) for side in (7, 17))]
+    for solid, cloud in itertools.product((*SOLIDS, mesh), clouds):
+        left = []
+        for t, resolution in itertools.product((0.0, 0.04), (0.0, 1e-11, 1e-3)):
+            pose = Pose(Rotation.from_rotvec((0.0, 0.1, t)).as_matrix(), np.array([t, 0.001, 0.0]))
+            number, x = near_points(solid, PointCloud(cloud), pose, 5, resolution)
+            some, every = (solid.signed_distance(each)[0] for each in (x, pose.points(cloud)))
+            first = closest(rounded_gaps(every, resolution), 5).tolist()
+            assert number[closest(rounded_gaps(some, resolution), 5)].tolist() == first
+            left.append(len(number) / len(cloud))
+        if solid is mesh or len(cloud) > 4096:
+            assert np.median(left) < (0.1 if solid is mesh else 0.5)
+    for cloud in clouds:
+        tried = sum(near.size for _, near in mesh.facets.near(cloud))
+        assert tried < 0.1 * len(cloud) * len(mesh.triangles)
