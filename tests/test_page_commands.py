@@ -23,7 +23,6 @@ PAGES = [
     "findings.md",
     "guides/check_your_implementation.md",
     "guides/does_my_contact_hold.md",
-    "guides/file_formats.md",
     "guides/runs.md",
     "guides/write_a_scenario.md",
     "quickstart.md",
