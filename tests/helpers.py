@@ -5,10 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from quasistatic_ref import InputError, load_step, standard_form
-from quasistatic_ref.certify.residuals import optimality_residuals
-from quasistatic_ref.certify.verification import verify
-from quasistatic_ref.files.solution import load_solution
+from quasistatic_ref import (
+    InputError,
+    load_solution,
+    load_step,
+    optimality_residuals,
+    standard_form,
+    verify,
+)
 from quasistatic_ref.lab.made_steps import at_random
 from quasistatic_ref.lab.made_steps.at_random import random_contacts
 from quasistatic_ref.lab.made_steps.contacts import Z, contacts_of, frames_about

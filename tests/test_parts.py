@@ -15,16 +15,20 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+from quasistatic_ref import (
+    Body,
+    Box,
+    Cylinder,
+    Extension,
+    InputError,
+    load_scenario,
+    load_trajectory,
+    save_trajectory,
+    solve_step,
+)
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.mesh_files import loaded_mesh
-from quasistatic_ref.files.scenario.scenario import load_scenario
-from quasistatic_ref.files.trajectory import load_trajectory, save_trajectory
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.parts import is_there, needing
-from quasistatic_ref.shapes.placed_shape import Box, Cylinder
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 from tests.closeness import assert_relative
 from tests.contact.still import in_world

@@ -3,12 +3,9 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import Box, ContactError, Sphere
+from quasistatic_ref import Box, ClosestPoints, ContactError, Sphere
 from quasistatic_ref.contact.all_pairs import closest_points
-from quasistatic_ref.contact.distance import (
-    ClosestPoints,
-    joined_contacts,
-)
+from quasistatic_ref.contact.distance import joined_contacts
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.tolerances import FILLED
 from tests.contact.still import found_for, placed_shape, standing_links

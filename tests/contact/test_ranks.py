@@ -6,13 +6,18 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, Capsule, Cylinder, HalfSpace, PointCloud, Sphere, convex_hull
-from quasistatic_ref.contact.all_pairs import closest_points
-from quasistatic_ref.contact.distance import (
-    FEW_POINTS,
+from quasistatic_ref import (
+    Box,
+    Capsule,
     ClosestPoints,
-    repeated,
+    Cylinder,
+    HalfSpace,
+    PointCloud,
+    Sphere,
+    convex_hull,
 )
+from quasistatic_ref.contact.all_pairs import closest_points
+from quasistatic_ref.contact.distance import FEW_POINTS, repeated
 from quasistatic_ref.contact.normals import OF_CLOUD
 from quasistatic_ref.contact.pairs import RANKED
 from quasistatic_ref.tolerances import REPEATED

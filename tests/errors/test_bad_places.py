@@ -161,7 +161,7 @@ FOLDERS = {
 def test_a_folder_that_cannot_be_written_to_is_known_before_the_run(
     tmp_path, refused, monkeypatch, folder, words, command
 ):
-    from quasistatic_ref.files.scenario.scenario import Scenario
+    from quasistatic_ref import Scenario
 
     def run(scenario, progress=True):
         raise AssertionError("work was done before the folder was looked at")

@@ -8,8 +8,7 @@ import zipfile
 import numpy as np
 import pytest
 
-from quasistatic_ref import load_scenario
-from quasistatic_ref.files.trajectory import save_trajectory
+from quasistatic_ref import load_scenario, save_trajectory
 from tests.cases import cases
 from tests.errors.scene import scene_written
 

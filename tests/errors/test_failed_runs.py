@@ -7,10 +7,9 @@ import threading
 import numpy as np
 import pytest
 
-from quasistatic_ref import RunFailed, load_scenario, load_step, load_trajectory
+from quasistatic_ref import Limits, RunFailed, load_scenario, load_step, load_trajectory
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.simulate.interrupt import Interrupt
-from quasistatic_ref.simulate.limits import Limits
 from tests.cases import cases
 from tests.closeness import assert_relative
 from tests.errors.scene import SCENE, SUNK, changed, scene_written

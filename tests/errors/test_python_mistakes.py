@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.errors import InputError, QuasistaticError
-from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref import InputError, Limits, QuasistaticError
 from quasistatic_ref.text.quoting import shown_value
 from tests.closeness import assert_same
 from tests.files.urdf.urdf_texts import collision, inertial, link, robot, urdf_of_text

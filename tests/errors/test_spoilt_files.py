@@ -16,17 +16,18 @@ from quasistatic_ref import (
     QuasistaticError,
     System,
     load_scenario,
+    load_solution,
     load_step,
     load_trajectory,
     save_step,
+    save_trajectory,
     solve_step,
+    verify,
 )
-from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.files.clouds import point_cloud
 from quasistatic_ref.files.mesh_files import loaded_mesh
 from quasistatic_ref.files.resources import models_folder
-from quasistatic_ref.files.solution import load_solution, solution_text
-from quasistatic_ref.files.trajectory import save_trajectory
+from quasistatic_ref.files.solution import solution_text
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.files import answers_written
 from tests.errors.scene import scene_written

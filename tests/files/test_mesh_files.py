@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from quasistatic_ref import Body, ModelError, System, load_scenario
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import Body, InputError, ModelError, System, load_scenario
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.files.mesh_files import loaded_mesh, mesh_hull, mesh_path
 from quasistatic_ref.files.urdf import shapes as urdf_shapes

@@ -10,13 +10,14 @@ from quasistatic_ref import (
     Extra,
     InputError,
     StepInfeasible,
+    load_solution,
     save_step,
     solve_step,
     verify,
     verify_answer,
 )
 from quasistatic_ref.certify.verification import rounded_wrenches
-from quasistatic_ref.files.solution import infeasible_text, load_solution, solution_text
+from quasistatic_ref.files.solution import infeasible_text, solution_text
 from quasistatic_ref.step.text import step_text
 from tests.cases import cases, refusal
 from tests.closeness import assert_same, assert_within

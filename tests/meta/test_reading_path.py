@@ -4,7 +4,7 @@ import re
 import sys
 from collections import Counter, defaultdict
 
-from quasistatic_ref.files.scenario.scenario import load_scenario
+from quasistatic_ref import load_scenario
 from tests.pages import PACKAGE, ROOT
 
 PAGE = ROOT / "docs" / "contributing.md"

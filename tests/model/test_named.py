@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref import ModelError
 from quasistatic_ref.lab.made_steps.systems import RAIL
 from quasistatic_ref.model.rotation import quaternion, rotation
 from quasistatic_ref.optional.doctor.measures import measures

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref import ContactPair, Simulator, StepResult
 from quasistatic_ref.lab.made_steps.contacts import GRAVITY
 from quasistatic_ref.lab.made_steps.systems import (
     cloud_on,
@@ -15,8 +15,6 @@ from quasistatic_ref.lab.made_steps.systems import (
     world_plane,
 )
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import ELLIPSOID
 
 SIDE, HEIGHT, RADIUS = 0.1, 0.04, 0.01

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
+from quasistatic_ref import Simulator
 from quasistatic_ref.certify.refined import BearingRows
 from quasistatic_ref.contact.crossings import CurveCrossings
 from quasistatic_ref.contact.normals import KnownGaps
@@ -36,7 +37,6 @@ from quasistatic_ref.simulate.simulator import (
     CoulombSolution,
     ExtendedSolution,
     SceneFindings,
-    Simulator,
     StandingsOf,
 )
 from quasistatic_ref.simulate.trajectory import StandsAfter, Table

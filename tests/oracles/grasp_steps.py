@@ -6,6 +6,7 @@ body. Contacts are between the gripper and the body, six rows, or a floor and th
 
 import numpy as np
 
+from quasistatic_ref import StepData
 from quasistatic_ref.lab.made_steps.at_random import Rng
 from quasistatic_ref.lab.made_steps.contacts import (
     GRAVITY,
@@ -16,7 +17,6 @@ from quasistatic_ref.lab.made_steps.contacts import (
     frames_about,
     point_jacobian,
 )
-from quasistatic_ref.step.data import StepData
 
 STIFFNESS = np.array([800.0, 800.0, 800.0, 20.0, 20.0, 20.0, 2000.0])
 """Of the gripper's base and of its width [N/m, N m/rad]."""

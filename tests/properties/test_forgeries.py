@@ -7,9 +7,8 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import Certificate, solve_step
-from quasistatic_ref.certify.verification import verify
-from quasistatic_ref.files.solution import load_solution, solution_text
+from quasistatic_ref import Certificate, load_solution, solve_step, verify
+from quasistatic_ref.files.solution import solution_text
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
 from tests.cases import cases, first

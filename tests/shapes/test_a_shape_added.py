@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from quasistatic_ref import Box, ContactError, HalfSpace, Sphere, load_scenario
+from quasistatic_ref import Box, ContactError, HalfSpace, Sphere, draw_scene, load_scenario
 from quasistatic_ref.contact import crossings as crossings_of
 from quasistatic_ref.contact.solids import solid_pair as solid_pair_of
 from quasistatic_ref.contact.solids.polytope import polytope
@@ -19,7 +19,6 @@ from quasistatic_ref.files.declared import Field
 from quasistatic_ref.files.scenario.world_solids import SOLIDS, Kind
 from quasistatic_ref.optional.curved.faces import kinks
 from quasistatic_ref.optional.show.figures import panels
-from quasistatic_ref.optional.show.figures.draw import draw_scene
 from quasistatic_ref.optional.show.figures.moments import moment
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import dimensions

@@ -6,9 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, InputError, Recorder, RunFailed, load_scenario
+from quasistatic_ref import Extra, InputError, Observer, Recorder, RunFailed, load_scenario
 from quasistatic_ref.simulate import recorder as recorder_module
-from quasistatic_ref.simulate.observer import Observer
 from tests.cases import cases
 
 STEPS = 3

@@ -5,9 +5,9 @@ import pytest
 from scipy.linalg import expm, logm
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import InputError, ScenarioError, load_scenario
+from quasistatic_ref import InputError, ScenarioError, Targets, load_scenario
 from quasistatic_ref.model.joints.floating import Floating
-from quasistatic_ref.simulate.target import JointTrack, Targets
+from quasistatic_ref.simulate.target import JointTrack
 from quasistatic_ref.simulate.user_functions import target_function
 from tests.cases import cases, refusal
 from tests.closeness import assert_close, assert_within

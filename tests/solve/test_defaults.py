@@ -4,8 +4,7 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extension, Simulator, load_scenario, solve_step
-from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref import Extension, Simulator, StepNotSolved, load_scenario, solve_step
 from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.optional.daqp import default
 from quasistatic_ref.optional.daqp.default import default_backend

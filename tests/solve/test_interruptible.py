@@ -9,9 +9,9 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
+from quasistatic_ref import StandardForm
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.step_problem import cvxpy_reply
-from quasistatic_ref.step.standard_form import StandardForm
 
 ENDLESS = {
     "osqp": {"eps_abs": 1e-18, "eps_rel": 1e-18, "max_iter": 10**8, "time_limit": 60.0},

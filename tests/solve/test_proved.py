@@ -7,11 +7,10 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import load_scenario, solve_step, verify
+from quasistatic_ref import Certificate, SolverStatistics, load_scenario, solve_step, verify
 from quasistatic_ref.certify.form import ExactForm
 from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.solve import solve
-from quasistatic_ref.step.solution import Certificate, SolverStatistics
 from quasistatic_ref.text.plain import bits
 from tests.oracles.grasp_steps import grasp_step
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.files.resources import scenario_path
 from quasistatic_ref.files.scenario.world_solids import SOLIDS, solid_table
 from quasistatic_ref.lab.made_steps.systems import RAIL

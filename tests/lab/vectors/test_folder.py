@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
-from quasistatic_ref import InputError, verify_answer
+from quasistatic_ref import Certificate, InputError, verify_answer
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.lab.vectors.agreed import PROGRAM
@@ -15,7 +15,6 @@ from quasistatic_ref.lab.vectors.generate import generate_folder, manifest_text,
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.layers.qp import cone_step, step_of
 from quasistatic_ref.lab.vectors.versions import MANIFEST
-from quasistatic_ref.step.solution import Certificate
 from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import (
     VECTORS,

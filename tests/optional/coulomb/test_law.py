@@ -20,9 +20,9 @@ from quasistatic_ref import (
     load_scenario,
     load_trajectory,
     rollout,
+    save_trajectory,
     verify_answer,
 )
-from quasistatic_ref.files.trajectory import save_trajectory
 from tests.closeness import assert_relative, assert_same
 from tests.scenes import written_scenario
 

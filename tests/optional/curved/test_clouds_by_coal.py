@@ -23,8 +23,9 @@ from quasistatic_ref import (
     convex_hull,
     load_scenario,
     load_trajectory,
+    save_trajectory,
 )
-from quasistatic_ref.files.trajectory import header_table, save_trajectory
+from quasistatic_ref.files.trajectory import header_table
 from quasistatic_ref.optional.curved.clouds_by_coal import MeasuredByCoal
 from quasistatic_ref.text.plain import bits
 from tests.closeness import assert_same, assert_within

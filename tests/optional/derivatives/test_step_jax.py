@@ -11,10 +11,10 @@ from quasistatic_ref import (
     NotDifferentiable,
     Sphere,
     derivatives,
+    step_jax,
 )
 from quasistatic_ref.lab.made_steps.nudge import RADIUS, body_at_rest, points
 from quasistatic_ref.optional.derivatives.nearby import Nearby
-from quasistatic_ref.optional.derivatives.step_jax import step_jax
 from tests.closeness import assert_same, assert_within
 from tests.extras import reason as needs
 from tests.optional.derivatives.free_bodies import (

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from quasistatic_ref import InputError, RunFailed, load_scenario
-from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref import Finding
 
 HERE = Path(__file__).parent / "mistakes"
 PAGE = (HERE.parents[3] / "docs" / "findings.md").read_text("utf-8")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref import StepNotSolved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.step_problem import CvxpySolver
 from tests.files.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.simulate.target import JointTrack, Targets
+from quasistatic_ref import Targets
+from quasistatic_ref.simulate.target import JointTrack
 
 HAND = """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>
 <body name="finger" pos="{at} 0 0.05"><joint name="slide" type="slide" axis="1 0 0"/>

@@ -6,7 +6,7 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extension, InputError, StepNotSolved, standard_form
+from quasistatic_ref import Extension, InputError, StepNotSolved, StepProblem, standard_form
 from quasistatic_ref.optional.extensions import by_cvxpy
 from quasistatic_ref.optional.extensions.by_cvxpy import (
     _symbols,
@@ -15,7 +15,6 @@ from quasistatic_ref.optional.extensions.by_cvxpy import (
 )
 from quasistatic_ref.optional.extensions.extended import simulated_solution
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.solve.step_problem import StepProblem
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.problem import set_values
 from quasistatic_ref.step.standard_form import page_units

@@ -12,9 +12,9 @@ from quasistatic_ref import (
     load_scenario,
     load_trajectory,
     rollout,
+    save_trajectory,
     solve_step,
 )
-from quasistatic_ref.files.trajectory import save_trajectory
 from quasistatic_ref.lab.made_steps.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.made_steps.rigid import actuated_step
 from tests.closeness import assert_relative, assert_same, assert_within

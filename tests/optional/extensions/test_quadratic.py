@@ -15,16 +15,17 @@ from quasistatic_ref import (
     Extra,
     RunFailed,
     StepDataError,
+    load_trajectory,
+    rollout,
+    save_trajectory,
     solve_step,
 )
 from quasistatic_ref.certify.groups import groups
 from quasistatic_ref.files.solution import solution_text
 from quasistatic_ref.files.step import step_from_record
-from quasistatic_ref.files.trajectory import load_trajectory, save_trajectory
 from quasistatic_ref.lab.made_steps.contacts import no_contacts
 from quasistatic_ref.lab.made_steps.rigid import free_step
 from quasistatic_ref.optional.extensions.extended import posed
-from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.solve.backends import REQUIRED
 from quasistatic_ref.step.text import step_text
 from tests.closeness import assert_relative, assert_same

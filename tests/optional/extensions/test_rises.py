@@ -15,9 +15,9 @@ from quasistatic_ref import (
     derivatives,
     load_scenario,
     load_trajectory,
+    save_trajectory,
     solve_step,
 )
-from quasistatic_ref.files.trajectory import save_trajectory
 from quasistatic_ref.lab.made_steps.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.made_steps.rigid import actuated_step, free_step
 from quasistatic_ref.lab.thresholds import exact

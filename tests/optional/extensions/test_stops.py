@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.extensions.extension import Extension
+from quasistatic_ref import Extension, InputError
 from quasistatic_ref.optional.extensions.stops import stops_of, urdf_limits
 from tests.closeness import assert_relative, assert_within
 from tests.files.urdf.urdf_texts import joint, link, mimic, robot

@@ -4,9 +4,7 @@ from typing import Any, NamedTuple
 
 import mujoco
 
-from quasistatic_ref import StepSolution
-from quasistatic_ref.optional.mujoco.mujoco import mujoco_step
-from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref import StepSolution, mujoco_step, solve_step
 
 H = 0.01
 GRAVITY = 9.81

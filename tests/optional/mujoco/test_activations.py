@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref import ModelError
 from tests.helpers import Place
 from tests.optional.mujoco.models import model_of, posed
 

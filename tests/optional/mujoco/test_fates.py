@@ -8,9 +8,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref import ModelError, mujoco_step
 from quasistatic_ref.optional.mujoco import fates
-from quasistatic_ref.optional.mujoco.mujoco import mujoco_step
 
 SCENE = """<mujoco>
 <size memory="1M" nuser_body="1" nuser_jnt="1" nuser_geom="1" nuser_site="1" nuser_tendon="1"

@@ -6,8 +6,8 @@ import sys
 import mujoco
 import pytest
 
-from quasistatic_ref import ModelError
-from quasistatic_ref.errors import InputError, about_file
+from quasistatic_ref import InputError, ModelError
+from quasistatic_ref.errors import about_file
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.optional.mujoco import compiler
 from tests.cases import cases

@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.errors import ModelError
-from quasistatic_ref.optional.mujoco.mujoco import mujoco_step
+from quasistatic_ref import ModelError, mujoco_step
 from quasistatic_ref.optional.mujoco.tolerances import FULL_RANK
 from tests.optional.mujoco.models import GRAVITY, H, mjcf, moved, posed
 

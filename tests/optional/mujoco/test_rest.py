@@ -18,9 +18,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from quasistatic_ref import mujoco_step, solve_step
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.optional.mujoco.mujoco import mujoco_step
-from quasistatic_ref.solve.solve import solve_step
 from tests.optional.mujoco.models import H, posed
 
 SEEDS = 0, pytest.param(1, marks=pytest.mark.long)

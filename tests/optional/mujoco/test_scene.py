@@ -7,11 +7,15 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.errors import InputError, ModelError, QuasistaticError
-from quasistatic_ref.files.trajectory import load_trajectory
-from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.mujoco.mujoco import mujoco_step
-from quasistatic_ref.optional.mujoco.scene import mujoco_scenario
+from quasistatic_ref import (
+    InputError,
+    ModelError,
+    QuasistaticError,
+    System,
+    load_trajectory,
+    mujoco_scenario,
+    mujoco_step,
+)
 from tests.closeness import assert_close
 from tests.optional.mujoco.models import model_of, posed
 

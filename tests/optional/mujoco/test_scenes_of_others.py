@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.errors import InputError, ModelError
+from quasistatic_ref import InputError, ModelError
 from quasistatic_ref.optional.mujoco.compiler import compiled_model
 from quasistatic_ref.solve.step_problem import CvxpySolver, is_large
 

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.scans.body import scanned_body
+from quasistatic_ref import InputError, scanned_body
 from quasistatic_ref.optional.scans.closed import closed_mesh
 from quasistatic_ref.optional.scans.solid import Solid
 from tests.closeness import assert_relative, assert_within

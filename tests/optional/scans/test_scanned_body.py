@@ -8,8 +8,8 @@ import trimesh
 from scipy.spatial import cKDTree
 
 import quasistatic_ref as qr
+from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.scenario.scenario import scenario_path
 from quasistatic_ref.optional.scans.cloud import thinned
 from tests.closeness import assert_relative, assert_within

@@ -12,9 +12,9 @@ from quasistatic_ref import (
     Trajectory,
     load_scenario,
     load_trajectory,
+    save_trajectory,
     solve_step,
 )
-from quasistatic_ref.files.trajectory import save_trajectory
 from quasistatic_ref.lab.made_steps.contacts import no_contacts
 from quasistatic_ref.optional.show.show import (
     MOST_IN_HTML,

@@ -15,11 +15,13 @@ from quasistatic_ref import (
     Ellipsoid,
     InputError,
     Sphere,
+    animate,
+    draw_scene,
+    draw_scenes,
     load_scenario,
 )
 from quasistatic_ref.optional.show.figures import Camera, panels
-from quasistatic_ref.optional.show.figures.animation import animate
-from quasistatic_ref.optional.show.figures.draw import PARTS, draw_scene, draw_scenes
+from quasistatic_ref.optional.show.figures.draw import PARTS
 from quasistatic_ref.optional.show.figures.moments import moment
 from quasistatic_ref.optional.show.figures.surfaces import (
     AROUND,

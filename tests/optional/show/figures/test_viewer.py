@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Body, InputError, System, load_scenario
+from quasistatic_ref import Body, InputError, System, load_scenario, save_view
 from quasistatic_ref.optional.show.figures.draw import force_scale
 from quasistatic_ref.optional.show.figures.looks import ROBOTS
 from quasistatic_ref.optional.show.figures.moments import frames
 from quasistatic_ref.optional.show.figures.viewer import (
     FRAMES_PER_SECOND,
     LONGEST,
-    save_view,
     scene_drawn,
     viewer_package,
 )
