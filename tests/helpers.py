@@ -14,11 +14,17 @@ from quasistatic_ref import (
     verify,
 )
 from quasistatic_ref.lab.made_steps import at_random
-from quasistatic_ref.lab.made_steps.at_random import random_contacts
-from quasistatic_ref.lab.made_steps.contacts import Z, contacts_of, frames_about
-from quasistatic_ref.lab.made_steps.pinch import pinch_step
-from quasistatic_ref.lab.made_steps.rigid import free_step, point_step, sphere_step
 from quasistatic_ref.step.cones import cone
+from tests.made import (
+    Z,
+    contacts_of,
+    frames_about,
+    free_step,
+    pinch_step,
+    point_step,
+    random_contacts,
+    sphere_step,
+)
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
 INTERFACES = (*REQUIRED[:-1], "cvxpy:daqp", *(f"qpsolvers:{name}" for name in REQUIRED))

@@ -9,9 +9,7 @@ from scipy.spatial.transform import Rotation
 
 import quasistatic_ref as qr
 from quasistatic_ref.certify.norm import correct_digits
-from quasistatic_ref.lab.made_steps.contacts import GRAVITY
-from quasistatic_ref.lab.made_steps.pinch import pinch_step
-from quasistatic_ref.lab.made_steps.rigid import sphere_step
+from tests.made import GRAVITY, pinch_step, sphere_step
 from tests.pages import EXAMPLES
 
 FILE = EXAMPLES / "one_step.py"

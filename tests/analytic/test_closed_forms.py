@@ -7,10 +7,9 @@ import quasistatic_ref as qr
 from quasistatic_ref import coulomb_step
 from quasistatic_ref.lab.claims.claim import HOLDS, claim_result
 from quasistatic_ref.lab.claims.registry import CLAIMS
-from quasistatic_ref.lab.made_steps.contacts import X, Y, Z, contacts_of
-from quasistatic_ref.lab.made_steps.rigid import free_step, rigid_step
 from quasistatic_ref.lab.thresholds import exact
 from tests.analytic.instances import INSTANCES, instances, log, near
+from tests.made import X, Y, Z, contacts_of, free_step, rigid_step
 
 LONG = (
     *("lift", "patch_torsion", "planar_push", "pushed_block"),  # a second or two

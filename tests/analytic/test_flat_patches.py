@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.made_steps.rigid import rigid_step
 from quasistatic_ref.lab.thresholds import threshold
+from tests.made import rigid_step
 from tests.oracles.balance import balances
 
 HEIGHT = 0.02

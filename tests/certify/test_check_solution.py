@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, QuasistaticError, StepInfeasible, solve_step
-from quasistatic_ref.files.solution import infeasible_text, solution_text
-from quasistatic_ref.step.text import step_sha256, step_text
 from tests.cases import cases, first
 from tests.helpers import verify_refusal
+from tests.made import infeasible_text, solution_text, step_sha256, step_text
 from tests.oracles.attacked_steps import steps
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import good_file

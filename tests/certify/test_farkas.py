@@ -16,9 +16,8 @@ from quasistatic_ref import (
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.norm import ILL_POSED, relative_length
 from quasistatic_ref.certify.optimum import step_optimum
-from quasistatic_ref.lab.made_steps.contacts import no_contacts
-from quasistatic_ref.lab.made_steps.rigid import free_step
 from tests.helpers import EAST, NORTH, WEST, point_between_walls, sphere_on_floor
+from tests.made import free_step, no_contacts
 
 
 def test_walls_that_overlap_are_infeasible_and_named():

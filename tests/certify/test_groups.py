@@ -13,9 +13,8 @@ from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.groups import group_steps, groups
 from quasistatic_ref.certify.norm import ILL_POSED
 from quasistatic_ref.certify.optimum import step_optimum
-from quasistatic_ref.lab.made_steps.contacts import X, contacts_of
-from quasistatic_ref.lab.made_steps.rigid import free_step
 from tests.helpers import two_bodies
+from tests.made import X, contacts_of, free_step
 from tests.oracles.grouped import faults, random_case
 
 

@@ -15,10 +15,9 @@ from quasistatic_ref.certify.norm import (
     single_loads,
 )
 from quasistatic_ref.certify.optimum import step_optimum
-from quasistatic_ref.lab.made_steps.contacts import Z, contacts_of, frames_about, no_contacts
-from quasistatic_ref.lab.made_steps.rigid import actuated_step
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import EAST, point_between_walls
+from tests.made import Z, actuated_step, contacts_of, frames_about, no_contacts
 
 HALF_DIGIT = 0.5
 """Rounding in the norms moves a digit count by far less."""

@@ -11,8 +11,8 @@ from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.certify.working_set import WholeSystem
 from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.text.plain import bits
 from tests.helpers import point_on_floor
+from tests.made import bits
 
 
 def test_what_stays_where_it_is_needs_no_fractions(monkeypatch):

@@ -10,10 +10,10 @@ import pytest
 from quasistatic_ref import Extra, StepDataError, solve_step, verify, verify_answer
 from quasistatic_ref.certify.groups import contact_rows, flat_rows
 from quasistatic_ref.certify.optimum import step_optimum
-from quasistatic_ref.files.solution import solution_text
 from quasistatic_ref.solve.solve import exact_certificate
 from quasistatic_ref.solve.units import ScaledStep
 from tests.helpers import point_on_floor, resting_point
+from tests.made import solution_text
 from tests.oracles.grasp_steps import grasp_step
 
 

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, StepData, solve_step
-from quasistatic_ref.lab.made_steps.contacts import no_contacts
-from quasistatic_ref.lab.made_steps.rigid import free_step
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.units import ScaledStep
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import planted_step, residuals_of, sphere_on_floor
+from tests.made import free_step, no_contacts
 from tests.tolerances import ROUNDING
 
 

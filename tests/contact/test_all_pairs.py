@@ -22,8 +22,8 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.contact import all_pairs
 from quasistatic_ref.contact.all_pairs import AllPairs
-from quasistatic_ref.text.plain import bits
 from tests.contact.still import one_by_one, pair, placed_shape, standing_links
+from tests.made import bits
 
 QUARTER = np.pi / 2
 

@@ -10,8 +10,8 @@ import quasistatic_ref as qr
 from quasistatic_ref.contact.jacobian import ContactGeometry, columns_at, tangents
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.step.contacts import spread
-from quasistatic_ref.text.plain import bits
 from tests.closeness import assert_within
+from tests.made import bits
 from tests.model.mechanisms import WHEELS
 
 TIED = """<mujoco><worldbody><body name="a"><joint name="one" type="slide" axis="1 0 0"/>

@@ -4,11 +4,11 @@ import json
 
 import pytest
 
-from quasistatic_ref.step.text import step_record
 from quasistatic_ref.text.json_text import plain
 from tests.cases import cases
 from tests.errors.scene import changed, dotted, numeric_fields
 from tests.helpers import planted_step
+from tests.made import step_record
 
 STEP = plain(step_record(planted_step(7)[0]))
 """n_a = 3, n_u = 4, contacts with 6, 4 and 6 rows."""

@@ -27,11 +27,11 @@ from quasistatic_ref import (
 from quasistatic_ref.files.clouds import point_cloud
 from quasistatic_ref.files.mesh_files import loaded_mesh
 from quasistatic_ref.files.resources import models_folder
-from quasistatic_ref.files.solution import solution_text
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.files import answers_written
 from tests.errors.scene import scene_written
 from tests.files.urdf.urdf_texts import collision, link, robot, urdf_of_text
+from tests.made import solution_text
 from tests.oracles.shape_files import (
     COLLADA,
     PCD_BODY,

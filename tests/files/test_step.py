@@ -7,11 +7,10 @@ import numpy as np
 
 from quasistatic_ref import Extra, load_step, save_step
 from quasistatic_ref.files.step import step_from_record
-from quasistatic_ref.lab.made_steps.contacts import no_contacts
-from quasistatic_ref.step.text import step_sha256, step_text
 from tests.cases import cases
 from tests.errors.scene import changed
 from tests.helpers import point_on_floor, random_step
+from tests.made import no_contacts, step_sha256, step_text
 
 RNG = np.random.default_rng(11)
 PLAIN = random_step(RNG, n_a=2, n_u=3, rows=(6, 4))

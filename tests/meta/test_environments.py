@@ -24,7 +24,7 @@ from quasistatic_ref import (
 from quasistatic_ref.numbers.precision import check_arithmetic
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.text.plain import bits
+from tests.made import bits
 from tests.oracles.random_steps import mixed_step
 
 STEP = mixed_step(1)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import ModelError, load_scenario
-from quasistatic_ref.text.plain import bits
 from tests.closeness import assert_same
+from tests.made import bits
 
 GRAVITY = (0.0, 0.0, -9.81)
 NAMES = (  # mimics, a ball, a tree with bodies

@@ -6,7 +6,7 @@ import pytest
 from quasistatic_ref.model.joints import BY_ENTRIES
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.sums import MANY_JOINTS, Sums
-from quasistatic_ref.text.plain import bits
+from tests.made import bits
 
 KINDS = sorted(BY_ENTRIES, key=lambda kind: kind.__name__)
 

@@ -6,9 +6,9 @@ from scipy.linalg import block_diag
 
 from quasistatic_ref import Extra, StepData, StepDataError, solve_step
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.lab.made_steps.contacts import no_contacts
 from quasistatic_ref.numbers.pivots import DEFINITE, MANY_ROWS, positive_pivots
 from tests.closeness import assert_relative
+from tests.made import no_contacts
 from tests.oracles.attacked_steps import positive_definite, singular
 
 LOWER = np.array([[1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [1.0, -1000.0, 1.0]])

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref import ContactPair, Simulator, StepResult
-from quasistatic_ref.lab.made_steps.contacts import GRAVITY
 from quasistatic_ref.lab.made_steps.systems import (
     cloud_on,
     joint_text,
@@ -16,6 +15,7 @@ from quasistatic_ref.lab.made_steps.systems import (
 )
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID
+from tests.made import GRAVITY
 
 SIDE, HEIGHT, RADIUS = 0.1, 0.04, 0.01
 """Of the block and of the finger [m]."""

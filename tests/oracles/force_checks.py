@@ -16,9 +16,9 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.certify.optimum import step_optimum
-from quasistatic_ref.lab.made_steps.contacts import repeated
 from quasistatic_ref.optional.forces.forces import WRENCH, defined_optimum
 from quasistatic_ref.step.cones import PYRAMID
+from tests.made import repeated
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.oracles.random_steps import mixed_step
 

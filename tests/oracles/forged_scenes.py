@@ -3,8 +3,7 @@
 import numpy as np
 
 from quasistatic_ref import Extra
-from quasistatic_ref.lab.made_steps.contacts import X, Y, contacts_of, frames_about
-from quasistatic_ref.lab.made_steps.rigid import free_step, point_step
+from tests.made import X, Y, contacts_of, frames_about, free_step, point_step
 
 FACING = frames_about(np.array([Y, -Y]), X)
 """Frames of two walls that face each other along y; rows d1, d2, n."""

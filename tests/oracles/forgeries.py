@@ -18,8 +18,8 @@ import math
 from itertools import islice
 
 from quasistatic_ref import InputError, StepInfeasible, load_solution, solve_step, verify
-from quasistatic_ref.files.solution import infeasible_text
 from quasistatic_ref.files.solution import solution_text as text_of
+from tests.made import infeasible_text
 from tests.oracles.records import places, value_at, with_value
 from tests.oracles.solution_truth import truth_of, wrenches
 

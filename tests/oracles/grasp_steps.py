@@ -7,16 +7,7 @@ body. Contacts are between the gripper and the body, six rows, or a floor and th
 import numpy as np
 
 from quasistatic_ref import StepData
-from quasistatic_ref.lab.made_steps.at_random import Rng
-from quasistatic_ref.lab.made_steps.contacts import (
-    GRAVITY,
-    X,
-    Y,
-    Z,
-    contacts_of,
-    frames_about,
-    point_jacobian,
-)
+from tests.made import GRAVITY, Rng, X, Y, Z, contacts_of, frames_about, point_jacobian
 
 STIFFNESS = np.array([800.0, 800.0, 800.0, 20.0, 20.0, 20.0, 2000.0])
 """Of the gripper's base and of its width [N/m, N m/rad]."""

@@ -8,7 +8,7 @@ from quasistatic_ref.certify.degeneracy import form_degeneracy, step_degeneracy
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.optimum import form_optimum, step_optimum
-from quasistatic_ref.text.plain import bits
+from tests.made import bits
 from tests.oracles.random_steps import divided, mixed_step
 
 SAME = ("delta_q", "net")

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref import StepData
-from quasistatic_ref.lab.made_steps.contacts import GRAVITY, contacts_of, point_jacobian
 from quasistatic_ref.numbers.arrays import Array
+from tests.made import GRAVITY, contacts_of, point_jacobian
 
 SIDE = 0.1
 """Of a box [m]."""

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.lab.made_steps.contacts import contacts_of
-from quasistatic_ref.lab.made_steps.rigid import free_step
+from tests.made import contacts_of, free_step
 
 H = 0.01
 

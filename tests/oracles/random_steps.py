@@ -8,9 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from quasistatic_ref import Extra, StepData
-from quasistatic_ref.lab.made_steps.at_random import random_frames, spread_matrix
-from quasistatic_ref.lab.made_steps.contacts import contacts_of, repeated
-from quasistatic_ref.lab.made_steps.rigid import free_step
+from tests.made import contacts_of, free_step, random_frames, repeated, spread_matrix
 from tests.oracles.grasp_steps import grasp_step
 
 CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")

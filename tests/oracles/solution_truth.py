@@ -13,7 +13,7 @@ import numpy as np
 from flint import arb
 
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
-from quasistatic_ref.step.text import step_text
+from tests.made import step_text
 from tests.oracles.rational_kkt import exact, fractions, on_rows, solution
 from validation import check_solution as checker
 

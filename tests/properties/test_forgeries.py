@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Certificate, load_solution, solve_step, verify
-from quasistatic_ref.files.solution import solution_text
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
 from tests.cases import cases, first
+from tests.made import solution_text
 from tests.oracles.forged_scenes import between_walls, scenes
 from tests.oracles.forgeries import at_random, good_file, is_refused, outcomes
 from tests.oracles.grasp_steps import grasp_step

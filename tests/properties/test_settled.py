@@ -6,10 +6,8 @@ import pytest
 from quasistatic_ref import StepInfeasible, solve_step
 from quasistatic_ref.certify.active_set import dual_active_set
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.files.solution import infeasible_text, solution_text
-from quasistatic_ref.step.text import step_text
-from quasistatic_ref.text.plain import bits
 from tests.cases import first
+from tests.made import bits, infeasible_text, solution_text, step_text
 from tests.oracles.settled_scenes import KINDS, settled_step
 from validation import check_solution as checker
 

@@ -5,7 +5,7 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.simulate.steps import Ways
-from quasistatic_ref.text.plain import bits
+from tests.made import bits
 from tests.model.mechanisms import every_joint
 
 N = 5

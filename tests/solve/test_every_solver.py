@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.lab.made_steps.contacts import repeated
 from quasistatic_ref.solve.backends import NONE, installed_backends, others_installed
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solver import FREE
 from tests.closeness import assert_within
 from tests.helpers import SHAPES, error, planted_step, random_step, sphere_on_floor
+from tests.made import repeated
 from tests.oracles.attacked_steps import steps
 from tests.tolerances import OPTIMUM
 

@@ -11,7 +11,7 @@ from quasistatic_ref import Certificate, SolverStatistics, load_scenario, solve_
 from quasistatic_ref.certify.form import ExactForm
 from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.solve import solve
-from quasistatic_ref.text.plain import bits
+from tests.made import bits
 from tests.oracles.grasp_steps import grasp_step
 
 

@@ -6,11 +6,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, standard_form
-from quasistatic_ref.lab.made_steps.contacts import no_contacts
-from quasistatic_ref.lab.made_steps.rigid import free_step
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.standard_form import OUT_OF_REACH, clipped_gaps
-from quasistatic_ref.text.plain import bits
 from tests.cases import cases
 from tests.closeness import assert_relative, assert_same
 from tests.helpers import (
@@ -19,6 +16,7 @@ from tests.helpers import (
     random_step,
     sphere_on_floor,
 )
+from tests.made import bits, free_step, no_contacts
 from tests.tolerances import NATURAL_HIGH, NATURAL_LOW
 
 STEPS = {

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Contacts, Extra, StepDataError
-from quasistatic_ref.lab.made_steps.contacts import no_contacts
 from quasistatic_ref.numbers.pivots import SYMMETRIC
 from quasistatic_ref.tolerances import ORTHONORMAL
 from tests.cases import cases, refusal
 from tests.closeness import assert_same
 from tests.helpers import changed, random_step
+from tests.made import no_contacts
 
 STEP = random_step(7, n_a=2, n_u=3, rows=(6, 4))
 CONTACTS = STEP.contacts

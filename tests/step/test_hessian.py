@@ -8,7 +8,7 @@ import numpy as np
 import quasistatic_ref as qr
 from quasistatic_ref.certify import form
 from quasistatic_ref.step.hessian import Hessian, hessian
-from quasistatic_ref.text.plain import bits
+from tests.made import bits
 
 BLOCKS = np.array([np.diag([1.0, 2.0]), [[3.0, 0.5], [0.5, 4.0]]])
 WHOLE = np.block([[BLOCKS[0], np.zeros((2, 2))], [np.zeros((2, 2)), BLOCKS[1]]])

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from quasistatic_ref import Box, Cone, Cylinder, Extra, Simulator, Sphere, load_scenario
-from quasistatic_ref.text.plain import Plain, bits
 from tests.cases import cases
 from tests.closeness import assert_same
+from tests.made import Plain, bits
 from tests.scenes import written_scenario
 from tests.step.public_data import contradiction_error
 

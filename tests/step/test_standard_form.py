@@ -4,10 +4,10 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref import Extra, StepProblem, standard_form
-from quasistatic_ref.lab.made_steps.rigid import point_step
 from quasistatic_ref.step.standard_form import Units, clipped_gaps
 from tests.closeness import assert_close
 from tests.helpers import random_step
+from tests.made import point_step
 from tests.tolerances import ROUNDING
 
 

@@ -28,8 +28,8 @@ from quasistatic_ref.contact.shape_in_world import Pose
 from quasistatic_ref.contact.solids import near_features, polytope_pair
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.shapes.facets import Facets
-from quasistatic_ref.text.plain import bits
 from tests.contact.still import in_world, pair, placed_shape, standing_links
+from tests.made import bits
 
 KINDS = ("apart", "far", "touching", "flush", "crossing", "deep", "nearly aligned")
 UP = np.array([0.0, 0.0, 1.0])

@@ -6,12 +6,12 @@ import sys
 
 import numpy as np
 
-from quasistatic_ref.files.content import text_written
 from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import mapped
+from tests.made import text_written
 from tests.pages import ROOT
 
 VECTORS = ROOT / "validation" / "vectors"

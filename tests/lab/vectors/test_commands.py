@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from quasistatic_ref.files.content import text_written
 from tests.lab.vectors.committed_cases import few_written
+from tests.made import text_written
 
 
 @pytest.fixture

@@ -8,7 +8,6 @@ from jsonschema import Draft202012Validator
 
 from quasistatic_ref import Certificate, InputError, verify_answer
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.files.content import text_written
 from quasistatic_ref.lab.vectors.agreed import PROGRAM
 from quasistatic_ref.lab.vectors.files import expected_read
 from quasistatic_ref.lab.vectors.generate import generate_folder, manifest_text, new_record
@@ -25,6 +24,7 @@ from tests.lab.vectors.committed_cases import (
     few_written,
     right_answers,
 )
+from tests.made import text_written
 
 MEBIBYTES = 25
 """Promised size of the folder."""

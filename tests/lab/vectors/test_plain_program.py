@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from quasistatic_ref.files.content import text_written
 from quasistatic_ref.lab import program
 from quasistatic_ref.lab.program.distance import closest_points
 from quasistatic_ref.lab.program.rows import cone_table
@@ -28,6 +27,7 @@ from tests.lab.vectors.committed_cases import (
     expected_of,
     report_on,
 )
+from tests.made import text_written
 from tests.processes import python
 from tests.tolerances import CLOSED_FORM
 

@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref import Box, Capsule, ContactPair, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.contact.batches.clouds import Clouds
 from quasistatic_ref.contact.normals import TIED_FACES
-from quasistatic_ref.text.plain import bits
 from tests.contact.still import placed_shape
+from tests.made import bits
 
 pytestmark = pytest.mark.extra("compiled")
 

@@ -20,11 +20,10 @@ from quasistatic_ref import (
     solve_step,
     verify,
 )
-from quasistatic_ref.lab.made_steps.contacts import GRAVITY, contacts_of
-from quasistatic_ref.lab.made_steps.rigid import free_step
 from quasistatic_ref.optional.coulomb.fixed_point import slip_norms
 from quasistatic_ref.step.standard_form import frame_jacobian
 from tests.helpers import point_on_floor, random_step, sphere_on_floor
+from tests.made import GRAVITY, contacts_of, free_step
 from tests.oracles.planar_steps import planar_contacts, planar_step
 
 M = 0.3

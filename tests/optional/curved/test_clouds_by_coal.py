@@ -27,9 +27,9 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.files.trajectory import header_table
 from quasistatic_ref.optional.curved.clouds_by_coal import MeasuredByCoal
-from quasistatic_ref.text.plain import bits
 from tests.closeness import assert_same, assert_within
 from tests.contact.still import pair, placed_shape, standing_links
+from tests.made import bits
 from tests.tolerances import CLOSED_FORM
 
 SOLIDS = {

@@ -18,9 +18,9 @@ from quasistatic_ref.lab.study.problems.problem import EXACT
 from quasistatic_ref.lab.vectors.layers.qp import step_of
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.text.plain import bits
 from tests.extras import SCENARIOS
 from tests.lab.vectors.committed_cases import cases
+from tests.made import bits
 from tests.oracles.random_steps import designed_step, equal_groups
 from tests.pages import ROOT
 

@@ -18,8 +18,6 @@ from quasistatic_ref import (
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.cli.certificate_words import in_words
-from quasistatic_ref.lab.made_steps.contacts import Y, frames_about
-from quasistatic_ref.lab.made_steps.rigid import rigid_step
 from quasistatic_ref.optional.ellipsoid import enclosure as of_enclosure
 from quasistatic_ref.optional.ellipsoid import forces as of_forces
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
@@ -34,6 +32,7 @@ from tests.helpers import (
     point_between_walls,
     point_on_floor,
 )
+from tests.made import Y, frames_about, rigid_step
 from tests.oracles.grasp_steps import grasp_step
 from tests.tolerances import ROUNDING
 

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra
-from quasistatic_ref.lab.made_steps.contacts import contacts_of
-from quasistatic_ref.lab.made_steps.rigid import free_step
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.optional.gap import fractions
+from tests.made import contacts_of, free_step
 
 
 def step_of():

@@ -5,12 +5,12 @@ import pytest
 
 from quasistatic_ref import Certificate, solve_step, verify, verify_answer
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.lab.made_steps.contacts import repeated
 from quasistatic_ref.lab.made_steps.slider import push, push_step
 from quasistatic_ref.optional.ellipsoid.enclosure import GAP, RESERVE, checked_pair, enclosure
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from tests.closeness import assert_same
 from tests.helpers import changed, pinch
+from tests.made import repeated
 from tests.optional.pushed_block import pushed_block
 from tests.tolerances import ROUNDING
 

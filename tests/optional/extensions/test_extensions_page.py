@@ -15,10 +15,9 @@ from quasistatic_ref import (
     save_trajectory,
     solve_step,
 )
-from quasistatic_ref.lab.made_steps.contacts import contacts_of, no_contacts
-from quasistatic_ref.lab.made_steps.rigid import actuated_step
 from tests.closeness import assert_relative, assert_same, assert_within
 from tests.helpers import error, pinch, random_step
+from tests.made import actuated_step, contacts_of, no_contacts
 from tests.pages import ROOT
 from tests.tolerances import OPTIMUM, ROUNDING
 

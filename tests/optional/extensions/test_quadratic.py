@@ -21,15 +21,12 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.certify.groups import groups
-from quasistatic_ref.files.solution import solution_text
 from quasistatic_ref.files.step import step_from_record
-from quasistatic_ref.lab.made_steps.contacts import no_contacts
-from quasistatic_ref.lab.made_steps.rigid import free_step
 from quasistatic_ref.optional.extensions.extended import posed
 from quasistatic_ref.solve.backends import REQUIRED
-from quasistatic_ref.step.text import step_text
 from tests.closeness import assert_relative, assert_same
 from tests.helpers import pinch, point_on_floor, random_step, verify_refusal
+from tests.made import free_step, no_contacts, solution_text, step_text
 from tests.oracles.rational_kkt import exact
 from tests.oracles.records import value_at, with_value
 from tests.tolerances import OPTIMUM

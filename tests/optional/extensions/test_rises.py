@@ -18,8 +18,6 @@ from quasistatic_ref import (
     save_trajectory,
     solve_step,
 )
-from quasistatic_ref.lab.made_steps.contacts import contacts_of, no_contacts
-from quasistatic_ref.lab.made_steps.rigid import actuated_step, free_step
 from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.optional.extensions.extension import Rises
 from quasistatic_ref.optional.extensions.rises import with_rises
@@ -27,6 +25,7 @@ from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.closeness import assert_relative, assert_within
 from tests.files.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
 from tests.helpers import random_step
+from tests.made import actuated_step, contacts_of, free_step, no_contacts
 from tests.tolerances import ROUNDING
 
 H = 0.01

@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref import Extra
-from quasistatic_ref.lab.made_steps.rigid import rigid_step
+from tests.made import rigid_step
 
 H = 0.01
 M = 1.0

@@ -12,14 +12,13 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.certify.optimum import step_optimum
-from quasistatic_ref.lab.made_steps.contacts import X, Y, Z, contacts_of, repeated
-from quasistatic_ref.lab.made_steps.rigid import free_step, rigid_step
 from quasistatic_ref.optional.forces.of_group import COMPLIANCE, HARDLY_MOVES, group_compliance
 from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.standard_form import frame_jacobian
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import EAST, WEST, changed, point_between_walls, point_on_floor, two_bodies
+from tests.made import X, Y, Z, contacts_of, free_step, repeated, rigid_step
 from tests.optional.forces.blocks import MU_V, POLYHEDRAL, G, H, M, block, walled_block
 from tests.oracles import force_checks as checks
 from tests.oracles.loaded_piles import loaded_pile

@@ -8,10 +8,10 @@ import pytest
 
 from quasistatic_ref import InputError, ModelError
 from quasistatic_ref.errors import about_file
-from quasistatic_ref.files.content import text_written
 from quasistatic_ref.optional.mujoco import compiler
 from tests.cases import cases
 from tests.files.urdf.urdf_texts import urdf_of_text
+from tests.made import text_written
 from tests.oracles.shape_files import TETRAHEDRON
 
 BODY = '<mujoco><worldbody><body name="b"><joint/><geom size="0.1"/></body></worldbody></mujoco>'

@@ -15,7 +15,6 @@ from quasistatic_ref import (
     save_trajectory,
     solve_step,
 )
-from quasistatic_ref.lab.made_steps.contacts import no_contacts
 from quasistatic_ref.optional.show.show import (
     MOST_IN_HTML,
     MOST_SHOWN,
@@ -29,6 +28,7 @@ from tests.helpers import (
     point_on_floor,
     random_step,
 )
+from tests.made import no_contacts
 from tests.scenes import SWING, written_scenario
 
 LINES = 20

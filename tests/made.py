@@ -1,0 +1,32 @@
+"""What tests make steps, files and bits with: only this file knows where the package keeps it."""
+
+# ruff: noqa: F401
+from quasistatic_ref.files.content import text_written
+from quasistatic_ref.files.solution import infeasible_text, solution_text
+from quasistatic_ref.lab.made_steps.at_random import (
+    Rng,
+    random_contacts,
+    random_frames,
+    spread_matrix,
+)
+from quasistatic_ref.lab.made_steps.contacts import (
+    GRAVITY,
+    X,
+    Y,
+    Z,
+    contacts_of,
+    frames_about,
+    no_contacts,
+    point_jacobian,
+    repeated,
+)
+from quasistatic_ref.lab.made_steps.pinch import pinch_step
+from quasistatic_ref.lab.made_steps.rigid import (
+    actuated_step,
+    free_step,
+    point_step,
+    rigid_step,
+    sphere_step,
+)
+from quasistatic_ref.step.text import step_record, step_sha256, step_text
+from quasistatic_ref.text.plain import Plain, bits
