@@ -22,7 +22,17 @@ import quasistatic_ref  # noqa: E402 the path has to be there first
 from docs.fields_page import arrays_page, options_page, reference_page  # noqa: E402 the path has to be there first
 from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
 from quasistatic_ref.cli.main import COMMANDS, _actions, command_parser  # noqa: E402 the path has to be there first
-from quasistatic_ref.files.scenario.scenario_table import TABLES as SCENARIO  # noqa: E402 the path has to be there first
+from quasistatic_ref.files import solution, trajectory  # noqa: E402 the path has to be there first
+from quasistatic_ref.files.scenario import scenario_table  # noqa: E402 the path has to be there first
+from quasistatic_ref.step import text as step_text  # noqa: E402 the path has to be there first
+
+FIELDS = {
+    "scenario": scenario_table.TABLES,
+    "step": step_text.TABLES,
+    "solution": solution.TABLES,
+    "header": trajectory.TABLES,
+}
+"""The tables of a kind of file, for pages that list its fields."""
 
 project = "quasistatic_ref"
 author = "The quasistatic_ref developers"
@@ -225,7 +235,8 @@ def _expanded(app, docname, source):
     for heading, words in INDEXED.get(docname, {}).items():
         text = text.replace(f"{heading}\n", f"{heading}\n\n```{{index}} ! {words}\n```\n", 1)
     text = text.replace(f"]({up}gallery/README.md)", f"]({up}scripts/index.rst)")
-    text = text.replace("\n<!-- fields of a scenario -->\n", "\n" + reference_page(SCENARIO))
+    for kind, tables in FIELDS.items():
+        text = text.replace(f"\n<!-- fields of a {kind} -->\n", "\n" + reference_page(tables))
     text = text.replace("\n<!-- arrays of a trajectory -->\n", "\n" + arrays_page())
     options = options_page(_actions(command_parser(COMMANDS)))
     text = text.replace("\n<!-- options of commands -->\n", "\n" + options)

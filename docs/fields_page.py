@@ -3,11 +3,11 @@
 import argparse
 from collections.abc import Iterable
 
-from quasistatic_ref.files.declared import Field, Tables
-from quasistatic_ref.files.table_reader import REQUIRED
 from quasistatic_ref.lab.markdown import markdown_table
 from quasistatic_ref.simulate.record import ARRAYS
+from quasistatic_ref.text.declared import Field, Tables
 from quasistatic_ref.text.json_text import json_text
+from quasistatic_ref.text.table_reader import REQUIRED
 
 
 def reference_page(tables: Tables) -> str:
@@ -54,11 +54,13 @@ def _values(one: Field) -> str:
     """What a field may hold, in words."""
     if one.choices is not None:
         return ", ".join(f"`{json_text(choice)}`" for choice in one.choices)
+    if one.kind == "numbers":
+        return "numbers, " + " x ".join(f"({n})" if " " in str(n) else str(n) for n in one.shape)
     if one.kind.startswith("list of "):
         return f"{one.kind}{', not empty' if one.least else ''}"
     bounds = [(one.above, "above"), (one.least, "from"), (one.most, "to")]
     said = " ".join(f"{word} {bound:.10g}" for bound, word in bounds if bound is not None)
-    return f"{one.kind}{', ' if said else ''}{said}"
+    return f"{one.kind}{', ' if said else ''}{said}{' or null' if one.null else ''}"
 
 
 def _default(one: Field) -> str:

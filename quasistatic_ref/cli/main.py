@@ -37,7 +37,7 @@ COMMANDS = {
     "figures": "run the scripts of the gallery, and write their figures",
     "bench": "measure the time of a step, plain and fast, proved and unproved, next to MuJoCo's",
     "backends": "list the solvers that are installed here",
-    "schema": "print the JSON Schema of scenario files, for editors, or of an opinion",
+    "schema": "print the JSON Schema of a kind of file, for editors and other programs",
 }
 SWEEP = "sweep"
 """What does ``run`` with ``--sweep``."""

@@ -16,7 +16,6 @@ from quasistatic_ref.files.content import writable_folder
 from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.files.npz import header_of, npz_arrays
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.files.trajectory import FORMAT, WHAT, save_trajectory
 from quasistatic_ref.parts import is_there, needing, part
 from quasistatic_ref.simulate.failures import RunFailed
@@ -24,6 +23,7 @@ from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.trajectory import Trajectory, certified
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.text.table_reader import TableReader
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

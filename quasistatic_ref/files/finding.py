@@ -1,50 +1,34 @@
 """Findings as tables, as headers of trajectories and reports in JSON hold them."""
 
+from collections.abc import Mapping
 from typing import Any
 
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.text.declared import Field, Tables
+
+FINDING = "findings"
+TABLES = Tables({
+    FINDING: {
+        "name": Field("text", "of its kind"),
+        "grave": Field("boolean", "whether the run is not what was meant"),
+        "sentence": Field("text", "the cause, then the remedy"),
+        "remedy": Field("text", "what to do"),
+        "numbers": Field("numbers by name", "what was measured, by names that end in the unit"),
+        "of": Field("text", "what it is about", default=""),
+    },
+})  # fmt: skip
 
 
 def finding_table(finding: Finding) -> dict[str, Any]:
-    """A finding as the table that files hold.
-
-    Its fields are ``name``, ``grave``, ``sentence``, ``remedy``, ``numbers`` and ``of``.
-
-    Parameters
-    ----------
-    finding : Finding
-    """
-    return {
-        "name": finding.name,
-        "grave": finding.grave,
-        "sentence": finding.sentence,
-        "remedy": finding.remedy,
-        "numbers": dict(finding.numbers),
-        "of": finding.of,
-    }
+    """A finding as the table that files hold."""
+    return TABLES.record(FINDING, finding)
 
 
-def finding_read(table: object, where: str) -> Finding:
-    """A finding as it stands in the header of a trajectory.
+def finding_read(table: Mapping[str, Any]) -> Finding:
+    """A finding from the fields of its table.
 
     In older files the remedy comes first in its sentence, and nothing says what it is about.
-
-    Raises
-    ------
-    InputError
-        If a field is missing, unknown or of another type.
     """
-    fields = TableReader(table, where)
-    numbers = fields.table("numbers")
-    remedy = fields.text("remedy")
-    finding = Finding(
-        name=fields.text("name"),
-        grave=fields.boolean("grave"),
-        remedy=remedy,
-        cause=fields.text("sentence").removeprefix(f"{remedy}: ").removesuffix(f"; {remedy}"),
-        numbers={name: numbers.number(name) for name in numbers.names_left()},
-        of=fields.text("of", ""),
-    )
-    fields.close()
-    return finding
+    values = {**table}
+    remedy, sentence = values["remedy"], values.pop("sentence")
+    return Finding(cause=sentence.removeprefix(f"{remedy}: ").removesuffix(f"; {remedy}"), **values)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, cast, get_type_hints
+from typing import Any, cast, get_args
 
 import numpy as np
 
@@ -17,23 +17,60 @@ from quasistatic_ref.certify.verdict import Verdict
 from quasistatic_ref.certify.verification import rounded_wrenches, verify_answer
 from quasistatic_ref.errors import StepDataError, about_file, check_kind
 from quasistatic_ref.files.content import json_read, text_written
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.solution import Certificate, Kind, StepSolution
 from quasistatic_ref.step.text import step_sha256
+from quasistatic_ref.text.declared import Field, Tables
 from quasistatic_ref.text.json_text import json_text
+from quasistatic_ref.text.table_reader import TableReader
 
 UNPROVED = ("residual", "none")
 """Kinds of certificate that claim nothing which could be proved."""
 SOLUTION_FORMAT = "quasistatic-ref/solution"
 VERSION = 2
-MAY_BE_NULL = {
-    ("exact", "smallest_inactive_slack"),
-    ("exact", "smallest_active_multiplier"),
-}
-"""Numbers that may be missing: of a step without idle rows, or without active rows."""
+TOP = "a solution"
+CERTIFICATE = "certificate"
+_PAIR = {"type": "array", "items": {"type": "integer"}, "minItems": 2, "maxItems": 2}
+TABLES = Tables({
+    TOP: {
+        "format": Field("text", "what the file is", choices=(SOLUTION_FORMAT,)),
+        "version": Field("version", "of the format", choices=(VERSION,)),
+        "status": Field("text", "what is claimed", choices=("optimal", "infeasible")),
+        "cone": Field("text", "that of the step"),
+        "step_sha256": Field("text", "hash of the step, 64 hexadecimal digits in lower case"),
+        "delta_q": Field("numbers", "displacement", "m, rad", shape=("n_v",)),
+        "lam": Field(
+            "list of lists of numbers",
+            "for each contact the multiplier of each of its rows in A; in the ellipsoid those of "
+            "J_n, J_1, J_2 and J_w [N m s]",
+            "N s", schema={"items": {"type": "array", "items": {"type": "number"}}},
+        ),
+        "lam_extra": Field("numbers", "multipliers of the user's own rows", shape=("own rows",)),
+        "wrench": Field(
+            "numbers", "(f_d1, f_d2, f_n, tau_n) of each contact: computed from lam as it stands "
+            "in this file, and rounded once", "N, N m", shape=("n_c", 4),
+        ),
+        "certificate": Field("table", "what is proved", of=CERTIFICATE),
+        "farkas": Field(
+            "list of fractions", "if infeasible, in the place of the fields from delta_q on: "
+            "p/q or p as a text, for each row of A", schema={"items": {"type": "string"}},
+        ),
+    },
+    CERTIFICATE: {
+        "kind": Field("text", "of proof", choices=get_args(Kind)),
+        "active": Field("list of pairs", "contact and row of each active row",
+                        schema={"items": _PAIR}),
+        "multipliers_unique": Field("boolean", "whether lam is the only one"),
+        "differentiable": Field("boolean", "whether delta_q is, with respect to g"),
+        "smallest_inactive_slack": Field("number", "null if no row is inactive", "m", null=True),
+        "smallest_active_multiplier": Field("number", "null if no row is active", "N s", null=True),
+        "error_bound": Field("number", "of delta_q", "-"),
+        "gap": Field("number", "duality gap of lam", "N m s"),
+    },
+})  # fmt: skip
+"""Every field of a solution's file; which ones it has depends on its status and its cone."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,34 +199,35 @@ def _head(step: StepData, status: str) -> dict[str, Any]:
 
 
 def _solution(top: TableReader, step: StepData) -> SolutionFile:
-    top.check_format(SOLUTION_FORMAT, VERSION)
-    status = top.text("status", choices=("optimal", "infeasible"))
-    named = top.text("cone")
+    sizes = {"n_v": step.n_v, "n_c": step.contacts.n_c, "own rows": len(step.extra.names)}
+    take = TABLES.fields(top, TOP, **sizes)
+    take("format"), take("version")
+    status = take("status")
+    named = take("cone")
     if named != step.cone:
         raise top.error_about("cone", f"must be that of the step, {step.cone!r}", named)
-    if top.text("step_sha256") != step_sha256(step):
+    if take("step_sha256") != step_sha256(step):
         return SolutionFile(step)  # its shapes are another step's
     if status == "infeasible":
-        farkas = top.sequence("farkas")
+        farkas = take("farkas")
         if not all(isinstance(y, str) for y in farkas):
             raise top.error_about("farkas", 'must be a list of fractions such as "1/3"', farkas)
         top.close()
         return SolutionFile(step, farkas=tuple(farkas))
-    lam = _nested(top, step)
-    claims = top.table("certificate")
+    lam = _nested(top, take("lam"), step)
+    claims = take("certificate")
     solution = SolutionFile(
         step,
-        delta_q=top.array("delta_q", (step.n_v,)),
-        lam=np.concatenate([lam, top.array("lam_extra", (len(step.extra.names),))]),
-        wrench=top.array("wrench", (step.contacts.n_c, 4)),
+        delta_q=take("delta_q"),
+        lam=np.concatenate([lam, take("lam_extra")]),
+        wrench=take("wrench"),
         certificate=_certificate(claims, step),
     )
     top.close()
     return solution
 
 
-def _nested(top: TableReader, step: StepData) -> Array:
-    value = top.sequence("lam")
+def _nested(top: TableReader, value: list[Any], step: StepData) -> Array:
     if len(value) != step.contacts.n_c:
         raise top.error_about(
             "lam", f"must have one list for each of {step.contacts.n_c} contacts", value
@@ -202,27 +240,22 @@ def _nested(top: TableReader, step: StepData) -> Array:
 def _certificate(table: TableReader, step: StepData) -> Certificate:
     known = cone(step.cone).claims
     kind = cast("Kind", table.text("kind", choices=tuple(known)))
-    claims: dict[str, Any] = {
-        name: _claim(table, name, (kind, name) in MAY_BE_NULL) for name in known[kind]
-    }
+    take = TABLES.fields(table, CERTIFICATE)
+    claims = {name: take(name) for name in known[kind]}
+    if "active" in claims:
+        claims["active"] = _pairs(table, claims["active"])
     if kind == "residual":
         table.take("error_bound", None)  # a bound, which an older version wrote: not looked at
     table.close()
-    active = claims.get("active", ())
-    if active != tuple(sorted(set(active))):
-        raise table.error_about("active", "must be in increasing order", active)
     return Certificate(kind, **claims, step=None if kind == "none" else step)
 
 
-def _claim(table: TableReader, name: str, may_be_null: bool) -> Any:
-    """One claim of a file, read as the type that the certificate's field has."""
-    if may_be_null and table.is_null(name):
-        return table.take(name)
-    if name == "active":
-        for pair in (pairs := table.sequence(name)):
-            good = isinstance(pair, list) and len(pair) == 2
-            if not (good and all(type(i) is int for i in pair)):
-                raise table.error_about(name, "must be a list of [contact, row]", pair)
-        return tuple((j, i) for j, i in pairs)
-    kind = get_type_hints(Certificate)[name]
-    return table.boolean(name) if kind == bool | None else table.number(name)
+def _pairs(table: TableReader, value: list[Any]) -> tuple[tuple[int, int], ...]:
+    for pair in value:
+        good = isinstance(pair, list) and len(pair) == 2
+        if not (good and all(type(i) is int for i in pair)):
+            raise table.error_about("active", "must be a list of [contact, row]", pair)
+    active = tuple((j, i) for j, i in value)
+    if active != tuple(sorted(set(active))):
+        raise table.error_about("active", "must be in increasing order", active)
+    return active

@@ -1,27 +1,63 @@
 """Trajectories as ``.npz`` files without pickles, whose header is JSON."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.errors import about_field, about_file, check_kind
 from quasistatic_ref.files.content import written_whole
-from quasistatic_ref.files.finding import finding_read, finding_table
+from quasistatic_ref.files.finding import FINDING, finding_read, finding_table
+from quasistatic_ref.files.finding import TABLES as TABLES_OF_FINDING
 from quasistatic_ref.files.npz import json_array, npz_record
 from quasistatic_ref.files.record import check_arrays, check_needed, without_steps
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.simulate.distances import CLOSED, DISTANCES
 from quasistatic_ref.simulate.header import RECORDS, Header
 from quasistatic_ref.simulate.law import CONVEX, LAWS
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.text.declared import Field, Tables
+from quasistatic_ref.text.table_reader import TableReader
 
 FORMAT = "quasistatic-ref/trajectory"
 VERSION = 2
 WHAT = "a trajectory written by this program"
+TOP = "the header of a trajectory"
+TABLES = Tables({
+    TOP: {
+        "format": Field("text", "what the file is", choices=(FORMAT,)),
+        "version": Field("version", "of the format", choices=(VERSION,)),
+        "h": Field("number", "time step", "s", above=0.0),
+        "backend": Field("text", "name of the solver"),
+        "cone": Field("text", "friction cone of every contact"),
+        "record": Field("text", "what the file holds", choices=RECORDS),
+        "n_a": Field("integer", "number of actuated coordinates", least=0),
+        "n_u": Field("integer", "number of un-actuated coordinates", least=0),
+        "coordinates": Field("list of words", "names of the entries of delta_q"),
+        "units": Field("list of words", "of the entries of delta_q", default=None),
+        "positions": Field("list of words", "names of the entries of q", default=None),
+        "slots": Field("list of words", "places of contacts: a pair and a number", default=None),
+        "steps": Field("integer", "how many succeeded", least=0),
+        "extra": Field("list of words", "names of an extension's rows"),
+        "failed": Field("text", "why the run ended early", null=True),
+        "quasi_dynamic_number": Field("number", "the largest Pi of a step", "-", null=True),
+        "largest_boundary_layer": Field("number", "of a step", "m", null=True),
+        "contacts": Field("list of lists of words", "names in each step of a full record"),
+        "findings": Field("list of tables", "what is doubtful", default=[], of=FINDING),
+        "law": Field("text", "as of a scenario", default=CONVEX, choices=LAWS),
+        "distances": Field("text", "as of a scenario", default=CLOSED, choices=DISTANCES),
+        "alone": Field("boolean", "whether the steps are all that was solved", default=True),
+        "unanswered": Field("list of integers", "steps without the backend's answer", default=[]),
+        "not_looked_at": Field("text", "what the findings leave out, and why", default=""),
+        "ignore": Field("list of words", "names of findings that are not said", default=[]),
+        "scene_sha256": Field("text", "hash of the scene", default=""),
+        "warnings": Field("list of words", "of files from before there were findings", default=[]),
+    },
+    **TABLES_OF_FINDING,
+})  # fmt: skip
 
 
 def load_trajectory(path: str | Path) -> Trajectory:
@@ -44,10 +80,7 @@ def load_trajectory(path: str | Path) -> Trajectory:
     """
     table, arrays = npz_record(path, WHAT)
     with about_file(path):
-        top = TableReader(table)
-        top.check_format(FORMAT, VERSION)
-        check_needed(arrays)
-        header = header_read(top, arrays["q"].shape[-1], arrays["rows"].size)
+        header = header_read(table, arrays)
         if not header.steps:  # older files leave out what has no entries
             arrays = without_steps(header, arrays)
         check_arrays(header, arrays)
@@ -85,61 +118,36 @@ def header_table(header: Header) -> dict[str, Any]:
     return table
 
 
-def header_read(top: TableReader, n_q: int, n_c: int) -> Header:
-    """The header of a file, whose arrays have so many positions and contacts.
+def header_read(table: object, arrays: Mapping[str, NDArray[Any]]) -> Header:
+    """The header of a file from its table, and its arrays, of whatever shape [of the notation].
 
     What files have from before there were names of it is numbered.
 
     Raises
     ------
     InputError
-        If a field is missing, unknown or of another type.
+        If a field is missing, unknown or of another type, or an array that each file has.
     """
-    with about_field("cone"):
-        friction = cone(top.text("cone")).name
-    coordinates = tuple(top.words("coordinates"))
-    contacts = top.sequence("contacts")
+    top = TableReader(table)
+    values = TABLES.read(top, TOP)
+    check_needed(arrays)
+    contacts, unanswered = values["contacts"], values["unanswered"]
     if not all(isinstance(names, list) for names in contacts):
         raise top.error_about("contacts", "must be lists of names", contacts)
-    top.words("warnings", [])  # of files from before there were findings
-    listed = enumerate(top.sequence("findings", []))
-    header = Header(
-        h=top.number("h", above=0.0),
-        backend=top.text("backend"),
-        cone=friction,
-        record=top.text("record", choices=RECORDS),
-        n_a=top.integer("n_a", least=0),
-        n_u=top.integer("n_u", least=0),
-        coordinates=coordinates,
-        units=tuple(top.words("units", ["m, rad"] * len(coordinates))),
-        positions=tuple(top.words("positions", [f"q.{i} [m, rad]" for i in range(n_q)])),
-        slots=tuple(top.words("slots", [f"contact/{i}/0" for i in range(n_c)])),
-        steps=top.integer("steps", least=0),
-        extra=tuple(top.words("extra")),
-        failed=_unless_null(top, "failed", top.text),
-        quasi_dynamic_number=_unless_null(top, "quasi_dynamic_number", top.number),
-        largest_boundary_layer=_unless_null(top, "largest_boundary_layer", top.number),
-        contacts=tuple(map(tuple, contacts)),
-        findings=tuple(finding_read(one, f"findings[{i}]") for i, one in listed),
-        law=top.text("law", CONVEX, LAWS),
-        distances=top.text("distances", CLOSED, DISTANCES),
-        alone=top.boolean("alone", True),
-        unanswered=_steps(top, "unanswered"),
-        not_looked_at=top.text("not_looked_at", ""),
-        ignore=tuple(top.words("ignore", [])),
-        scene_sha256=top.text("scene_sha256", ""),
-    )
-    top.close()
-    return header
-
-
-def _steps(top: TableReader, name: str) -> tuple[int, ...]:
-    """Numbers of steps that ran, ascending."""
-    numbers = top.sequence(name, [])
-    if not all(type(k) is int and k >= 0 for k in numbers) or numbers != sorted(set(numbers)):
-        raise top.error_about(name, "must be numbers of steps, in increasing order", numbers)
-    return tuple(numbers)
-
-
-def _unless_null(top: TableReader, name: str, read: Callable[[str], Any]) -> Any:
-    return top.take(name) if top.is_null(name) else read(name)
+    counted = all(type(k) is int and k >= 0 for k in unanswered)
+    if not counted or unanswered != sorted(set(unanswered)):
+        problem = "must be numbers of steps, in increasing order"
+        raise top.error_about("unanswered", problem, unanswered)
+    with about_field("cone"):
+        values["cone"] = cone(values["cone"]).name
+    numbered = {
+        "units": ["m, rad"] * len(values["coordinates"]),
+        "positions": [f"q.{i} [m, rad]" for i in range(arrays["q"].shape[-1])],
+        "slots": [f"contact/{i}/0" for i in range(arrays["rows"].size)],
+    }
+    values |= {name: words for name, words in numbered.items() if values[name] is None}
+    values["contacts"] = [*map(tuple, contacts)]
+    values["findings"] = [*map(finding_read, values["findings"])]
+    for name, value in values.items():
+        values[name] = tuple(value) if isinstance(value, list) else value
+    return Header(**{name: values[name] for name in Header.kept()})

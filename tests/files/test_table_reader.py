@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, ScenarioError
-from quasistatic_ref.files.table_reader import TableReader
+from quasistatic_ref.text.table_reader import TableReader
 from tests.cases import cases, refusal
 from tests.closeness import assert_same
 

@@ -4,17 +4,24 @@ import json
 import re
 import tomllib
 
+import numpy as np
 import pytest
 from jsonschema import Draft4Validator
 
 from docs.fields_page import reference_page
-from quasistatic_ref import InputError, load_scenario
+from quasistatic_ref import Extra, InputError, load_scenario, solve_step
 from quasistatic_ref.files.resources import scenario_path
 from quasistatic_ref.files.scenario.scenario_table import TABLES
 from quasistatic_ref.files.scenario.world_solids import SOLIDS
-from quasistatic_ref.lab.commands.schema import scenario_schema
+from quasistatic_ref.files.solution import infeasible_text, solution_text
+from quasistatic_ref.files.trajectory import header_table
+from quasistatic_ref.lab.commands.schema import SCHEMAS, scenario_schema
+from quasistatic_ref.step.text import step_record
+from quasistatic_ref.text.json_text import plain
+from tests.cases import cases
 from tests.errors.scene import SCENE, changed, scene_written
 from tests.extras import SCENARIOS
+from tests.helpers import random_step
 from tests.oracles.records import toml_text
 
 RICH = changed(
@@ -106,5 +113,40 @@ def test_the_defaults_that_the_table_states_are_those_of_the_loader(tmp_path):
     assert load_scenario(scene_written(tmp_path, changed(bare, *stated))) == plain
 
 
-def test_the_command_prints_the_schema(cli):
+@pytest.mark.parametrize("kind", ["scenario", "step", "solution", "header"])
+def test_the_command_prints_the_schema(cli, kind):
+    assert json.loads(cli("schema", kind).out) == json.loads(json.dumps(SCHEMAS[kind]()))
     assert json.loads(cli("schema").out) == json.loads(json.dumps(scenario_schema()))
+
+
+STEP = random_step(7, n_a=2, n_u=3, rows=(6, 4))
+LIMITED = STEP.replace(extra=Extra(("a", "b"), np.eye(2, 5), [-1.0, -1.0], H=np.eye(5)))
+RUN = load_scenario("sphere_spin", steps=2).run(progress=False)
+FILES = {
+    "a step": ("step", step_record(STEP)),
+    "a step with rows and a cost": ("step", step_record(LIMITED)),
+    "a step in the ellipsoid": ("step", step_record(STEP.replace(cone="ellipsoid"))),
+    "a solution": ("solution", json.loads(solution_text(solve_step(STEP)))),
+    "a solution with rows": ("solution", json.loads(solution_text(solve_step(LIMITED)))),
+    "an infeasible step": ("solution", json.loads(infeasible_text(STEP, ["1/3"] * 10))),
+    "a header": ("header", header_table(RUN.header)),
+}
+
+MAY_BE_LEFT_OUT = {
+    "step": {"cone", "extra"},
+    "solution": set(),
+    "header": {"units", "positions", "slots", "findings", "scene_sha256"},
+}
+
+
+@cases("kind, record", FILES)
+def test_the_schema_of_a_file_takes_what_is_written_and_no_other_field(kind, record):
+    Draft4Validator.check_schema(SCHEMAS[kind]())
+    checked = Draft4Validator(SCHEMAS[kind]())
+    record = plain(record)
+    assert [error.message for error in checked.iter_errors(record)] == []
+    for wrong in (record | {"backends": 1}, record | {"version": 9}, record | {"cone": 1}):
+        assert not checked.is_valid(wrong)
+    for name in record:
+        less = {key: value for key, value in record.items() if key != name}
+        assert checked.is_valid(less) == (name in MAY_BE_LEFT_OUT[kind])

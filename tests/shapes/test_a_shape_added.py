@@ -15,13 +15,13 @@ from quasistatic_ref.contact import crossings as crossings_of
 from quasistatic_ref.contact.solids import solid_pair as solid_pair_of
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.files.declared import Field
 from quasistatic_ref.files.scenario.world_solids import SOLIDS, Kind
 from quasistatic_ref.optional.curved.faces import kinks
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.moments import moment
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import dimensions
+from quasistatic_ref.text.declared import Field
 from tests.closeness import assert_relative, assert_within
 from tests.contact.still import in_world
 from tests.errors.scene import SCENE, changed, scene_written

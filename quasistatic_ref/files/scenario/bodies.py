@@ -18,7 +18,6 @@ from quasistatic_ref.files.scenario.scenario_table import (
     fields_of,
     pose,
 )
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.model.coordinates import no_coordinate
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
@@ -29,6 +28,7 @@ from quasistatic_ref.simulate.target import JointTrack, Wrenches
 from quasistatic_ref.step.extension import ExtensionOfQ, StepExtension
 from quasistatic_ref.text.plain import Plain
 from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.text.table_reader import TableReader
 
 
 @dataclass(frozen=True, eq=False)

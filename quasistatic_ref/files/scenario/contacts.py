@@ -20,12 +20,12 @@ from quasistatic_ref.files.scenario.bodies import BodyEntry
 from quasistatic_ref.files.scenario.checks import checked_fields
 from quasistatic_ref.files.scenario.scenario_table import CONTACT, SHAPE, WITHIN, fields_of, pose
 from quasistatic_ref.files.scenario.world_solids import SOLIDS
-from quasistatic_ref.files.table_reader import REQUIRED, TableReader
 from quasistatic_ref.files.text import decimal
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.text.quoting import known_names, suggestion
+from quasistatic_ref.text.table_reader import REQUIRED, TableReader
 from quasistatic_ref.text.together import once
 
 Shapes = dict[str, list[PlacedShape]]

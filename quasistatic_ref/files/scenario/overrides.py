@@ -11,8 +11,8 @@ from typing import Any
 from quasistatic_ref.errors import InputError, ScenarioError
 from quasistatic_ref.files.content import LONG_KEY, MOST_PARTS
 from quasistatic_ref.files.option_change import OptionChange
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.text.json_text import plain
+from quasistatic_ref.text.table_reader import TableReader
 
 Changes = Sequence[str] | Mapping[str, Any]
 

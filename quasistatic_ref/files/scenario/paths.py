@@ -15,8 +15,8 @@ from pathlib import Path
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.mesh_files import PACKAGE
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.model.tree import Tree
+from quasistatic_ref.text.table_reader import TableReader
 
 SHARED = Path("cmeel.prefix", "share")
 """Where installed packages keep robots, next to the modules of Python."""

@@ -41,7 +41,6 @@ from quasistatic_ref.files.scenario.overrides import Changes, Origins, about_cha
 from quasistatic_ref.files.scenario.paths import folders_in
 from quasistatic_ref.files.scenario.scenario_table import FORMAT, TOP, VERSION
 from quasistatic_ref.files.scenario.scene_words import HERE, scene_tables
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import part
@@ -60,6 +59,7 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ
 from quasistatic_ref.text.plain import Plain, fingerprint
 from quasistatic_ref.text.shown import Shown
+from quasistatic_ref.text.table_reader import TableReader
 from quasistatic_ref.text.together import together
 
 MOST_BODIES = 1000

@@ -5,9 +5,7 @@ Rules about several fields, such as that rows = 6 needs mu_omega, are checked by
 
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.files.declared import Field, Tables
 from quasistatic_ref.files.scenario.world_solids import SOLIDS
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.model.body import BASE_WORDS
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.simulate.distances import DISTANCES
@@ -18,6 +16,8 @@ from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.simulator import GRAVITY
 from quasistatic_ref.solve.backends import CERTIFY
 from quasistatic_ref.step.cones import CONES
+from quasistatic_ref.text.declared import Field, Tables
+from quasistatic_ref.text.table_reader import TableReader
 
 FORMAT = "quasistatic-ref/scenario"
 VERSION = 1

@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from quasistatic_ref.errors import ScenarioError
-from quasistatic_ref.files.declared import Field
 from quasistatic_ref.files.mesh_files import mesh_hull
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.shapes.placed_shape import (
@@ -18,6 +17,7 @@ from quasistatic_ref.shapes.placed_shape import (
     Shape,
     Sphere,
 )
+from quasistatic_ref.text.declared import Field
 from quasistatic_ref.text.json_text import plain
 
 

@@ -9,7 +9,6 @@ from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.files.scenario.bodies import BodyEntry
 from quasistatic_ref.files.scenario.checks import checked_fields
 from quasistatic_ref.files.scenario.scenario_table import SUPPORT, URDF
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.model.system import System
@@ -19,6 +18,7 @@ from quasistatic_ref.optional.extensions.rises import private_rises, urdf_fricti
 from quasistatic_ref.optional.extensions.stops import JointLimits, stops_of, urdf_limits
 from quasistatic_ref.step.extension import ExtensionOfQ
 from quasistatic_ref.text.plain import Plain
+from quasistatic_ref.text.table_reader import TableReader
 
 
 @dataclass(frozen=True, eq=False)

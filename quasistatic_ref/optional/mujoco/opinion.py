@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.files.declared import Field, Tables
 from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.optional.mujoco.compared import Body, Contact
 from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.text.declared import Field, Tables
 from quasistatic_ref.text.plain import Plain
 from quasistatic_ref.text.quoting import aligned
 

@@ -17,7 +17,6 @@ from quasistatic_ref.files.scenario.checks import run_fields
 from quasistatic_ref.files.scenario.overrides import Changes, Origins, about_changes, apply_settings
 from quasistatic_ref.files.scenario.scenario import FastBackend, Scenario
 from quasistatic_ref.files.scenario.scenario_table import TOP, fields_of
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.mujoco.constraints import violated
@@ -38,6 +37,7 @@ from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.extension import ExtensionOfQ
 from quasistatic_ref.text.plain import fingerprint
 from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.text.table_reader import TableReader
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel

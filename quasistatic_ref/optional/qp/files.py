@@ -7,7 +7,6 @@ from typing import Any
 
 from quasistatic_ref.errors import about_file
 from quasistatic_ref.files.content import json_read
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.optional.qp.answer import (
     QP_FORMAT,
     VERSION,
@@ -18,6 +17,7 @@ from quasistatic_ref.optional.qp.answer import (
     QPUnbounded,
 )
 from quasistatic_ref.optional.qp.program import FIELDS, NO_LIMIT, program_of
+from quasistatic_ref.text.table_reader import TableReader
 
 
 def load_answer(path: str | Path) -> Answer:

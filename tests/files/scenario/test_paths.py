@@ -4,7 +4,7 @@ import pytest
 
 from quasistatic_ref import ScenarioError
 from quasistatic_ref.files.scenario.paths import path_in, shared_folders
-from quasistatic_ref.files.table_reader import TableReader
+from quasistatic_ref.text.table_reader import TableReader
 
 
 def path_found(folder, address):

@@ -6,7 +6,7 @@ import pytest
 
 from quasistatic_ref import load_scenario
 from quasistatic_ref.files.scenario.scenario_table import TABLES
-from quasistatic_ref.files.table_reader import TableReader
+from quasistatic_ref.text.table_reader import TableReader
 from tests.errors.scene import SCENE, changed, scene_written
 from tests.files.urdf.urdf_texts import link, robot, urdf_of_text
 

@@ -76,9 +76,9 @@ def test_findings_that_are_ignored_do_not_count_and_are_named(tmp_path, cli):
 
 def test_a_file_whose_sentences_begin_with_the_remedy_is_read():
     old = {"name": "free fall", "grave": True, "remedy": "hold it", "numbers": {"fallen_mm": 3.0}}
-    found = finding_read(old | {"sentence": "hold it: it falls"}, "findings[0]")
+    found = finding_read(old | {"sentence": "hold it: it falls"})
     assert str(found) == "grave: it falls; hold it [free fall]"
-    assert finding_read(finding_table(found), "findings[0]") == found
+    assert finding_read(finding_table(found)) == found
 
 
 def fails(*_):

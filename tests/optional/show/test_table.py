@@ -9,8 +9,7 @@ import pandas
 import pytest
 
 from quasistatic_ref import InputError, Trajectory, load_scenario, load_trajectory
-from quasistatic_ref.files.table_reader import TableReader
-from quasistatic_ref.files.trajectory import FORMAT, VERSION, header_read, header_table
+from quasistatic_ref.files.trajectory import header_read, header_table
 from quasistatic_ref.optional.show.table import table_written
 from tests.closeness import assert_same
 from tests.scenes import BALL, written_scenario
@@ -105,9 +104,7 @@ def test_a_table_of_another_kind_is_refused_before_the_run(tmp_path, scene, cli)
 def test_files_without_names_have_numbers(run):
     names = ("positions", "slots", "units", "scene")
     table = {name: words for name, words in header_table(run.header).items() if name not in names}
-    top = TableReader(table)
-    top.check_format(FORMAT, VERSION)
-    plain = header_read(top, run.q.shape[1], len(run["rows"]))
+    plain = header_read(table, run.arrays)
     table = Trajectory(plain, run.arrays).to_pandas()
     contacts = Trajectory(plain, run.arrays).contacts_to_pandas()
     assert list(contacts["pair"][:2]) == ["contact/0", "contact/1"]

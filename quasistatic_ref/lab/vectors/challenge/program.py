@@ -11,11 +11,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.lab.vectors.check.answers import QUATERNIONS, TANGENTS, Answers
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.text.json_text import plain
+from quasistatic_ref.text.table_reader import TableReader
 
 START = 6.0
 """The first answer may take so many times longer [-]: a program starts, perhaps compiles itself."""

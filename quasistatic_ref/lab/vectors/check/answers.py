@@ -4,9 +4,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.table_reader import TableReader
 from quasistatic_ref.lab.vectors.files import ANSWERS, fields_after_head
 from quasistatic_ref.lab.vectors.trees import Json
+from quasistatic_ref.text.table_reader import TableReader
 
 TANGENTS = ("body", "world", "mujoco")
 QUATERNIONS = ("xyzw", "wxyz")

@@ -4,7 +4,7 @@ A reader takes each field once, checks it, and refuses in :meth:`TableReader.clo
 not taken: a misspelt name is an error, never a default.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, Final
 
 import numpy as np
@@ -213,15 +213,23 @@ class TableReader:
         table = self.take(field, default)
         return TableReader(table, self.name(field), self.error, (*self.keys, field), self._of_user)
 
+    def tables(self, field: str, default: Any = REQUIRED) -> Iterator["TableReader"]:
+        """The readers of a field that is a list of tables, one after the other."""
+        for i, table in enumerate(self.sequence(field, default)):
+            yield TableReader(table, f"{self.name(field)}[{i}]", self.error)
+
     def check_format(self, name: str, *versions: int) -> int:
         """Take ``format`` and ``version`` of a file, refuse others than these: the version."""
         self.text("format", choices=(name,))
-        version = self.integer("version")
+        return self.version("version", versions)
+
+    def version(self, field: str, versions: tuple[int, ...]) -> int:
+        """The version of a format, one of those that this program reads."""
+        version = self.integer(field)
         if version not in versions:
             known = " and ".join(map(str, versions))
-            raise self.error_about(
-                "version", f"is not known here; this program reads {known}", version
-            )
+            problem = f"is not known here; this program reads {known}"
+            raise self.error_about(field, problem, version)
         return version
 
     def only(self, known: Iterable[str]) -> None:
