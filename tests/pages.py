@@ -20,7 +20,7 @@ def flat(text):
 
 def printed_blocks(page):
     """The fenced blocks of printed text on a page, without their indents."""
-    blocks = re.findall(r"^( *)```text\n(.*?)^\1```$", page, re.MULTILINE | re.DOTALL)
+    blocks = re.findall(r"^( *)```(?:text|output)\n(.*?)^\1```$", page, re.MULTILINE | re.DOTALL)
     return [re.sub(rf"^{indent}", "", block, flags=re.MULTILINE) for indent, block in blocks]
 
 

@@ -58,7 +58,7 @@ def sphere(load: float) -> StepData:
 
 def motion(step: StepData, law: str) -> Array:
     """delta_q of a step under a law, shape (n_v,) [m, rad]."""
-    return (coulomb_step if law == COULOMB else solve_step)(step, fast=True).delta_q
+    return (coulomb_step if law == COULOMB else solve_step)(step, "daqp").delta_q
 
 
 @cache
