@@ -73,7 +73,7 @@ PARTS: Final = {
 
 
 def part(word: str, written: str | None = None) -> Any:
-    """What the table names by a word, loaded.
+    """The function or class of an optional part that ``PARTS`` lists under a word, imported.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def part(word: str, written: str | None = None) -> Any:
 
 
 def is_there(word: str) -> bool:
-    """Whether the folder of a word's part is there, for what is done without it, too."""
+    """Whether the optional part of a word is installed, for what can be done without it."""
     folder = ".".join(PARTS[word][1].split(".")[:2])
     try:
         import_module(f"{PACKAGE}.{folder}")
@@ -106,7 +106,7 @@ def is_there(word: str) -> bool:
 
 @contextmanager
 def needing(written: str) -> Iterator[None]:
-    """Around imports of an optional part, for what a user wrote and means nothing without it.
+    """A context for imports of an optional part, without which the user's text means nothing.
 
     Raises
     ------

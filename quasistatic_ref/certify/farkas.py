@@ -67,7 +67,7 @@ class FarkasVector(Plain):
 def farkas_vector(
     step: StepData, form: ExactForm, proof: Combination, rows: Indices
 ) -> FarkasVector:
-    """An exact proof in the terms of its step.
+    """The Farkas vector of a step, from a proof about the rows of one of its groups.
 
     Parameters
     ----------

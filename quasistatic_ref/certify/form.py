@@ -58,7 +58,7 @@ Row: TypeAlias = "list[arb]"
 
 
 def exact_matrix(array: Array) -> arb_mat:
-    """Finite float64 numbers, without rounding.
+    """Finite float64 numbers as an exact matrix, without rounding.
 
     Parameters
     ----------
@@ -256,12 +256,12 @@ class ExactForm(ABC):
 
     @cached_property
     def A(self) -> arb_mat:
-        """All rows a, shape (m, n)."""
+        """The coefficients a of all rows a x + c >= 0, shape (m, n)."""
         return columns(self.exact_rows(range(self.m)), slice(0, self.n))
 
     @cached_property
     def c(self) -> arb_mat:
-        """All c, shape (m, 1)."""
+        """The constants c of all rows a x + c >= 0, shape (m, 1)."""
         return columns(self.exact_rows(range(self.m)), slice(self.n, self.n + 1))
 
 

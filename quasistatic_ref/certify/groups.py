@@ -50,7 +50,7 @@ class Group(NamedTuple):
 
 
 class Groups(tuple[Group, ...]):
-    """The groups of steps of one structure: one object for it, which is compared as such."""
+    """The groups of all steps of one structure: one object, equal to itself alone."""
 
     __slots__ = ()
     __eq__ = object.__eq__

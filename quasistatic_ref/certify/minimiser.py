@@ -493,7 +493,7 @@ def _sign(ball: arb) -> int:
 
 
 def sums(held: Sequence[Sequence[fmpz]], rows: Sequence[Sequence[fmpz]]) -> list[bool]:
-    """Which rows are sums of independent ones that are `held`, each some times: exactly.
+    """Which rows are exactly linear combinations of the independent rows `held`.
 
     Most of the others are shown by a prime. It names few of those held as the terms of a sum, and
     elimination of these in whole numbers proves it.

@@ -43,7 +43,7 @@ class BearingRows(Protocol):
 
 
 class Start(Protocol):
-    """Chooses the rows of W among some."""
+    """A function that finds, among some rows, those that bear, and the minimiser on them."""
 
     def __call__(self, form: ExactForm, warm: Sequence[int], bits: int) -> Minimiser:
         """The minimiser on those that bear, in balls of some bits."""

@@ -141,7 +141,7 @@ def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> Clos
 
 
 def kind_of(pair: ContactPair) -> Kind | None:
-    """The kind of batch that a pair belongs to; None if the pair is searched by itself."""
+    """Which pairs can be searched together with this one: the same kind; None if none can."""
     sides = (pair.alpha.shape, pair.beta.shape)
     cloud_last = isinstance(sides[1], PointCloud)
     cloud, solid = sides[::-1] if cloud_last else sides

@@ -399,7 +399,7 @@ def _cloud_on_solid(pair: ContactPair, solid: ShapeInWorld, cloud: ShapeInWorld)
 
 
 class Corners:
-    """The corners of another solid, with balls about them, over a solid.
+    """The corners of one solid as candidates for contacts with another solid.
 
     Parameters
     ----------
@@ -444,7 +444,7 @@ def contacts_over(
     surface: Surface,
     number: Indices,
 ) -> ClosestPoints:
-    """Contacts of a solid, as alpha's, with points of beta's body that have balls about them.
+    """Contacts of a solid, alpha's, with points of beta's body, each the middle of a ball.
 
     Parameters
     ----------

@@ -61,7 +61,7 @@ class ShapeInWorld(NamedTuple):
 
     @property
     def pose(self) -> Pose:
-        """R and t."""
+        """The pose of the shape in the world: R, and t [m]."""
         return Pose(self.R, self.t)
 
     def farthest(self, direction: Array) -> Array:

@@ -120,7 +120,7 @@ def readable_folders(uri: str, folder: Path) -> list[Path]:
 
 
 def root_option(uri: str, path: Path) -> str:
-    """The option that lets a URI lead to a path, and others that leave the same folder alike."""
+    """The option ``--root FOLDER`` for the command line with which a URI leads to a path."""
     below = [part for part in Path(uri).parts if part != ".."]
     inside = not Path(uri).is_absolute() and path.parts[-len(below) :] == tuple(below)
     folder = path.parents[max(len(below) - 2, 0)] if inside else path.parent

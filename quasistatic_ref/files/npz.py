@@ -125,7 +125,7 @@ def json_array(header: Mapping[str, Any]) -> NDArray[np.uint8]:
 
 @contextmanager
 def readable(path: str | Path, problem: str) -> Iterator[None]:
-    """InputError, which says `problem`, where what is done with a file in this block fails.
+    """A context in which a failure to read a file becomes an InputError that says `problem`.
 
     NumPy warns of headers that Python 2 wrote, and Python of odd ones: nothing is printed.
     """

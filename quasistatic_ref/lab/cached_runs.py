@@ -10,7 +10,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 
 @cache
 def grasp(case: str) -> tuple[Scenario, Trajectory]:
-    """``bunny_grasp``, ``"with torsion"`` or ``"without torsion"``; a second time without work."""
+    """The run of ``bunny_grasp`` ``"with torsion"`` or ``"without torsion"``, made once."""
     scenario = load_scenario("bunny_grasp", CASES[case], fast=True)
     return scenario, scenario.run(progress=False, findings=False)
 

@@ -80,7 +80,7 @@ def rotations(scenario: Scenario, runs: Mapping[str, Trajectory]) -> dict[str, A
 
 
 def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object]:
-    """What one run of the grasp came to, during the lift.
+    """Rotation, lift height and further numbers of one run of the grasp, during the lift.
 
     Returns
     -------

@@ -16,7 +16,7 @@ Result = TypeVar("Result")
 
 @contextmanager
 def workers(jobs: int | None) -> Iterator[Executor | None]:
-    """What makes `jobs` calls at once: processes, which end with this one; None for a single job.
+    """An executor of `jobs` processes, which end with this one; None for a single job.
 
     A call must be a function of a module: scripts need no ``__main__`` guard, since these processes
     do not import them.

@@ -240,12 +240,12 @@ def _changes(point: Mapping[str, Any], settings: Sequence[str]) -> list[str]:
 
 
 def check_scenario(scenario: str, changes: Sequence[str]) -> None:
-    """InputError as :func:`.load_scenario` and the simulator of its scenario have it."""
+    """Raise the InputError that a scenario with these changes, or its simulator, raises."""
     load_scenario(scenario, changes).simulator()
 
 
 def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Trajectory, Row]:
-    """The name of a file; a run, or the part of it that succeeded, to be kept in it; its row.
+    """One run of a sweep: the name of its file, the trajectory, and its row of outcomes.
 
     Raises
     ------

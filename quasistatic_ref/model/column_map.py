@@ -43,7 +43,7 @@ class JacobianColumns(ABC):
 
 
 class JointColumns(JacobianColumns):
-    """The columns of pinocchio's Jacobian ``data.J``.
+    """Which columns of pinocchio's ``data.J`` move a link, and with which coordinate.
 
     A link is moved by the joints between it and the world. A mimic joint has columns, but no
     coordinate of its own: it moves with the coordinate of another joint.

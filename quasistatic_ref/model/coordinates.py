@@ -32,7 +32,7 @@ def no_coordinate(of: str) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Order:
-    """The permutation between the two orders.
+    """The permutation between the paper's order of coordinates and pinocchio's.
 
     Parameters
     ----------

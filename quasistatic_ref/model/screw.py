@@ -22,7 +22,7 @@ HalfTurn = tuple[Number, Number, Number]
 
 
 def half_turn(w: Vector) -> HalfTurn:
-    """Half of the turn by |w|, of 3 floats [rad]."""
+    """Of a rotation vector w, 3 floats [rad]: |w|, cos(|w| / 2) and sin(|w| / 2) / (|w| / 2)."""
     a = length(w)
     b = a / 2
     C, S = cos_sin(b)
@@ -113,7 +113,7 @@ def turned(q_joint: Vector, w: Vector, half: HalfTurn) -> list[Number]:
 
 
 def rotation_between(q_joint: Vector, q_joint_next: Vector) -> tuple[list[Number], Number, Number]:
-    """What turns one quaternion into another: w, a = |w| <= pi [rad], and 1 - (a/2) cot(a/2)."""
+    """The rotation vector w between two quaternions, a = |w| <= pi [rad], 1 - (a/2) cot(a/2)."""
     x, y, z, s = q_joint
     p, q, r, k = q_joint_next
     v = [

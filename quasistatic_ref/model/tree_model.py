@@ -14,7 +14,7 @@ from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 @dataclass(frozen=True, eq=False)
 class TreeModel:
-    """A tree as a model.
+    """The tree of a body with its pinocchio Model and placed shapes.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class TreeModel:
 
 
 def tree_model(tree: Tree, base: str = "fixed", actuated: str | Sequence[str] = ()) -> TreeModel:
-    """The model of a tree.
+    """The pinocchio Model of a tree, with its shapes and notes.
 
     Parameters
     ----------

@@ -49,7 +49,7 @@ class WorkspacePart(NamedTuple):
 
 
 class Workspace:
-    """All bodies of a world.
+    """The memory in which pinocchio computes poses and Jacobians of all bodies of a world.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ class Workspace:
         return arrays
 
     def gravity_torque(self, q_parts: Sequence[Array], gravity: tuple[float, ...]) -> Array:
-        """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m].
+        """The negative force of gravity on all coordinates, shape (n_v,) [N, N m].
 
         It is in pinocchio's order.
 

@@ -39,7 +39,7 @@ times as long to make."""
 
 
 class Part(NamedTuple):
-    """Bodies that follow one another.
+    """Bodies that share one pinocchio Model.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class Part(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class World:
-    """Several bodies.
+    """Several bodies as one system: their links, joints and masses, and their Models.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ class World:
 
     @cached_property
     def places(self) -> dict[str, tuple[pin.Model, int]]:
-        """The model that each joint stands in, and its number there, by its name in the model."""
+        """For each joint, by its name in the Model: which Model it is in, and its number there."""
         return {
             name: (part.model, number)
             for part in self.parts
@@ -105,7 +105,7 @@ class World:
 
     @cached_property
     def frames(self) -> list[tuple[pin.Model, int]]:
-        """The model that each link but the world stands in, and its frame there."""
+        """For each link but the world: which Model it is in, and its frame there."""
         return [(part.model, frame) for part in self.parts for frame in part.frames]
 
 

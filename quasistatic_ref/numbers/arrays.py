@@ -26,7 +26,7 @@ _CALLER: ContextVar[Context | None] = ContextVar("_CALLER", default=None)
 
 
 def without_warnings(function: Callable[..., Result], *arguments: object) -> Result:
-    """What a function returns, called where NumPy does not warn.
+    """Call a function where NumPy does not warn, and return its result.
 
     An overflow shows in the result, and the flags of the processor, on which NumPy's warnings
     depend, get lost between BLAS's threads. (To call ``np.seterr`` each time takes longer.)
@@ -44,7 +44,7 @@ def _called_from(
 
 
 def as_caller(function: Callable[..., Result], *arguments: object) -> Result:
-    """What a user's function returns, called in the context around :func:`without_warnings`."""
+    """Call a user's function in the context around :func:`without_warnings`."""
     caller = _CALLER.get()
     return function(*arguments) if caller is None else caller.run(function, *arguments)
 

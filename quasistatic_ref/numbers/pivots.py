@@ -49,7 +49,7 @@ MANY_ROWS = 200
 
 
 def positive_definite(key: str, S: Array) -> Array:
-    """S, of shape (..., n, n) [any unit], made symmetric from its lower triangle.
+    """S, of shape (..., n, n) [any unit], made symmetric, if it is positive definite.
 
     Raises
     ------

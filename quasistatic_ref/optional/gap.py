@@ -20,7 +20,7 @@ from quasistatic_ref.numbers.precision import all_nearest
 
 
 def fractions(values: Array) -> list[fmpq]:
-    """Float64 numbers without rounding.
+    """Float64 numbers as fractions, without rounding.
 
     Parameters
     ----------

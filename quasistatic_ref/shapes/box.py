@@ -40,7 +40,7 @@ class Box(Rounded):
 
     @cached_property
     def core(self) -> tuple[Array, float]:
-        """Half extents, shape (3,) [m], and no ball."""
+        """The box as a core without a ball: half extents, shape (3,) [m], and radius 0 [m]."""
         return self.half_extents, 0.0
 
     def faces(self, points: Array) -> tuple[Array, Array]:

@@ -29,7 +29,7 @@ WAYS: Final = _AROUND / norm(_AROUND)[:, None]
 
 
 class Facets:
-    """What is formed of a mesh once. Its T triangles may stand in any order.
+    """Arrays of a mesh's T triangles that its distances need, formed once.
 
     Parameters
     ----------

@@ -57,7 +57,7 @@ class HalfSpace(Shape):
 
     @cached_property
     def extent(self) -> float:
-        """Infinity [m]."""
+        """Extent of the half-space, which is infinite [m]."""
         return np.inf
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:

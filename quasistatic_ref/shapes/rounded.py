@@ -21,7 +21,7 @@ class Rounded(Shape):
 
     @property
     def volume(self) -> float:
-        """Of the core, of what is over its faces, edges and corners (Steiner) [m^3]."""
+        """Volume [m^3] of the core, and of what is over its faces, edges and corners (Steiner)."""
         (a, b, c), r = self.core
         over_faces = 8 * r * (a * b + b * c + c * a)
         over_edges = 2 * math.pi * r**2 * (a + b + c)

@@ -149,7 +149,7 @@ class Shape(Plain):
 
     @property
     def edge_count(self) -> int:
-        """Most pieces of its edges that touch another body at once; by default there are none."""
+        """Most pieces of its edges that can touch another body at once; by default none."""
         return 0
 
     @cached_property

@@ -40,7 +40,7 @@ class Recording(Protocol):
     idle_columns: Sequence[str]
 
     def noted(self, name: str) -> NDArray[Any]:
-        """What an observer kept of each step so far, shape (steps, ...) [any unit]."""
+        """The numbers that an observer kept of each step, shape (steps, ...) [any unit]."""
         ...
 
 

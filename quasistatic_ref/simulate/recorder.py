@@ -246,7 +246,7 @@ class Recorder:
         return tuple(name for observer in self.observers for name in observer.notes)
 
     def noted(self, name: str) -> NDArray[Any]:
-        """What an observer kept of each step so far, shape (steps, ...) [any unit].
+        """The numbers that an observer kept of each step, shape (steps, ...) [any unit].
 
         Without the last steps, while it is asked about them, and after it has failed there.
         """

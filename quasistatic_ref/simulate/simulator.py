@@ -521,7 +521,7 @@ class Simulator(Settings, Shown):
         )
 
     def generalised_force(self, q: ArrayLike | State, force: ArrayLike | None) -> Array:
-        """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
+        """Gravity at q plus an external `force`, shape (n_v,) [N, N m]."""
         force = checked_force(self.system, force)
         tau = self.system.at(q).gravity(self.gravity)
         tau[: self.system.n_a] *= self.gravity_acts

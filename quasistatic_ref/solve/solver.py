@@ -193,7 +193,7 @@ class BackendSolver(Solver):
 
     @abstractmethod
     def reply(self, options: Options, scaled: ScaledStep) -> Reply:
-        """What the backend says to the problem as it is written, with options in its own names."""
+        """The backend's reply to the problem as it is written, with options in its own names."""
 
     def option_sets(self, accuracy: float) -> list[tuple[float, Options]]:
         """Accuracies in natural units [-] with options, in the order in which they are tried."""

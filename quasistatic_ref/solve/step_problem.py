@@ -420,7 +420,7 @@ class CvxpySolver(BackendSolver):
         return scaled.out_of_reach
 
     def reply(self, options: Options, scaled: ScaledStep) -> Reply:
-        """What the backend says, from a cold start.
+        """The backend's reply, from a cold start.
 
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY
         raises TypeError on a second warm start anyway.)

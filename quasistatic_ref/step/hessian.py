@@ -85,7 +85,7 @@ class Hessian(Plain):
         return other
 
     def once(self, form: Callable[[Hessian], Result]) -> Result:
-        """What a function forms of this H: formed once, and as old as this."""
+        """The result of a function of this H, computed at the first call and kept with H."""
         if form not in self._formed:
             self._formed[form] = form(self)
         formed: Result = self._formed[form]

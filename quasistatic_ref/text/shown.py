@@ -25,7 +25,7 @@ class Shown:
 
 
 class HasPage(Shown):
-    """What ``optional/show`` has a page for; where that part is missing, its fields are shown."""
+    """Objects that ``optional/show`` prints as a page; without that part, field by field."""
 
     def __repr__(self) -> str:
         if not is_there("page_text"):

@@ -122,6 +122,6 @@ class Spheres(RoundedPoints):
         return phi[:, None], normal[:, None]
 
     def known(self, nearest: Array, seen: Array, places: Array) -> Mask:
-        """Pairs that touch by no cores, (P,); `nearest`, `seen` and `places` are (P,) [m]."""
+        """Pairs whose cores do not touch, (P,); `nearest`, `seen` and `places` are (P,) [m]."""
         within = TIED_FACES * np.maximum(places, self._extent)
         return np.asarray(nearest + (self._margins + self._radius[:, 0]) > within)

@@ -139,7 +139,7 @@ class Clouds(Batch):
 
 
 def closed_form(solid: Shape) -> list[float]:
-    """Half extents of a core and radius [m], or normal [-] and offset [m]: four numbers."""
+    """A solid as four numbers: half extents and radius [m], or normal [-] and offset [m]."""
     if isinstance(solid, HalfSpace):
         return [*solid.normal, solid.offset]
     assert isinstance(solid, Rounded)

@@ -158,7 +158,7 @@ def gaps_between(a: Polytope, b: Polytope, within: float) -> tuple[Array, Array]
 
 
 def padded(values: NDArray[Any], pair: Indices, count: int, filling: float) -> NDArray[Any]:
-    """Values of pairs side by side.
+    """Values of P pairs as one row for each pair, short rows filled up.
 
     Parameters
     ----------

@@ -110,7 +110,7 @@ def held_box(h: float, mass: float) -> tuple[Any, Any]:
 
 
 def boxes(count: int) -> Scene:
-    """Boxes on a floor, which cannot touch each other; each is pushed along no axis, and slides."""
+    """Boxes that slide on a floor, each pushed askew to its axes, and cannot touch each other."""
     solid = Box((SIDE / 2,) * 3)
     at = [(APART * i, 0.0, SIDE / 2) for i in range(count)]
     system = System([Body.of_shape(f"box{i}", solid, MASS, xyz=xyz) for i, xyz in enumerate(at)])

@@ -22,7 +22,7 @@ NEAR = 1e-9
 
 
 def evidence() -> list[Comparison]:
-    """The scenario sphere_spin, then both laws."""
+    """The gap under a turning sphere: a scenario's, at a fixed torque, and at a fixed rate."""
     scenario = load_scenario("sphere_spin", ["solver.backend=none"], fast=True)
     run = scenario.run(progress=False, findings=False)
     (wrenches,) = scenario.wrenches

@@ -92,7 +92,7 @@ RANDOM_STEPS = 40
 
 
 def evidence() -> list[Comparison]:
-    """Random steps with another inertia, and with another h."""
+    """Random steps with k times the inertia, against the same with h / sqrt(k)."""
     rng = np.random.default_rng(45)
     heavier: list[Array] = []
     shorter: list[Array] = []

@@ -32,7 +32,7 @@ def record_of(cone: str) -> tuple[list[float], list[float], int]:
 
 
 def evidence() -> list[Comparison]:
-    """A hundredth of the pushes in two cones."""
+    """Errors of predicted end poses of a hundredth of the pushes, in two cones."""
     ours, other, unproved = record_of("ellipsoid")
     pyramid, _, also = record_of("pyramid")
     return [

@@ -67,7 +67,7 @@ def point_displacement(fx: float, fy: float, mu: float, phi: float, h: float = H
 
 
 def slip(fx: float, fy: float, mu: float, phi: float, h: float = H) -> Array:
-    """The closed form (3,) for fx >= fy >= 0: off the floor, stuck, or one or two rows tight."""
+    """Slip of a pushed point, shape (3,), by the closed form for forces fx >= fy >= 0."""
     if phi - h**2 * GRAVITY >= mu * h**2 * fx / POINT_M:
         return h**2 * np.array([fx / POINT_M, fy / POINT_M, -GRAVITY])
     load = mu * POINT_M * GRAVITY
@@ -159,7 +159,7 @@ STARTS = (-1e-6, 0.0, 1e-6, 2e-4)
 
 
 def one_step(tau: float, phi: float, h: float, mu_omega: float) -> tuple[float, float]:
-    """(delta_z, delta_theta) as solved."""
+    """Rise and turn (delta_z, delta_theta) of a turned sphere in a solved step."""
     wrench = (0, 0, -SPHERE_M * GRAVITY, 0, 0, tau)
     delta_q = exact(
         sphere_step(

@@ -139,7 +139,7 @@ def limit_of_rolling() -> Comparison:
 
 
 def evidence() -> list[Comparison]:
-    """Forces along several directions, each step compared with the one before."""
+    """A sphere rolled by forces in several directions: turn, height and way of each step."""
     points = []
     for force, azimuth, h in grid([0.05, 0.3, 1.0], [0.0, 0.7, 2.5], [0.01, 0.03]):
         text = body_text(BALL_M, (INERTIA,) * 3)

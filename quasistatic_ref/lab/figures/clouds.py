@@ -24,7 +24,7 @@ RISES = 30.0
 
 @cache
 def rows() -> tuple[Row, ...]:
-    """Every grasp; ``change`` says what is not as in the scene."""
+    """All grasps of sampled clouds; ``change`` names what differs from the scene."""
     _, *lines = clouds_file().read_text("utf-8").splitlines()
     return tuple(json.loads(line) for line in lines)
 

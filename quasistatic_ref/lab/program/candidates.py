@@ -77,7 +77,7 @@ def is_spanned(phi, alpha, n, smaller_size):
 
 
 def selection(case):
-    """Layer 2: a stable sort is a tie broken by index; of two solids those about one normal."""
+    """Layer 2: indices of the k nearest candidates; of two solids, of those that share a normal."""
     selections = []
     for g, phi in enumerate(case["phi"]):
         order = np.argsort(phi, kind="stable")

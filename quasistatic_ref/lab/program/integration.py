@@ -87,7 +87,7 @@ def way(mechanism, q, target):
 
 
 def joint_parts(mechanism, part, n_q=None):
-    """What each joint's part is, by its entries of q (the first n_q) and of delta_q."""
+    """The numbers of all joints, each by `part` from its entries of q and of delta_q."""
     bodies = {body["name"]: body for body in mechanism["bodies"]}
     places = slices(mechanism)[0].items()
     parts = [part(bodies[name], i, k) for name, (i, k) in places if n_q is None or i.stop <= n_q]

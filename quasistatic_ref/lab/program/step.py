@@ -29,7 +29,7 @@ def sides_of(case, pair, at):
 
 
 def entry_of(case, pair):
-    """What all contacts of a pair have in common."""
+    """The fields of a contact that all contacts of a pair share."""
     entry = {"pair": pair["name"]}
     entry |= {f"{side}_body": case["shapes"][pair[side]]["body"] for side in ("alpha", "beta")}
     return entry | {k: pair[k] for k in ("mu_v", "mu_omega", "rows", "compliance") if k in pair}

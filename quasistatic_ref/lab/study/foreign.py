@@ -67,7 +67,7 @@ class Foreign:
 
 
 def known(answers: Mapping[str, Answer]) -> list[Foreign]:
-    """Answers by name as problems of a study; without those that only fall without end, or bend."""
+    """Answers of ``exact_qp``, optima and proofs of infeasibility, as problems of a study."""
     kinds = ExactQP, QPInfeasible
     return [Foreign(name, a) for name, a in answers.items() if isinstance(a, kinds)]
 
@@ -75,7 +75,7 @@ def known(answers: Mapping[str, Answer]) -> list[Foreign]:
 def rows_of(
     answers: Mapping[str, Answer], solvers: Sequence[str], settings: Sequence[str]
 ) -> list[Row]:
-    """The rows of a study that is not kept."""
+    """The rows of a study of some answers, measured here and written nowhere."""
     chosen = solvers_of(solvers)
     return [
         row

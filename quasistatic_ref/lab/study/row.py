@@ -76,5 +76,5 @@ KEY = ("problem", "solver", "door", "setting", "options", "units")
 
 
 def key_of(row: Any) -> tuple[str, ...]:
-    """What tells a row, or a call that has these attributes, from others."""
+    """The attributes that identify a row of a study, or a call that would make it."""
     return tuple(getattr(row, name) for name in KEY)

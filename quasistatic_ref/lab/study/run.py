@@ -84,7 +84,7 @@ class Measurement:
         )
 
     def key(self, limits: Limits) -> tuple[str, ...]:
-        """What tells this call from others."""
+        """The attributes that identify this call among all of a study."""
         return key_of(self.row(limits, no_reply("", None, 0.0)))
 
 

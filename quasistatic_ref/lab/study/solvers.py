@@ -48,7 +48,7 @@ SETTINGS = (
 
 @cache
 def table() -> dict[str, dict[str, Any]]:
-    """What ``solvers.toml`` knows of each solver."""
+    """The content of ``solvers.toml``: options and interfaces of each solver."""
     return tomllib.loads((Path(__file__).parent / "solvers.toml").read_text("utf-8"))
 
 

@@ -38,7 +38,7 @@ GRACE = 5
 
 @dataclass(frozen=True, eq=False)
 class Question:
-    """What a process is asked.
+    """A question to a solver's process: a program, options, and how many calls.
 
     Parameters
     ----------

@@ -14,7 +14,7 @@ Frames = Callable[[Array, Array, Array, Array], tuple[Array, Array, Array]]
 
 
 def frames(geometry: ContactGeometry) -> Frames | None:
-    """``ContactGeometry.frames``, where each column of a contact is of one coordinate."""
+    """``ContactGeometry.frames`` in C, where each column belongs to one coordinate."""
     if geometry.sums:
         return None
     joint = geometry.joint

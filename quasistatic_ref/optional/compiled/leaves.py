@@ -25,7 +25,7 @@ that it knows, each with arguments."""
 
 
 def compiled_function(function: Callable[..., Any], instance: Any) -> Callable[..., Any] | None:
-    """What stands in the place of a function, or of a method of an instance; None if nothing."""
+    """The compiled twin of a function, or of an instance's method; None if there is none."""
     if not is_compiled(function):
         return None
     made: Callable[..., Any] | None = leaf(function)[0](instance)
@@ -38,7 +38,7 @@ def is_compiled(function: Callable[..., Any]) -> bool:
 
 
 def leaf(function: Callable[..., Any]) -> tuple[Callable[..., Any], Callable[..., Any]]:
-    """What stands in the place of a function, of each instance, and its trials."""
+    """What makes the compiled twin of a function for an instance, and the inputs of its trials."""
     module, name = LEAVES[function.__qualname__].split(":")
     loaded = import_module(f"{__package__}.{module}")
     return getattr(loaded, name), getattr(loaded, f"trials_of_{name}")

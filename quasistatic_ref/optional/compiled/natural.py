@@ -11,7 +11,7 @@ from quasistatic_ref.solve.units import Sizes
 
 
 def step_sizes(_: None) -> Callable[[Array, Array, Array, NaturalHessian], Sizes | None]:
-    """``step_sizes``; it declines numbers that are not finite.
+    """``step_sizes`` in C; it declines numbers that are not finite.
 
     It returns sizes, shape (groups,), or None.
     """

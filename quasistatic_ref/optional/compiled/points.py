@@ -21,7 +21,7 @@ from quasistatic_ref.shapes.placed_shape import (
 
 
 def contacts(batch: Clouds) -> Callable[[Array, Array], tuple[Mask, ClosestPoints]]:
-    """``Clouds.contacts`` of a batch: the pairs that it declines are not known.
+    """``Clouds.contacts`` of a batch in C; pairs that it declines are left to NumPy.
 
     It returns a mask, shape (pairs,), and the points of the pairs.
     """

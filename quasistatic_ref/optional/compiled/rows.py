@@ -11,7 +11,7 @@ from quasistatic_ref.step.contacts import Contacts
 
 
 def inequalities(_: None) -> Callable[[Contacts, str, Mask], tuple[Array, Array] | None]:
-    """``contact_inequalities``, in the pyramid.
+    """``contact_inequalities`` of the pyramid in C.
 
     It returns A, shape (m, w), and b, (m,), or None.
     """

@@ -21,7 +21,7 @@ Sum = Callable[[Array, Array], Array]
 
 
 def plus(sums: Sums) -> Sum | None:
-    """``Sums.plus``; joints whose sines stay open are summed by themselves."""
+    """``Sums.plus`` in C; joints whose sines it cannot round are left to Python."""
     compiled = _of("plus", sums, sums.n_q)
 
     def answer(q: Array, delta_q: Array) -> Array:
@@ -34,7 +34,7 @@ def plus(sums: Sums) -> Sum | None:
 
 
 def change(sums: Sums) -> Sum | None:
-    """``Sums.change``; joints whose angles stay open are subtracted by themselves."""
+    """``Sums.change`` in C; joints whose angles it cannot round are left to Python."""
     compiled = _of("change", sums, sums.n_v)
 
     def answer(q: Array, q_next: Array) -> Array:

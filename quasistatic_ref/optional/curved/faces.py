@@ -173,7 +173,7 @@ class Face(NamedTuple):
 
 
 def face(solid: ShapeInWorld, n: Array) -> Face:
-    """What a solid has farthest along a direction.
+    """The face of a solid along a direction: all of its points that are farthest.
 
     Parameters
     ----------

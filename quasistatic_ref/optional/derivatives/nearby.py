@@ -32,7 +32,7 @@ changes. Where only a step's data change, it is this share of the step's own siz
 
 
 class End(NamedTuple):
-    """Where a step nearby leads.
+    """The end of a step nearby: the change of q+, and the solution.
 
     Parameters
     ----------

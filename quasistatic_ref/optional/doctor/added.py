@@ -28,7 +28,7 @@ TOLD = 0.1
 
 
 class Added(NamedTuple):
-    """What is added to the force of a pair in a step.
+    """How much drag and boundary layer add to the force of a pair in a step.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def in_words(run: Run) -> str:
 
 
 def added(run: Run) -> Iterator[Added]:
-    """What is added to each pair at most, while it stays, and targets or loads move."""
+    """For each pair, the most that drag or layer adds to its force while targets or loads move."""
     f = run["wrench"]
     normal = f[..., 2:3] * run["n"]
     every = normal + f[..., :1] * run["d1"] + f[..., 1:2] * run["d2"]
@@ -105,7 +105,7 @@ def added(run: Run) -> Iterator[Added]:
 
 
 def layers(run: Run) -> Array:
-    """What the layer may add to each contact, shape (steps, n_c) [N]: s over what springs give."""
+    """Force that the boundary layer may add at each contact, shape (steps, n_c) [N]."""
     s = np.where(run.touches, slip_norm(run.scaled_slips, run.simulator.cone), 0.0)
     return quotient(s, run.noted("gives")) * (run.simulator.law == CONVEX)
 

@@ -51,7 +51,7 @@ def quasi_dynamic_number(run: Run) -> float | None:
 
 
 def drag(run: Run, base: Joint) -> Array:
-    """What of the forces on a free body inertia bears, M v / h, shape (steps, 3) [N].
+    """The drag M v / h on a free body in each step, shape (steps, 3) [N].
 
     Along its own axes; 0 where float64 has no number for it, as with an h of 1e-308 s.
     """

@@ -46,7 +46,7 @@ class Check(NamedTuple):
 
 
 def is_large(start: Start) -> str:
-    """Why J is not formed and no step solved again."""
+    """The reason why a scene is too large for checks that form J; empty if it is not."""
     return "" if start.small else "the scene is large"
 
 
@@ -104,7 +104,7 @@ NO_STEPS = (Check(units.no_steps),)
 
 
 def looked(checks: Iterable[Check], of: Start) -> tuple[list[Finding], str]:
-    """What each line of a table finds, in its order; and what was not looked at, and why.
+    """The findings of each check, in order, and a line on checks that were not made.
 
     Whatever fails in a check costs what it would have found, and never the run.
 

@@ -124,7 +124,7 @@ class Drive(Plain):
 
 @dataclass(frozen=True)
 class Rounding:
-    """What float64 does not resolve in a run: less is 0.
+    """The lengths and angles below which a run is mere rounding of float64.
 
     Parameters
     ----------
@@ -183,7 +183,7 @@ def measures(trajectory: Trajectory, settings: Settings) -> Measures:
 
 
 def rounding_of(run: Trajectory, joints: Sequence[Joint]) -> Rounding:
-    """What is rounding in a run: of its size in space, and of its steps."""
+    """The rounding of a run, from its size in space and its number of steps."""
     places = [run["q"][:, joint.q][:, : joint.lengths].ravel() for joint in joints]
     if "alpha" in run.arrays:
         places.append(run["alpha"][run["phi"] < FILLED].ravel())
@@ -231,7 +231,7 @@ def _turned(turns: Array) -> Array:
 
 
 def pair_measures(run: Trajectory, motion: Array | None = None) -> list[PairMeasures]:
-    """What the pairs of a run that has steps did.
+    """Touching, sliding and spinning of each pair, in a run that has steps.
 
     Parameters
     ----------
@@ -349,7 +349,7 @@ def _angle_in(body: Joint, hand: Joint, q: Array) -> Array:
 
 
 def drive(joint: Joint, run: Trajectory, K: Array) -> Drive:
-    """What an actuated joint of a run did; K is :func:`stiffness`."""
+    """Error, way and spring force of an actuated joint in a run; K is :func:`stiffness`."""
     target = run["q_bar_a"]
     n = target.shape[1]
     error = _distance(joint, run["q"][1:, :n], target)
@@ -367,7 +367,7 @@ def _distance(joint: Joint, q: Array, target: Array) -> Array:
 
 
 def pressing(normal: Array) -> Mask:
-    """Which contacts bear more than noise of the largest force, shape (..., n_c), as `normal`.
+    """Whether each contact's force is more than rounding, shape (..., n_c), as `normal`.
 
     Parameters
     ----------

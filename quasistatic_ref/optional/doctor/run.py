@@ -51,7 +51,7 @@ def in_world(quaternions: Array, vectors: Array) -> Array:
 
 
 class Run(Start):
-    """A run of one step at least.
+    """A run of at least one step, as the checks of findings read it.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class Run(Start):
 
     @property
     def load_at_start(self) -> Array:
-        """Gravity and what else pushes in the first step, shape (n_v,) [N, N m]."""
+        """Gravity and external loads in the first step, shape (n_v,) [N, N m]."""
         return np.asarray(self.noted("tau")[0])
 
     @cached_property
@@ -133,7 +133,7 @@ class Run(Start):
         return self.arrays[name]
 
     def noted(self, name: str) -> NDArray[Any]:
-        """What the recorder keeps of each step and the trajectory does not, shape (steps, ...)."""
+        """Numbers of each step that the recorder keeps, not the trajectory, shape (steps, ...)."""
         return self._noted[name]
 
     @cached_property
@@ -173,7 +173,7 @@ class Run(Start):
 
 
 class RunStep:
-    """A step of a run.
+    """One step of a run, formed again from its record.
 
     Parameters
     ----------
@@ -201,7 +201,7 @@ class RunStep:
 
     @cached_property
     def posed(self) -> StepData:
-        """The same with the rows, rises and quadratic costs of an extension."""
+        """The problem of the step with the rows, rises and quadratic costs of an extension."""
         extension = self.run.simulator.extension
         if extension is None:
             return self.step

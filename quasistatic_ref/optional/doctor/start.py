@@ -35,7 +35,7 @@ more: the exact method starts cold, and takes a second there."""
 
 
 class Start:
-    """A scene where a run starts.
+    """A scene in the state in which a run starts, as the checks of findings read it.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class Start:
 
     @property
     def load_at_start(self) -> Array:
-        """Gravity and what else pushes, shape (n_v,) [N, N m]."""
+        """Gravity and external loads at the start, shape (n_v,) [N, N m]."""
         return self.simulator.generalised_force(self.q_start, self.force)
 
     @cached_property
@@ -226,7 +226,7 @@ def table(start: Start, pair: ContactPair) -> str:
 
 
 def friction_of(start: Start, coefficient: str, names: str) -> str:
-    """A coefficient, mu_v or mu_omega, of some tables or MuJoCo pairs, by the scene's own field."""
+    """Words for the field of a scene that holds mu_v or mu_omega of some tables or pairs."""
     if start.system.of_mjcf:
         number = {"mu_v": "first", "mu_omega": "second"}[coefficient]
         return f"the {number} number of friction of the geoms of {names}"
@@ -234,7 +234,7 @@ def friction_of(start: Start, coefficient: str, names: str) -> str:
 
 
 def joining(start: Start, names: str) -> str:
-    """What lets some bodies touch, by the scene's own elements."""
+    """Words of a remedy: what to add to a scene so that some bodies touch."""
     if start.system.of_mjcf:
         return (
             f"let geoms of {names} touch (contype, conaffinity, and no contact/exclude), or add "
@@ -244,7 +244,7 @@ def joining(start: Start, names: str) -> str:
 
 
 def more_points(start: Start, pair: ContactPair, count: int | None = None) -> str:
-    """What gives a pair more contacts, or as many as `count`, by the scene's own elements."""
+    """Words of a remedy: how to give a pair more contacts, or as many as `count`."""
     if start.system.of_mjcf:
         return f"split the geoms of {pair.name}, of which each pair has {pair.k} places at most"
     return f"raise k of {table(start, pair)}" + ("" if count is None else f" to {count}")

@@ -70,7 +70,7 @@ def touched(run: Run, pairs: list[int]) -> bool:
 
 
 def borne(run: Run, table: str) -> bool:
-    """Whether any pair of a table touched, of what stands as well."""
+    """Whether any pair of a contact table touched, also pairs of bodies that stand."""
     return any(pair.table == table and pair.touches.any() for pair in run.pair_measures)
 
 

@@ -177,7 +177,7 @@ class EllipsoidCone(CurvedCone):
 
 
 def motion(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
-    """The rows of a contact, in the unit [m] of the arguments: themselves."""
+    """Gap, slips and spin [m] of a contact, which are its rows as they are."""
     return gap, slip_1, slip_2, spin
 
 

@@ -50,7 +50,7 @@ LARGEST = 900
 
 
 def group_compliance(step: StepData) -> float:
-    """The compliance c of the contacts of a step by itself, or of a group of one [m/N].
+    """The compliance c that all contacts of a step, or of one of its groups, get [m/N].
 
     Before it is rounded to a power of two it is continuous in J and H.
 

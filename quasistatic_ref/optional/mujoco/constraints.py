@@ -19,7 +19,7 @@ HELD = "left out, in part or whole: joints or other equalities hold already what
 
 
 class Tied(NamedTuple):
-    """Joints of which equalities make fewer coordinates.
+    """The coordinates that remain where equalities tie joints to others.
 
     Parameters
     ----------

@@ -126,7 +126,7 @@ def _activations_after(system: MujocoSystem, act: Array, values: Array) -> Array
 
 
 def drive_of(system: MujocoSystem, data: MjData, T: float, targets: Driven) -> Drive:
-    """What drives a scene from a state, from targets over T [s] in any form.
+    """The :class:`Drive` of a scene, from a state and targets over T [s] in any form.
 
     Raises
     ------

@@ -109,7 +109,7 @@ class Fence:
         return error
 
     def too_much(self, problem: str) -> ModelError:
-        """What MuJoCo could not do, about the attribute that asks for most."""
+        """MuJoCo's failure, as a sentence about the attribute that asks for most."""
         error = ModelError(f"{problem}; ask for less: copies, meshes, textures, memory")
         costs = [*self.costs, *(cost for element, *_ in self.places for cost in _counts(element))]
         if costs:

@@ -88,7 +88,7 @@ def velocities(model: MjModel, data: MjData, seconds: float) -> tuple[Array, Arr
 
 
 class Window(NamedTuple):
-    """What MuJoCo's contacts do in a while.
+    """The state with the most contacts within some time, and mean forces of those that hop.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ class Window(NamedTuple):
 
 
 def window(model: MjModel, data: MjData, seconds: float) -> Window:
-    """What MuJoCo's contacts do from a state on, for some `seconds` [s].
+    """MuJoCo's contacts over some `seconds` [s] after a state.
 
     What slides fast hops in MuJoCo: at one instant it may touch with one corner, or with none.
 

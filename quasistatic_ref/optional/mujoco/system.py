@@ -422,7 +422,7 @@ class SceneState(State):
         return np.asarray(self.system.T.T @ smooth + 0.0)
 
     def change_to(self, q_a: ArrayLike) -> Array:
-        """From q_a of q to a target, shape (n_a,)."""
+        """Change of the actuated coordinates to a target, shape (n_a,)."""
         system = self.system
         system.actuated_units.check(np.asarray(q_a))
         return system.difference(self.q, system.with_actuated(self.q, q_a))[: system.n_a]

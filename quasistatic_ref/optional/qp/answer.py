@@ -96,7 +96,7 @@ class ExactQP(Plain, Shown):
 
     @property
     def remark(self) -> str:
-        """What a limit means that holds x and that other solvers take for none; mostly empty."""
+        """A warning about a limit such as 1e30 that holds x, and that others take for infinite."""
         rows = self.problem.rows
         far = {name: abs(c) for name, c in zip(rows.names, rows.c, strict=True) if abs(c) >= FAR}
         held = [name for name in (*self.active, *self.least_norm) if name in far]

@@ -54,7 +54,7 @@ class Row(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Convex:
-    """The cost of a block as it is where its equations hold.
+    """The cost of a block on the subspace that its equations leave, where it is convex.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ class Block:
         self.prime = next(self._primes)
 
     def lucky(self, decide: Callable[[], Result]) -> Result:
-        """What is decided by the first prime that does."""
+        """The answer of `decide`, called with one prime after another until it has one."""
         while True:
             try:
                 return decide()
@@ -206,7 +206,7 @@ class Block:
 
     @cached_property
     def row_units(self) -> dict[int, fmpq]:
-        """What `exact_rows` multiplies rows by that float64 does not hold."""
+        """The factors by which `exact_rows` multiplies rows that float64 does not hold."""
         others = self.program.rows.others
         odd = (i for i, k in enumerate(self.rows.tolist()) if others(k, self.coordinates.tolist()))
         return {i: self.row(i).unit * self.row(i).side.q for i in odd}

@@ -40,7 +40,7 @@ def sign(v: Any) -> int:
 
 
 class Face:
-    """The points of independent rows W.
+    """A face: rows W as equations, and the point of least cost that satisfies them.
 
     Parameters
     ----------
@@ -283,7 +283,7 @@ class Face:
 
 
 def decided(block: Block, convex: Convex, decide: Callable[[bool], Result]) -> Result:
-    """What is decided by balls if P is large and full, or else without, by a prime that does."""
+    """The answer of `decide` by balls where P is large and full, else modulo primes."""
     full = block.n > MANY and 2 * sum(map(len, block.P)) > block.n**2
     if convex.definite and full:
         with suppress(Undecided), working_precision(BITS):

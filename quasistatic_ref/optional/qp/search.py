@@ -78,7 +78,7 @@ class BlockOptimum:
 
 
 def read(face: Face, least: Sequence[int] = ()) -> BlockOptimum:
-    """The optimum at the point of a face that is proved to be it."""
+    """The optimum of a block, read from a face whose point is proved to be it."""
     tight = face.tight
     return BlockOptimum(
         face.W,

@@ -39,7 +39,7 @@ class QpsolversSolver(BackendSolver):
         return scaled.out_of_reach
 
     def reply(self, options: Options, scaled: ScaledStep) -> Reply:
-        """What the backend says, from a cold start."""
+        """The backend's reply, from a cold start."""
         name = self.name.removeprefix(QPSOLVERS)
         return qpsolvers_reply(self.form, name, options)
 

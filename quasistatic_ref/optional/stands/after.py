@@ -42,7 +42,7 @@ def stands_after(run: Trajectory, k: int, scene: Scene, certify: str) -> Standin
 
 
 def kept(simulator: Simulator, q: Array, there: Array, tau: Array) -> Array:
-    """All loads but gravity of a step at q, as they are elsewhere, shape (n_v,) [N, N m].
+    """The loads of a step but gravity, kept for another configuration, shape (n_v,) [N, N m].
 
     Forces and torques on free bodies keep their directions in the world.
 

@@ -64,7 +64,7 @@ class Missing(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """What un-actuated coordinates move together.
+    """A body, or joints, that un-actuated coordinates move together.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ class Body:
         return np.asarray(np.sqrt(self.mass * np.maximum(np.vecdot(r, per), 0.0)))
 
     def missing(self, starts: Array, M: Array) -> Missing:
-        """What is missing where a body would start to move: M starts.
+        """The force that would keep the body from starting to move, from its acceleration.
 
         A joint that stays needs none: what it has of it is a reaction.
 

@@ -165,7 +165,7 @@ def slow_step(
 
 
 class Answer(NamedTuple):
-    """What is known of a body.
+    """Whether a body stands, what it lacks, or why that is not known.
 
     Parameters
     ----------

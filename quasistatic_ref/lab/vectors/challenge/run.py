@@ -34,7 +34,7 @@ CASES = 1000
 
 @dataclass
 class Outcome:
-    """What a challenge came to.
+    """The outcome of a challenge: its counts, and the mistakes that it met.
 
     Parameters
     ----------

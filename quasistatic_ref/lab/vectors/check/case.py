@@ -31,7 +31,7 @@ it is larger."""
 
 
 def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
-    """What becomes of an answer, in the package's own conventions.
+    """The verdict on an answer in the package's own conventions.
 
     Parameters
     ----------

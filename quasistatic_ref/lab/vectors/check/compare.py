@@ -94,7 +94,7 @@ def _mismatch(expected: Json, answer: Json, path: str) -> str | None:
 
 
 def number_problem(value: Json, path: str) -> str | None:
-    """What keeps a value from being a finite number; None if nothing does."""
+    """Why a value is not a finite number; None if it is one."""
     if value is None:
         return f"{path} must be a number, not null, which many programs write for NaN"
     if isinstance(value, bool) or not isinstance(value, int | float):

@@ -8,7 +8,7 @@ from quasistatic_ref.lab.vectors.trees import Json
 
 
 def existence_verdict(record: Json, answer: Json) -> Verdict | None:
-    """What becomes of an answer of the layer `derivative`; None if its numbers are to be compared.
+    """The verdict on whether derivatives exist; None if their numbers are to be compared.
 
     Parameters
     ----------

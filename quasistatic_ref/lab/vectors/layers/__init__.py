@@ -25,7 +25,7 @@ LAYERS = (
 
 
 class Layer(Protocol):
-    """What each module of this package offers."""
+    """The functions that each module of this package offers: a layer of the vectors."""
 
     def own(self, case_input: Json, /) -> Json:
         """The package's own float64 answer, of the same shape as the output."""
