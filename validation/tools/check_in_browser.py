@@ -44,12 +44,13 @@ BEYOND = """
 """JavaScript: what reaches out of the window and stands in no box that scrolls."""
 LISTINGS = """
 () => [...document.querySelectorAll('article pre')].filter(e => {
-  if (e.closest('.highlight-sh, .highlight-console, .highlight-output')) return e.scrollWidth > e.clientWidth + 2;
+  const wraps = e.closest('.highlight-sh, .highlight-console, .highlight-output');
+  if (wraps) return e.scrollWidth > e.clientWidth + 2;
   const style = getComputedStyle(e);
   return style.whiteSpace !== 'pre' || !['auto', 'scroll'].includes(style.overflowX);
 }).map(e => e.textContent.trim().slice(0, 60))
 """
-"""JavaScript: lines of a shell, and sentences, that are wider than their box, and other listings that wrap."""
+"""JavaScript: lines of a shell, and sentences, wider than their box; other listings that wrap."""
 RAW = """
 () => {
   const text = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
