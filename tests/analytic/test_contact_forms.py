@@ -9,7 +9,7 @@ from quasistatic_ref.step.standard_form import friction_rows
 from tests.analytic.instances import INFEASIBLE, INSTANCES, instances, near
 from tests.contact.still import in_world
 from tests.made import contacts_of, point_jacobian, random_frames
-from tests.oracles.random_steps import mixed_step
+from tests.oracles.random_steps import drawn
 
 
 def test_r20_one_contact_point_instead_of_two(rng):
@@ -48,7 +48,7 @@ def test_r19_the_gap_of_a_loaded_contact(rng, both):
     for seed in range(INSTANCES):
         if seed in INFEASIBLE:
             continue
-        step = mixed_step(seed)
+        step = drawn(seed)
         answer = exact(step)
         c = step.contacts
         for j in np.flatnonzero(answer.wrench[:, 2] > 0):

@@ -15,13 +15,14 @@ from quasistatic_ref.certify.norm import ILL_POSED
 from quasistatic_ref.certify.optimum import step_optimum
 from tests.helpers import two_bodies
 from tests.made import X, contacts_of, free_step
-from tests.oracles.grouped import faults, random_case
+from tests.oracles.grouped import faults
+from tests.oracles.random_steps import drawn
 
 
 def test_random_steps_without_some_couplings_have_the_optimum_of_their_groups():
     several = 0
     for seed in range(25):
-        step = random_case(seed)
+        step = drawn(seed, "mixed classes")
         assert faults(step) == [], seed
         several += len(groups(step)) > 1
     assert several > 12

@@ -14,12 +14,12 @@ from quasistatic_ref.solve.solve import exact_certificate
 from quasistatic_ref.solve.units import ScaledStep
 from tests.helpers import point_on_floor, resting_point
 from tests.made import solution_text
-from tests.oracles.grasp_steps import grasp_step
+from tests.oracles.random_steps import drawn
 
 
 @pytest.fixture(scope="module")
 def step():
-    step = grasp_step(np.random.default_rng(11))
+    step = drawn(11, "grasp")
     row = np.zeros((2, step.n_v))
     row[:, 6] = [1.0, -1.0]  # the gripper stays a little more open than it would
     least = step_optimum(step).delta_q[6] + 1e-6

@@ -25,9 +25,9 @@ from quasistatic_ref.numbers.precision import check_arithmetic
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.choice import solver_for
 from tests.made import bits
-from tests.oracles.random_steps import mixed_step
+from tests.oracles.random_steps import drawn
 
-STEP = mixed_step(1)
+STEP = drawn(1)
 LONG = 20
 """Steps of a run by two threads."""
 

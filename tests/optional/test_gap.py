@@ -20,8 +20,7 @@ from quasistatic_ref.optional.gap import (
     free_energy,
     nearest_above,
 )
-from tests.oracles.grasp_steps import grasp_step
-from tests.oracles.random_steps import any_step, mixed_step
+from tests.oracles.random_steps import drawn
 from tests.oracles.rational_kkt import exact, proved_optimum, solution
 from tests.oracles.rational_kkt import fractions as in_python
 from tests.oracles.solution_truth import gap, program
@@ -31,8 +30,7 @@ SEEDS = range(6)
 
 
 def steps():
-    rng = np.random.default_rng(5)
-    return [any_step(rng, 2, 3, 3), any_step(rng, 0, 4, 2, 1e4), grasp_step(rng)]
+    return [drawn(seed, of) for seed, of in enumerate(("any", "small", "grasp"))]
 
 
 @pytest.mark.parametrize("step", steps())
@@ -73,7 +71,7 @@ def test_r47_a_gap_bounds_the_error_of_any_displacement(seed):
     The two sides are 2 gap(x*, lam) + 2 lam*'(A x - b + v) apart.
     """
     rng = np.random.default_rng(seed)
-    step = mixed_step(seed)
+    step = drawn(seed)
     best = optimum(step)
     H, _, A, b = of = program(step)
     lam = exact(rng.random(len(b)) * (rng.random(len(b)) < 0.3) * step.h)
@@ -97,7 +95,7 @@ def test_r48_three_residuals_bound_the_error_of_any_answer(seed):
     second, which has norms alone.
     """
     rng = np.random.default_rng(seed)
-    step = mixed_step(seed)
+    step = drawn(seed)
     best, press = optimum(step)
     H, g, A, b = program(step)
     slack = A @ best - b

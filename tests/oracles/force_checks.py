@@ -20,7 +20,7 @@ from quasistatic_ref.optional.forces.forces import WRENCH, defined_optimum
 from quasistatic_ref.step.cones import PYRAMID
 from tests.made import repeated
 from tests.oracles.compliant_forces import forces as independent_forces
-from tests.oracles.random_steps import mixed_step
+from tests.oracles.random_steps import drawn
 
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp", "scs", "none")
 CONES = (PYRAMID, "product", "facets-6", "frictionless")
@@ -56,7 +56,7 @@ def random_steps(count):
     """The first random steps that have a solution."""
     seed = found = 0
     while found < count:
-        step = mixed_step(seed).replace(cone=CONES[seed % len(CONES)])
+        step = drawn(seed).replace(cone=CONES[seed % len(CONES)])
         seed += 1
         try:
             step_optimum(step)

@@ -1,7 +1,5 @@
 """Optima proved whole and by group, and steps of several groups."""
 
-import numpy as np
-
 from quasistatic_ref import StepIllPosed, StepInfeasible
 from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.degeneracy import form_degeneracy, step_degeneracy
@@ -9,16 +7,9 @@ from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.optimum import form_optimum, step_optimum
 from tests.made import bits
-from tests.oracles.random_steps import divided, mixed_step
 
 SAME = ("delta_q", "net")
 """What of an optimum no choice is left of, beside what its rows without slack say."""
-
-
-def random_case(seed):
-    """A random step, mostly without what couples two or three classes of its coordinates."""
-    rng = np.random.default_rng([seed, 3])
-    return divided(rng, mixed_step(seed), int(rng.integers(1, 4)))
 
 
 def faults(step):

@@ -14,8 +14,7 @@ from tests.cases import cases, first
 from tests.made import solution_text
 from tests.oracles.forged_scenes import between_walls, scenes
 from tests.oracles.forgeries import at_random, good_file, is_refused, outcomes
-from tests.oracles.grasp_steps import grasp_step
-from tests.oracles.random_steps import mixed_step
+from tests.oracles.random_steps import drawn
 from tests.oracles.records import places
 from tests.oracles.solution_truth import truth_of, wrenches
 
@@ -134,8 +133,8 @@ def test_no_claim_of_a_solution_in_memory_is_believed(kind, name, change):
 
 def test_the_net_impulse_of_every_solution_holds(rng):
     """That of grasps, of mixed steps and of rows of one's own, in either cone."""
-    grasps = [grasp_step(rng) for _ in range(3)]
-    steps = [*grasps, *map(mixed_step, range(6)), *(SCENES[k] for k in SCENES if k[0] == "exact")]
+    grasps = [drawn(rng, "grasp") for _ in range(3)]
+    steps = [*grasps, *map(drawn, range(6)), *(SCENES[k] for k in SCENES if k[0] == "exact")]
     for step in steps:
         for name in (PYRAMID, ELLIPSOID):
             solution = solve_step(step.replace(cone=name))

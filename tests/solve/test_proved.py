@@ -4,7 +4,6 @@ import gc
 import pickle
 from dataclasses import fields, replace
 
-import numpy as np
 import pytest
 
 from quasistatic_ref import Certificate, SolverStatistics, load_scenario, solve_step, verify
@@ -12,12 +11,12 @@ from quasistatic_ref.certify.form import ExactForm
 from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.solve import solve
 from tests.made import bits
-from tests.oracles.grasp_steps import grasp_step
+from tests.oracles.random_steps import drawn
 
 
 @pytest.fixture(scope="module")
 def solution():
-    return solve_step(grasp_step(np.random.default_rng(11)))
+    return solve_step(drawn(11, "grasp"))
 
 
 def forms_alive():

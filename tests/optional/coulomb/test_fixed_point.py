@@ -24,7 +24,7 @@ from quasistatic_ref.optional.coulomb.fixed_point import slip_norms
 from quasistatic_ref.step.standard_form import frame_jacobian
 from tests.helpers import point_on_floor, random_step, sphere_on_floor
 from tests.made import GRAVITY, contacts_of, free_step
-from tests.oracles.planar_steps import planar_contacts, planar_step
+from tests.oracles.random_steps import drawn, planar_contacts
 
 M = 0.3
 H = 0.01
@@ -69,7 +69,7 @@ PLANAR = ("floor", "anywhere", "wedge")
 def steps_of(kind):
     """Some random steps of a cone, or planar ones."""
     if kind in PLANAR:
-        return [planar_step(np.random.default_rng([0, seed]), kind) for seed in range(5)]
+        return [drawn(seed, kind) for seed in range(5)]
     rng = np.random.default_rng(3)
     return [random_step(rng).replace(cone=kind) for _ in range(1 if kind == "ellipsoid" else 4)]
 

@@ -33,7 +33,7 @@ from tests.helpers import (
     point_on_floor,
 )
 from tests.made import Y, frames_about, rigid_step
-from tests.oracles.grasp_steps import grasp_step
+from tests.oracles.random_steps import drawn
 from tests.tolerances import ROUNDING
 
 CONED = ("clarabel", "scs")
@@ -69,7 +69,7 @@ def test_a_sliding_point_has_the_closed_form_of_a_circular_cone(angle):
 
 
 def test_a_grasp_is_enclosed_and_every_backend_gives_the_same_bits(rng):
-    step = round_step(grasp_step(rng))
+    step = round_step(drawn(rng, "grasp"))
     answers = [solve_step(step, backend) for backend in (*CONED, "none")]
     for answer in answers:
         assert answer.certificate.kind == "enclosure"

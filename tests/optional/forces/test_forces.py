@@ -22,7 +22,7 @@ from tests.made import X, Y, Z, contacts_of, free_step, repeated, rigid_step
 from tests.optional.forces.blocks import MU_V, POLYHEDRAL, G, H, M, block, walled_block
 from tests.oracles import force_checks as checks
 from tests.oracles.loaded_piles import loaded_pile
-from tests.oracles.random_steps import mixed_step
+from tests.oracles.random_steps import drawn
 from tests.tolerances import ROUNDING
 
 CONES = (*POLYHEDRAL, "ellipsoid")
@@ -281,7 +281,7 @@ def test_whatever_should_not_matter_does_not(monkeypatch):
     monkeypatch.setattr(checks, "BACKENDS", ("daqp", "none"))
     for _, step in checks.random_steps(5):
         assert not any(checks.differences(step, oracle=False).values())
-    step = mixed_step(4)
+    step = drawn(4)
     found = checks.differences(step, oracle=True)
     assert set(found) >= {"backends", "fast", "permuted", "definition", "independent"}
     assert not any(found.values())
