@@ -292,6 +292,6 @@ def unique_fields(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     fields: dict[str, Any] = {}
     for name, value in pairs:
         if name in fields:
-            raise InputError("is given twice", field=name, value=value)
+            raise InputError("is given twice; leave one out", field=name, value=value)
         fields[name] = value
     return fields

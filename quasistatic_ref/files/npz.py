@@ -147,7 +147,7 @@ def _checked_sizes(archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
     seen: set[str] = set()
     for member in members:
         if member.filename in seen:
-            raise InputError("is given twice", field=member.filename)
+            raise InputError("is given twice; leave one out", field=member.filename)
         seen.add(member.filename)
     unpacked = sum(member.file_size for member in members)
     if unpacked > LARGEST_UNPACKED:

@@ -57,7 +57,7 @@ def check_lines(lines: Sequence[str]) -> None:
     """ModelError if a line is too long, before it is split into words."""
     number = next((k for k, line in enumerate(lines, 1) if len(line) > LONGEST_LINE), None)
     if number is not None:
-        problem = f"is longer than {LONGEST_LINE} characters"
+        problem = f"is longer than {LONGEST_LINE} characters; break it"
         raise ModelError(problem, field=f"line {number}", value=lines[number - 1])
 
 

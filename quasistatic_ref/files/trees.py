@@ -29,7 +29,7 @@ def checked_tree(
                 problem = f"is not a link{suggestion(link, links)}"
                 raise ModelError(problem, field=f"{where}.{field}", value=link)
         if joint.child in parent_of:
-            problem = f"is already the child of joint {parent_of[joint.child].name!r}"
+            problem = f"is already the child of joint {parent_of[joint.child].name!r}; name another"
             raise ModelError(problem, field=f"{where}.child", value=joint.child)
         named[joint.name] = parent_of[joint.child] = joint
     roots = [link for link in links if link not in parent_of]
@@ -47,7 +47,7 @@ def checked_tree(
         front += [joint.child for joint in here]
     if len(ordered) != len(joints):
         loose = sorted(set(named) - {joint.name for joint in ordered})
-        problem = f"these joints are not connected to the root link {roots[0]!r}"
+        problem = f"must connect these joints to the root link {roots[0]!r}"
         raise ModelError(problem, field="tree", value=loose)
     for joint in joints:
         _check_mimic(joint, named)

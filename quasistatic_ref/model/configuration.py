@@ -64,8 +64,9 @@ def unit_configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array
     checked = _finite_entries(joints, n_q, q)
     for joint in joints:
         if joint.unit_vector and not checked[joint.unit_part].any():
-            problem = f"its {joint.unit_vector} has length 0, which gives no direction"
-            raise ModelError(problem, field=f"q[{joint.name}]")
+            problem = f"its {joint.unit_vector} must not have length 0, which gives no direction"
+            value = checked[joint.unit_part].tolist()
+            raise ModelError(problem, field=f"q[{joint.name}]", value=value)
     return normalised(joints, checked)
 
 

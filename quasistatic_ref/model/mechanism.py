@@ -319,7 +319,7 @@ class Mechanism(ABC):
         torque = checked_array(torque, "torque", (3,), ModelError)
         link = self.link(name)
         if not self.column_map.moves[link].any():
-            problem = "has a fixed base, so a load has no effect on it"
+            problem = "has a fixed base, so a load has no effect on it; name a body that moves"
             raise ModelError(problem, field="name", value=name)
         centre = self._centre(name, link)
         if at is None:

@@ -245,12 +245,13 @@ def _check_joint_names(body: Body, tree: Tree) -> None:
             elif joint is not None:
                 problem = "has no position that is one number; it starts without a turn"
             elif name == BASE and moves:
-                problem = "is positioned by xyz and rpy"
+                problem = "is positioned by xyz and rpy; use these"
             elif name == BASE:
                 problem = 'is fixed; set base = "floating" or "planar" to move it'
             raise ModelError(problem, field=f"{body.name}.{key}", value=name)
         if len(set(names)) != len(names):
-            raise ModelError("names a joint twice", field=f"{body.name}.{key}", value=names)
+            problem = "names a joint twice; leave one out"
+            raise ModelError(problem, field=f"{body.name}.{key}", value=names)
 
 
 def _add_joints(body: Body, tree: Tree, joints: list[Joint], start: list[float]) -> None:

@@ -169,7 +169,9 @@ def convex_hull(points: ArrayLike) -> ConvexMesh:
         problem = "must be at least four points, as an array of shape (N, 3)"
         raise ModelError(problem, field="vertices", value=points.shape)
     if not np.isfinite(points).all():
-        raise ModelError("must contain finite numbers only", field="vertices")
+        k = int(np.isfinite(points).all(axis=1).argmin())
+        problem = "must be finite numbers"
+        raise ModelError(problem, field=f"vertices[{k}]", value=points[k].tolist())
     try:
         hull = ConvexHull(points)
     except QhullError:

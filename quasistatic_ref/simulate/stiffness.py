@@ -34,12 +34,13 @@ def stiffness_matrix(system: System, K_q: ArrayLike | Mapping[str, ArrayLike]) -
     check_apart(places, "K_q[{}]", StepDataError)
     for name, coordinates in places.items():
         if (coordinates >= system.n_a).any():
-            raise StepDataError("is not actuated", field=f"K_q[{name}]", value=K_q[name])
+            problem = "is not actuated; leave it out, or actuate it"
+            raise StepDataError(problem, field=f"K_q[{name}]", value=K_q[name])
     parts = [(f"K_q[{name}]", places[name], numbers) for name, numbers in K_q.items()]
     matrix = stiffness_of_parts(parts, system.n_a)
     for coordinate, stiffness in zip(system.coordinates, np.diag(matrix), strict=False):
         if stiffness == 0:
-            raise StepDataError(f"has no stiffness for {coordinate.joint}", field="K_q")
+            raise StepDataError(f"has no stiffness for {coordinate.joint}; add it", field="K_q")
     return matrix
 
 

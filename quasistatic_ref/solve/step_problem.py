@@ -244,7 +244,8 @@ class StepProblem:
         accuracy = positive_number(accuracy, "accuracy")
         name = bare(backend.lower())
         if backend.startswith(QPSOLVERS) or name == NONE or is_function(name):
-            raise BackendError("is not called through CVXPY", field="backend", value=backend)
+            problem = "is not called through CVXPY; name another, or call solve_step"
+            raise BackendError(problem, field="backend", value=backend)
         if self.problem is not self._posed:
             words = "is another problem than that of this step; call its own solve()"
             raise InputError(words, field="StepProblem.problem")

@@ -112,6 +112,6 @@ def hessian(h: float, K_q: Array, M_u: Array) -> Array:
         H[:n_a, :n_a] = h * K_q
         H[n_a:, n_a:] = M_u / h
     if not np.isfinite(H).all():
-        problem = "takes h K_q or M_u / h out of the range of float64"
+        problem = "takes h K_q or M_u / h out of the range of float64; use a usual h [s]"
         raise StepDataError(problem, field="h", value=h)
     return read_only(H)

@@ -73,7 +73,7 @@ class TableReader:
         if field in self._left:
             return self._left.pop(field)
         if default is REQUIRED:
-            raise self.error_about(field, "is missing")
+            raise self.error_about(field, "is missing; add it")
         return default
 
     def __contains__(self, field: str) -> bool:

@@ -190,7 +190,11 @@ CONTENTS = {
     "many digits in TOML": (toml_read, b"h = " + b"1" * 5000, "an unusable number"),
     "many digits in JSON": (json_read, b'{"h": ' + b"1" * 5000 + b"}", "a number too long"),
     "a field twice in TOML": (toml_read, b"h = 1\nh = 2\n", "is not TOML: Cannot overwrite"),
-    "a field twice in JSON": (json_read, b'{"h": 1, "h": 2}', r"h: is given twice \(got 2\)"),
+    "a field twice in JSON": (
+        json_read,
+        b'{"h": 1, "h": 2}',
+        r"h: is given twice; leave one out \(got 2\)",
+    ),
     "half a character": (json_read, b'{"format": "\\ud800"}', "holds half of a character"),
     "no trajectory": (load_trajectory, b"", "is not a trajectory written by this program"),
 }

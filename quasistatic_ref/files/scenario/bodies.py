@@ -110,7 +110,7 @@ def body_entry(
     path = path_in(folder, table, "urdf", roots) if inline is None else None
     urdf = inline or path
     if urdf is None:
-        raise table.error_about("urdf", "is missing")
+        raise table.error_about("urdf", "is missing; name the URDF file of the body")
     base = read("base")
     actuated = read("actuated")
     xyz, rpy = pose(read("pose"))
@@ -163,7 +163,7 @@ def stiffnesses(system: System, entry: BodyEntry) -> Iterator[tuple[str, Indices
     joints = entry.actuated(system)
     table = entry.table
     if entry.K_q is None and joints:
-        raise table.error_about("K_q", f"is missing for {', '.join(joints)}")
+        raise table.error_about("K_q", f"is missing for {', '.join(joints)}; add it")
     if isinstance(entry.K_q, list | int | float):
         every = [i for joint in joints.values() for i in range(joint.v.start, joint.v.stop)]
         yield table.name("K_q"), np.array(every, dtype=np.int64), entry.K_q

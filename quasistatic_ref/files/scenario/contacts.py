@@ -132,7 +132,7 @@ def contact_pairs(
         hull = read("hull")
         count = len(pairs) + len(sides[0]) * len(sides[1])
         if count > MOST_PAIRS:
-            problem = f"brings the pairs of this scenario to more than {MOST_PAIRS}"
+            problem = f"makes more pairs than {MOST_PAIRS} in this scenario; name fewer shapes"
             raise ScenarioError(problem, field=table.where, value=count)
         for alpha in sides[0]:
             for beta in sides[1]:

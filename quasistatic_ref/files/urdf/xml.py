@@ -59,9 +59,9 @@ class Tag:
         """Text of an attribute; ModelError unless it is there and not blank."""
         value = self.element.get(name)
         if value is None or not value.strip():
-            raise ModelError("is missing", field=f"{self.where}.{name}")
+            raise ModelError("is missing; add it", field=f"{self.where}.{name}")
         if len(value) > LONGEST_WORD:
-            problem = f"is longer than {LONGEST_WORD} characters"
+            problem = f"is longer than {LONGEST_WORD} characters; shorten it"
             raise ModelError(problem, field=f"{self.where}.{name}", value=value)
         return value
 
@@ -146,7 +146,7 @@ class Tag:
         """The only child of that name; a missing one is a ModelError."""
         child = self.perhaps(tag, *attributes)
         if child is None:
-            raise ModelError("is missing", field=f"{self.where}.{tag}")
+            raise ModelError("is missing; add it", field=f"{self.where}.{tag}")
         return child
 
     def pass_over(self, *read: str, attributes: Sequence[str] = ()) -> None:

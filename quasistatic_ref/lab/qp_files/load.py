@@ -128,7 +128,8 @@ def _mat(path: Path) -> dict[str, QuadraticProgram]:
     low = np.where(low < -BOUNDLESS, -np.inf, low)
     high = np.where(high > BOUNDLESS, np.inf, high)
     if m < n or not np.array_equal(A[m - n :], np.eye(n)):
-        raise InputError("does not end in the bounds of its variables", field="A")
+        problem = "must end in a unit matrix, the bounds of its variables"
+        raise InputError(problem, field="A", value=list(A.shape))
     rows, lb, ub = A[: m - n], low[m - n :], high[m - n :]
     low, high = low[: m - n], high[: m - n]
     equal = low == high
@@ -163,7 +164,7 @@ def _parquet(path: Path) -> dict[str, QuadraticProgram]:
     if rows is None:
         raise InputError("unpacks to more than is read", value=size)
     if not rows:
-        raise InputError("holds no program")
+        raise InputError("holds no program; write one for each row")
     programs: dict[str, QuadraticProgram] = {}
     for k, row in enumerate(rows):
         name = f"{path.stem}/{row.get('name')}"

@@ -26,6 +26,7 @@ INFINITE: Final = re.compile(r"([+-]?)inf(?:inity)?", re.IGNORECASE)
 COLUMNS: Final = ((1, 3), (4, 12), (14, 22), (24, 36), (39, 47), (49, 61))
 """Where the six fields stand."""
 SIF: Final = {"GROUPS", "VARIABLES", "CONSTANTS", "ELEMENT", "GROUP", "OBJECT", "CONSTRAINTS"}
+SECTIONS: Final = ("NAME", "ROWS", "COLUMNS", "RHS", "RANGES", "BOUNDS", "ENDATA")
 QUADRATIC: Final = ("QUADOBJ", "QSECTION", "QMATRIX")
 WHOLE: Final = {"BV", "LI", "UI", "SC", "SI"}
 
@@ -59,7 +60,8 @@ class _Qps:
                 self.objective = name
         elif section == "COLUMNS":
             if "'MARKER'" in fields:
-                raise InputError("holds whole numbers, which are not solved for", field=fields[0])
+                problem = "begins or ends whole numbers, which are not solved for; leave it out"
+                raise InputError(problem, field=fields[0])
             entries = self.columns.setdefault(fields[0], {})
             for row, v in _pairs(fields[1:]):
                 self._known(row, self.kinds)
@@ -77,7 +79,8 @@ class _Qps:
                 self._known(column, self.columns)
                 self.costs[fields[0], column] += v
         else:
-            raise InputError("stands in no section that is known", field=section or "a line")
+            problem = "stands in no section; a section comes first, as ROWS"
+            raise InputError(problem, field=section or "a line")
 
     def head(self, words: list[str]) -> bool:
         """One line that begins a section; whether it is the last."""
@@ -86,12 +89,13 @@ class _Qps:
             raise InputError("is in CUTEst's SIF language: decode it first", field=word)
         if word in QUADRATIC:
             if self.quadratic not in ("", word):
-                raise InputError(f"stands beside {self.quadratic}: which one counts?", field=word)
+                raise InputError(f"stands beside {self.quadratic}; leave one out", field=word)
             self.quadratic = word
         elif word in ("OBJSENSE", "MAX", "MIN"):
             self._sense(words[-1])
-        elif word not in ("NAME", "ROWS", "COLUMNS", "RHS", "RANGES", "BOUNDS", "ENDATA"):
-            raise InputError("is no section that is known", field=word)
+        elif word not in SECTIONS:
+            known = ", ".join((*SECTIONS, *QUADRATIC))
+            raise InputError(f"is no known section; known are {known}", field=word)
         self.section = word
         return word == "ENDATA"
 
@@ -103,32 +107,34 @@ class _Qps:
 
     def _known(self, name: str, names: Container[str]) -> None:
         if name not in names:
-            raise InputError("is no row or column that was declared", field=name)
+            raise InputError("is declared in no section ROWS or COLUMNS; declare it", field=name)
 
     def _bound(self, fields: list[str]) -> None:
         kind, free = fields[0].upper(), fields[0].upper() in ("FR", "MI", "PL")
         if kind in WHOLE:
-            raise InputError("is a bound of whole or semi-continuous variables", field=kind)
+            problem = "is a bound of whole or semi-continuous variables; use LO, UP or FX"
+            raise InputError(problem, field=kind)
         if len(fields) > 4:
-            raise InputError("has too many fields", field=kind)
+            problem = "has too many fields; give at most four"
+            raise InputError(problem, field=kind, value=" ".join(fields))
         name = fields[1] if len(fields) == (2 if free else 3) else fields[2]
         self._known(name, self.columns)
         v = None if free else _number(fields[-1])
         if kind == "FX" and v is None:
-            raise InputError("must be a finite number", field=name)
+            raise InputError("must be a finite number", field=name, value=fields[-1])
         if kind in ("LO", "FX", "FR", "MI"):
             self.low[name] = v
         if kind in ("UP", "FX", "FR", "PL"):
             self.high[name] = v
         if kind not in ("LO", "UP", "FX", "FR", "MI", "PL"):
-            raise InputError("is no kind of bound that is known", field=kind)
+            raise InputError("must be one of LO, UP, FX, FR, MI and PL", field="bound", value=kind)
 
     def program(self, check_size: Callable[[int, int], None]) -> QuadraticProgram:
         """The program of all lines."""
         names = {name: j for j, name in enumerate(self.columns)}
         n = len(names)
         if not n:
-            raise InputError("has no columns", field="COLUMNS")
+            raise InputError("has no columns; add one", field="COLUMNS")
         for name, v in self.high.items():
             if v is not None and v < 0 and name not in self.low:
                 problem = "is below 0 without a lower bound: readers differ; add LO, or MI for none"
@@ -209,7 +215,8 @@ def _filled(
     for place, v in entries.items():
         flat[place] = nearest(v.numerator, v.denominator)
         if abs(flat[place]) == np.inf or (v and not flat[place]):
-            raise InputError("is beyond the range of float64", value=str(v)[:40])
+            problem = "is beyond the range of float64; use other units"
+            raise InputError(problem, value=str(v)[:40])
         if flat[place] != v:
             exact[place] = v
     return flat.reshape(shape), exact
@@ -276,7 +283,7 @@ def _read(text: str, fields_of: Callable[[str], list[str]]) -> _Qps:
             raise
         except (ValueError, IndexError):
             raise InputError("has another number of fields", field=f"line {k}") from None
-    raise InputError("ends without ENDATA")
+    raise InputError("ends without ENDATA; add this line, if nothing is cut off")
 
 
 def _free_fields(line: str) -> list[str]:

@@ -162,7 +162,7 @@ def function_solver(
     """
     name = name or str(getattr(function, "__name__", type(function).__name__))
     if not callable(function):
-        raise InputError("is not a function", field=name, value=function)
+        raise InputError("must be a function", field=name, value=function)
     cloudpickle = needed_package("cloudpickle", "study", "a solver of your own")
     try:
         target = cloudpickle.dumps(function)

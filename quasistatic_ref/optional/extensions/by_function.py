@@ -180,7 +180,7 @@ def function_at(target: str) -> Function:
         words = f"cannot be imported: {type(error).__name__}: {error}"
         raise InputError(words[:WORDS], value=target) from None
     if not callable(function):
-        raise InputError("is not a function", value=target)
+        raise InputError("must be a function", value=target)
     return function
 
 

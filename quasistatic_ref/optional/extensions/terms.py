@@ -47,7 +47,7 @@ def checked_terms(extension: Extension, symbols: Symbols) -> list[cp.Constraint 
             problem = f"is an objective; a cost is an expression, which is minimised: {sign}(...)"
             raise InputError(problem, field=field, value=type(term).__name__)
         if not isinstance(term, cp.Constraint | cp.Expression):
-            problem = "is no constraint and no cost of CVXPY's"
+            problem = "must be a constraint or a cost of CVXPY"
             raise InputError(problem, field=field, value=type(term).__name__)
         _check_numbers(term, field, known)
         if isinstance(term, cp.Expression) and term.size != 1:
@@ -71,7 +71,7 @@ def _check_numbers(term: cp.Constraint | cp.Expression, field: str, known: set[i
         value = constant.value
         numbers = np.asarray(value.data if hasattr(value, "tocsc") else value, dtype=np.float64)
         if np.isnan(numbers).any() or (endless and np.isinf(numbers).any()):
-            problem = "holds a number that is not finite"
+            problem = "holds a number that is not finite; replace it"
             raise InputError(problem, field=field, value=constant.name())
 
 
@@ -90,7 +90,7 @@ def _bounding(order: cp.Constraint, field: str) -> cp.Constraint | None:
     with np.errstate(invalid="ignore"):
         value = upper * np.asarray(expression.value, dtype=np.float64)
     if np.isnan(value).any() or (value == np.inf).any():
-        problem = "has an infinite limit that nothing can keep"
+        problem = "has an infinite limit that nothing can keep; turn its sign"
         raise InputError(problem, field=field, value=str(order))
     finite = np.isfinite(value)
     if not finite.any():

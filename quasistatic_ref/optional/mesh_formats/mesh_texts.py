@@ -158,7 +158,7 @@ def _obj(content: bytes) -> Mesh:
             if len(ahead) != 2:  # a line, which some write as a face
                 faces.add(ahead, f"line {number}")
         elif first and first not in OBJ_UNREAD:
-            problem = "is a line of an OBJ that is not read"
+            problem = "is a line of an OBJ that is not read; leave it out"
             raise ModelError(problem, field=f"line {number}", value=line)
     return Mesh(np.array(points).reshape(-1, 3), faces.triangles())
 

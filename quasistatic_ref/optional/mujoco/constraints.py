@@ -195,7 +195,7 @@ def equalities(state: MujocoState, tied: Tied, scale: Natural, as_is: bool) -> H
             continue
         of_others = np.linalg.lstsq(natural[kept].T, natural[k])[0]
         if abs(residuals[k] - of_others @ residuals[kept]) > FULL_RANK * state.reach.max():
-            problem = 'contradicts other equalities, which depth = "closed" takes as they stand'
+            problem = 'contradicts other equalities, which depth = "closed" closes; leave one out'
             raise ModelError(problem, field=name, value=float(residuals[k]))
         left_out.append(f"{name}: {HELD}")
     rows = tuple(

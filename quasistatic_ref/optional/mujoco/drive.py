@@ -144,7 +144,7 @@ def drive_of(system: MujocoSystem, data: MjData, T: float, targets: Driven) -> D
             if not np.isfinite(number):
                 raise InputError("must be a finite number", field=f"targets.{name}", value=number)
             if name not in places:
-                problem = "is no actuator, and no joint with a stiffness"
+                problem = "is no actuator, and no joint with a stiffness; name one"
                 problem += suggestion(name, tuple(places))
                 raise InputError(problem, field="targets", value=name)
             values[places[name]] = number

@@ -125,7 +125,7 @@ def check(state: MujocoState) -> None:
             raise ModelError(reason, field=named(state, field, i), value=values[i].tolist())
     for field in PLUGINS:
         for i in np.flatnonzero(getattr(model, field) >= 0)[:1].tolist():
-            raise ModelError("pushes with a plugin", field=named(state, field, i))
+            raise ModelError("pushes with a plugin; leave it out", field=named(state, field, i))
     for i in np.flatnonzero(model.actuator_gainprm[:, 1]).tolist():
         if kind_of(state, "actuator_gaintype", i) == "AFFINE":
             problem = "makes the gain depend on the length; put the stiffness into biasprm"
@@ -143,7 +143,8 @@ def check_run(state: MujocoState) -> None:
     model = state.model
     loose = model.tendon_lengthspring[:, 0] < model.tendon_lengthspring[:, 1]
     for i in np.flatnonzero(loose & (model.tendon_stiffness > 0)).tolist():
-        problem = "has a range in which the spring is slack, and K_q is that of a whole run"
+        problem = "has a range in which the spring is slack, and K_q is that of a whole run; "
+        problem += "give one length"
         raise ModelError(problem, field=f"{state.words('tendon', i)}.springlength")
     for i in range(model.nu):
         if kind_of(state, "actuator_dyntype", i) == "MUSCLE":

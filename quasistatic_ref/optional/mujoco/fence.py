@@ -72,7 +72,7 @@ class Fence:
         left = LARGEST_FILE
         for file in files:  # which grows by what each includes
             if len(files) > MOST_FILES:
-                raise ModelError(f"consists of more than {MOST_FILES} files", file=path)
+                raise ModelError(f"consists of more than {MOST_FILES} files; join some", file=path)
             with about_file(file):
                 content = bytes_read(file, ModelError, left)
                 left -= len(content)

@@ -84,7 +84,7 @@ def check_stiff(springs: Iterable[Spring]) -> None:
     """Refuse servos and springs of negative stiffness: ModelError, naming one."""
     for spring in springs:
         if spring.k < 0:
-            problem = "pushes away from its target, so that K_q is not positive definite"
+            problem = "pushes away from its target; make its stiffness positive"
             raise ModelError(problem, field=spring.field, value=spring.k)
 
 

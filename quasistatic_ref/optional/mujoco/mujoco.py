@@ -259,7 +259,7 @@ def joint_friction(state: MujocoState, T: Array, heavy: Array) -> tuple[Rises, l
         on = np.flatnonzero(along).tolist()
         name = friction_name(state, row)
         if len(on) > 1:
-            problem = "rubs along several joints at once, for which there is no row"
+            problem = "rubs along several joints at once, which no row expresses; leave it out"
             raise ModelError(problem, field=f"{name}.frictionloss", value=loss)
         for i in on:
             numbers.append(i)

@@ -75,7 +75,7 @@ class MujocoScenario(Scenario):
     def simulator(self, extension: ExtensionOfQ | None = None) -> Simulator:
         """A simulator of this scene; an `extension` of one's own is not taken: InputError."""
         if extension is not None:
-            raise InputError("is not taken by a MuJoCo scene", field="extension")
+            raise InputError("is not taken by a MuJoCo scene; leave it out", field="extension")
         system = self.drive.system
         rows = system.extension if system.rows.names or len(system.rises) else None
         return MujocoSimulator(**self.settings(), extension=rows)

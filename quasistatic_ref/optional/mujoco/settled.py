@@ -165,7 +165,7 @@ def run(model: MjModel, data: MjData, seconds: float) -> None:
     for _ in range(round(seconds / model.opt.timestep)):
         mujoco.mj_step(model, data)
     if _resets(data) > before:
-        problem = "is too large: MuJoCo's simulation is unstable, and began anew"
+        problem = "is too large: MuJoCo's simulation is unstable, and began anew; lower it"
         raise ModelError(problem, field="option.timestep", value=model.opt.timestep)
 
 

@@ -227,7 +227,7 @@ class MujocoSystem(Mechanism):
         state = self._state
         j = state.mujoco.mj_name2id(self.model, state.mujoco.mjtObj.mjOBJ_JOINT, name)
         if j < 0 or kind_of(state, "jnt_type", j) not in ("HINGE", "SLIDE"):
-            raise ModelError("is no hinge or slide of the model", field="joint", value=name)
+            raise ModelError("must be a hinge or slide of the model", field="joint", value=name)
         dof = int(self.model.jnt_dofadr[j])
         if any(state.moments[i, dof] for i in self.servos):
             problem = "has a servo; name that in the table of targets instead"

@@ -187,7 +187,7 @@ def program_of(P: Any, *arrays: Any, constant: Any = 0.0) -> QuadraticProgram:
     }
     for name in ("P", "q"):
         if given[name] is None:
-            raise InputError("is missing", field=name)
+            raise InputError("is missing; P and q are needed", field=name)
     for matrix, side in (("G", "h"), ("A", "b")):
         if (given[matrix] is None) != (given[side] is None):
             raise InputError(f"{matrix} and {side} are given together, or not at all")

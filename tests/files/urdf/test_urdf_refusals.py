@@ -73,14 +73,14 @@ REFUSED = {
         THREE,
         "</robot>",
         joint("l", "a", "c") + "</robot>",
-        r"joint\[l\].child: is already the child of joint 'k' \(got 'c'\)",
+        r"joint\[l\].child: is already the child of joint 'k'; name another \(got 'c'\)",
     ),
     "two roots": (THREE, "</robot>", link("d") + "</robot>", "root link: exactly one link must"),
     "a loop aside": (
         TWO,
         "</robot>",
         link("c") + link("d") + joint("l", "c", "d") + joint("m", "d", "c") + "</robot>",
-        r"tree: these joints are not connected to the root link 'a' \(got \['l', 'm'\]\)",
+        r"tree: must connect these joints to the root link 'a' \(got \['l', 'm'\]\)",
     ),
     "a ball that mimics": (
         WHEELS.replace('"k" type="continuous"', '"k" type="ball"'), "RATIO", "1",

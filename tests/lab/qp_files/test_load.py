@@ -107,7 +107,7 @@ def spoilt(matrix):
         ({"q": [[3j], [0]]}, r"q: must be 2 real numbers"),
         ({"P": np.eye(3)[:2]}, "P: must be 2 x 2 real numbers"),
         ({"P": spoilt(EYE)}, "is not P of a problem, or is spoilt"),
-        ({"A": scipy.sparse.csc_array((3, 2))}, "A: does not end in the bounds"),
+        ({"A": scipy.sparse.csc_array((3, 2))}, "A: must end in a unit matrix"),
         ({"P": scipy.sparse.eye_array(9000)}, "has 9000 variables and 3 rows; at most"),
         ({"P": "eye"}, "P: must be 1 x 1 real numbers"),
     ],

@@ -50,7 +50,7 @@ REFUSED = {
     "is not finite": lambda s: [s.delta_q == UPPER],
     "nothing can keep": lambda s: [s.delta_q >= UPPER],
     "several numbers": lambda s: [cp.square(s.delta_q)],
-    "no constraint and no cost": lambda s: [True],
+    "must be a constraint or a cost": lambda s: [True],
 }
 
 

@@ -21,7 +21,7 @@ def challenge_status(options: argparse.Namespace) -> int:
         Of options that cannot be, and of a program that does not start.
     """
     if options.program is None:
-        raise InputError("is missing: the program that is challenged", field="--command")
+        raise InputError("is missing; name the program that is challenged", field="--command")
     for name in ("cases", "seconds", "timeout", "digits"):
         value = getattr(options, name)
         if value is not None and not 0 < value < float("inf"):
