@@ -149,7 +149,7 @@ def test_arguments_that_type_checkers_see_are_those_that_there_are():
     assert seen >= 4
 
 
-def test_nothing_is_imported_with_the_package():
+def test_the_import_of_the_package_loads_no_other_module():
     done = python("-c", "import sys, quasistatic_ref; print(*sys.modules)")
     loaded = set(done.stdout.split())
     assert not loaded & {"numpy", "cvxpy", "pinocchio", "coal"}

@@ -144,7 +144,7 @@ OF_CORE_AND_PARTS = {
 
 
 @pytest.mark.parametrize("folders", FOLDERS, ids=lambda folders: " ".join(folders)[:20])
-def test_what_is_left_is_collected_where_parts_are_deleted_with_their_tests(checkout, folders):
+def test_other_tests_are_collected_where_parts_are_deleted_with_theirs(checkout, folders):
     with ExitStack() as gone:
         for name in [*folders, *(WITH[name] for name in folders if name in WITH)]:
             for place in ("quasistatic_ref", "tests"):

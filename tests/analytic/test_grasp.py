@@ -86,7 +86,7 @@ def test_the_bunny_starts_at_rest_and_drag_is_small_ever_after(runs, demo, case)
     assert "drag" not in errors
 
 
-def test_what_the_swinging_bunny_lacks_is_that_of_a_pendulum(runs, scenario):
+def test_the_missing_force_of_the_swinging_bunny_is_that_of_a_pendulum(runs, scenario):
     """It turns about the line through the two points that hold it, and the springs give way.
 
     A step of T has K (q - q_bar) + J'f = 0 and M q_u / T^2 - tau + J'f = 0, J q = 0; r = -M (q_2 -
@@ -136,7 +136,7 @@ def test_the_report_of_the_demo_is_that_of_the_trajectories(demo, scenario, runs
         assert (said["variables"], said["rows"], said["steps"]) == (13, 80, 300)
 
 
-def test_nothing_but_mu_omega_differs_between_the_runs(runs):
+def test_the_runs_differ_in_mu_omega_alone(runs):
     one, two = runs.values()
     assert_same(one["mu_omega"], [0.0] * 5 + [0.003] * 10)
     assert_same(two["mu_omega"], np.zeros(15))

@@ -50,7 +50,7 @@ def test_the_scenario_is_the_one_of_the_formula(scenario):
     assert_relative(torque(AT_LIMIT), LIMIT)
 
 
-def test_it_sticks_up_to_the_limit(run):
+def test_the_sphere_sticks_up_to_the_limit(run):
     moved = run["delta_q"][:AT_LIMIT] / FREE
     assert_same(moved, np.zeros((AT_LIMIT, 6)))
 

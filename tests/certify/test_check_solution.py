@@ -45,7 +45,7 @@ def solved_text(step):
         return infeasible_text(step, proof.farkas.exact)
 
 
-def test_it_is_short_and_imports_the_standard_library_alone():
+def test_the_checker_is_short_and_imports_the_standard_library_alone():
     lines = CHECKER.read_text().splitlines()
     imported = {line for line in lines if line.startswith(("import ", "from "))}
     allowed = {"import hashlib", "import json", "import sys", "from fractions import Fraction"}
@@ -155,7 +155,7 @@ NO_FILE = {
 
 
 @cases("file, where, value, words", NO_FILE)
-def test_what_is_no_file_of_its_format_is_refused_here_and_by_verify(
+def test_a_file_of_no_known_format_is_refused_by_the_checker_and_by_verify(
     outcome, tmp_path, file, where, value, words
 ):
     texts = {"step": step_text(STICKS), "solution": solved_text(STICKS)}
@@ -181,7 +181,7 @@ def test_a_field_that_is_there_twice_and_files_that_are_none_are_refused(outcome
         assert words in capsys.readouterr().out
 
 
-def test_what_is_not_claimed_or_not_judged_here_is_said(outcome):
+def test_the_checker_says_of_which_claims_it_is_no_judge(outcome):
     for (kind, _), step in SCENES.items():
         status, line = outcome(step_text(step), json.dumps(good_file(step, kind)))
         judged = kind in ("exact", "infeasible")

@@ -15,7 +15,7 @@ from tests.helpers import point_on_floor
 from tests.made import bits
 
 
-def test_what_stays_where_it_is_needs_no_fractions(monkeypatch):
+def test_a_coordinate_that_does_not_move_needs_no_fractions(monkeypatch):
     """A box that slides askew does not turn: three entries are zero, which no ball shows."""
     scene = boxes(1)
     target = scene.target(0.0, scene.q)
@@ -70,7 +70,7 @@ def test_a_group_that_rests_is_kept_beside_one_that_moves(proofs_made):
     assert bits(again.lam) == bits(fresh.lam)
 
 
-def test_what_differs_in_one_bit_or_starts_elsewhere_is_proved(proofs_made):
+def test_a_step_that_differs_in_one_bit_or_starts_elsewhere_is_proved(proofs_made):
     step = point_on_floor(force=(0.1, 0.0, -1.0))
     (part,) = group_steps(step)
     kept = optimum.ProofCache()
@@ -102,7 +102,7 @@ ARM = """<robot name="arm"><link name="wall"/>
 
 
 @pytest.mark.parametrize("swings", [False, True])
-def test_each_of_40_unlike_bodies_is_inverted_once(monkeypatch, swings):
+def test_the_mass_of_each_of_40_unlike_bodies_is_inverted_once(monkeypatch, swings):
     """Also beside an arm, whose masses change from step to step."""
     inverted = []
     inverse = form.inverse

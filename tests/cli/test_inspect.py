@@ -110,7 +110,7 @@ def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, cli, insp
 
 
 @pytest.mark.parametrize("name", SCENARIOS)
-def test_what_is_inspected_fits_a_terminal(name, cli):
+def test_lines_of_inspect_fit_a_terminal(name, cli):
     assert max(map(len, cli("inspect", name).out.splitlines())) <= WIDTH
 
 

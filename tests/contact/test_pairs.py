@@ -51,7 +51,7 @@ BODY = Body.of_shape("ball", BALL, mass=0.3)
 
 
 @pytest.mark.parametrize("no_shape", [BODY, None])
-def test_what_is_no_placed_shape_is_refused_with_what_to_write(no_shape):
+def test_a_side_that_is_no_placed_shape_is_refused_with_the_remedy(no_shape):
     kind = type(no_shape).__name__
     says = f"System.shapes, for the world's PlacedShape.in_world(name, shape) (got '{kind}')"
     for key in ("alpha", "beta"):
@@ -62,7 +62,7 @@ def test_what_is_no_placed_shape_is_refused_with_what_to_write(no_shape):
 
 
 @pytest.mark.parametrize("no_pairs", [BODY, [BODY]])
-def test_what_are_no_pairs_is_refused(no_pairs):
+def test_an_argument_that_is_no_list_of_pairs_is_refused(no_pairs):
     with pytest.raises(ContactError, match=r"pairs: must be a sequence of ContactPair \(got '"):
         Simulator(System([BODY]), no_pairs, h=0.01, K_q=[])
 

@@ -4,7 +4,7 @@ from tests.closeness import assert_close
 from tests.oracles.printed_rows import added_to_the_gap, along
 
 
-def test_they_are_what_the_third_and_fourth_constraint_add_to_the_gap(rng):
+def test_opposite_tangents_are_those_that_the_third_and_fourth_constraint_add_to_the_gap(rng):
     c, motion, added = added_to_the_gap(rng)
     expected = [-c.mu_v * along(d, motion) for d in (c.d1, c.d2)]
     assert_close(added[2:4], expected)

@@ -163,7 +163,7 @@ NO_NUMBERS = (math.nan, -math.inf, date(2020, 1, 1), 16**5000)
 
 
 @pytest.mark.parametrize("field", list(numeric_fields(SCENE)))
-def test_what_is_no_number_is_refused_in_every_field(here, field):
+def test_values_that_are_no_number_are_refused_in_every_field(here, field):
     for number in NO_NUMBERS:
         with pytest.raises(InputError) as caught:
             load_scenario(changed(SCENE, (field, number)))

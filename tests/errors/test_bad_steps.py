@@ -38,7 +38,7 @@ NO_NUMBERS = ("NaN", "-Infinity", "1e999", "1" * 400)
 
 
 @pytest.mark.parametrize("field", list(numeric_fields(STEP)))
-def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field):
+def test_values_that_are_no_number_are_refused_in_every_field(tmp_path, refused, field):
     text = json.dumps(changed(STEP, (field, "MARK")))
     name = dotted(STEP, field)
     # A count of many digits is a whole number: it is the matrix that cannot have that size.

@@ -224,7 +224,7 @@ def test_stiffness_in_each_form_is_the_same_matrix():
     assert_same(simulator(K_q=7.0).K_q, 7.0 * np.eye(6))
 
 
-def test_what_toml_leaves_out_python_leaves_out_and_a_far_limit_is_one():
+def test_defaults_of_toml_are_those_of_python_and_a_far_limit_is_one():
     alone = qr.ContactPair("f", FLOOR, SYSTEM.shapes[1], mu_v=0.3, mu_omega=0.0)
     assert (alone.rows, alone.k) == (6, 1)
     free = qr.System([BLOCK])
@@ -256,7 +256,7 @@ SHOWN = {
 
 
 @pytest.mark.parametrize("line", SHOWN)
-def test_what_people_print_fits_on_a_line(line):
+def test_the_repr_of_a_public_object_fits_on_a_line(line):
     assert repr(SHOWN[line]) == line
 
 

@@ -53,7 +53,7 @@ def test_a_run_of_the_same_scene_is_replaced_and_any_other_where_that_is_asked_f
     assert "--out: is a folder, in which scene.npz is written; name a folder" in said
 
 
-def test_what_is_no_trajectory_is_not_replaced_by_one(tmp_path, cli):
+def test_a_file_of_another_kind_is_not_replaced_by_a_trajectory(tmp_path, cli):
     scene = scene_written(tmp_path)
     points = tmp_path / "scene.npz"
     np.savez(points, points=np.zeros((4, 3)))

@@ -229,7 +229,7 @@ OTHERS = {
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_what_others_read_is_read(tmp_path, name):
+def test_files_that_others_read_are_read(tmp_path, name):
     content = OTHERS[name]
     path = tmp_path / name
     path.write_bytes(content if isinstance(content, bytes) else content.encode())

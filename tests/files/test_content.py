@@ -63,7 +63,7 @@ def test_a_writer_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, erro
     assert os.listdir(tmp_path) == ["t.txt"]
 
 
-def test_what_a_killed_process_had_half_written_is_removed(tmp_path):
+def test_the_half_written_file_of_a_killed_process_is_removed(tmp_path):
     """By another process, and not what a third one is writing."""
     program = (
         "import sys; from quasistatic_ref.files.content import *; written_whole(sys.argv[1], {})"
@@ -130,7 +130,7 @@ def test_a_writer_that_fails_sends_nothing_down_a_pipe(error):
     os.close(one)
 
 
-def test_what_is_not_utf_8_names_its_line():
+def test_a_text_that_is_not_utf_8_names_its_line():
     with pytest.raises(InputError, match=r"^t: line 3: is not UTF-8 text$"):
         text_of(b"one\ntwo\n\xff", "t")
 
@@ -159,7 +159,7 @@ SPOILERS = {
 
 @cases("read", READERS)
 @cases("spoil, words", SPOILERS)
-def test_what_is_no_file_is_refused(tmp_path, read, spoil, words):
+def test_a_path_that_is_no_file_is_refused(tmp_path, read, spoil, words):
     path = tmp_path / "input"
     spoil(path)
     with refusal(InputError, f"{path}: ", words):

@@ -357,7 +357,7 @@ LIES = {
 
 
 @cases("name, content, words", LIES)
-def test_what_a_file_states_of_itself_is_compared_with_it(
+def test_the_statements_of_a_mesh_file_are_compared_with_its_content(
     tmp_path, monkeypatch, name, content, words
 ):
     """With bounds of a few kilobytes; next to it lie a pipe and a glTF of another shape."""
@@ -391,7 +391,7 @@ SAME = {
 
 
 @cases("name, content", SAME)
-def test_what_is_whole_is_read(tmp_path, name, content):
+def test_a_whole_mesh_file_is_read(tmp_path, name, content):
     (tmp_path / name).write_bytes(bytes_of(content))
     vertices = loaded_mesh(tmp_path / name).vertices
     extent = np.ptp(vertices, axis=0)
@@ -428,7 +428,7 @@ NOTED = {
 
 
 @cases("name, content, words", NOTED)
-def test_what_is_read_otherwise_than_meant_is_noted(tmp_path, name, content, words):
+def test_a_mesh_file_that_is_read_otherwise_than_meant_is_noted(tmp_path, name, content, words):
     (tmp_path / name).write_bytes(bytes_of(content))
     mesh = loaded_mesh(tmp_path / name)
     assert len(mesh.triangles) == 4
@@ -444,7 +444,9 @@ def test_a_format_names_the_extra_that_it_needs(tmp_path, monkeypatch, name, pac
 
 
 @pytest.mark.parametrize("failure", [MemoryError, ImportError, KeyboardInterrupt, OSError])
-def test_what_says_nothing_of_the_file_is_not_called_malformed(tmp_path, monkeypatch, failure):
+def test_an_error_that_says_nothing_of_the_file_does_not_call_it_malformed(
+    tmp_path, monkeypatch, failure
+):
     """Nor what a library warns of: that its own code is old."""
     (tmp_path / "a.gltf").write_bytes(plain_gltf())
     load = trimesh.load_scene

@@ -106,7 +106,7 @@ def test_a_claim_that_fails_ends_with_status_one_and_a_sentence(tmp_path, cli, m
     assert json.loads(cli("validate --json --out", tmp_path, status=1).out)["failed"] == ["planted"]
 
 
-def test_nothing_is_measured_for_a_folder_that_cannot_be_written(tmp_path, cli):
+def test_no_claim_is_measured_for_a_folder_that_cannot_be_written(tmp_path, cli):
     (tmp_path / "file").touch()
     said = cli("validate --out", tmp_path / "file", status=2).err
     assert "cannot be written" in said

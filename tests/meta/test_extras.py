@@ -17,7 +17,7 @@ SKIPS = re.compile(
 )
 
 
-def test_nothing_is_skipped_but_for_want_of_an_extra_or_of_a_count():
+def test_tests_are_skipped_for_want_of_an_extra_or_of_a_count_alone():
     sources = [path for path in ROOT.glob("tests/**/*.py") if path.name != "test_extras.py"]
     found = {path.name for path in sources if SKIPS.search(path.read_text("utf-8"))}
     assert found == {"conftest.py"}, "it skips by the marker"
@@ -38,7 +38,7 @@ def test_every_marker_names_an_extra(request):
         is_missing("nonsense")
 
 
-def test_what_is_skipped_is_named_with_its_extra_and_left_to_ci(request, monkeypatch):
+def test_a_skipped_test_is_named_with_its_extra_and_left_to_ci(request, monkeypatch):
     monkeypatch.setattr(conftest, "is_missing", lambda extra: extra == "robots")
     items = []
     for extra in ("robots", "engines", "compiled"):

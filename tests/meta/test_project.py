@@ -25,7 +25,7 @@ def test_every_extra_is_on_the_page_that_installs_the_package():
     assert_among(EXTRAS, re.findall(r"\w+", " ".join(cells)), words)
 
 
-def test_all_is_every_extra_for_use():
+def test_the_extra_all_is_every_extra_for_use():
     (line,) = EXTRAS["all"]
     names = {*re.search(r"\[(.*)\]", line)[1].split(",")}
     words = (

@@ -84,7 +84,7 @@ def test_a_urdf_may_be_given_as_text(text):
     assert System([Body("it", text, "floating")]).masses.tolist() == [0.0, 0.3]
 
 
-def test_what_is_wrong_in_a_text_is_said_of_the_text():
+def test_a_mistake_in_a_text_is_said_of_the_text():
     with pytest.raises(ModelError, match=r"^<robot>: line 1: is not well-formed XML"):
         System([Body("it", "<robot")])
     text = BALL.replace("0.05", "-0.05")

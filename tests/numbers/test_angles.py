@@ -64,7 +64,7 @@ def test_the_angle_of_a_vector_is_the_nearest_float64():
     assert angle_of(*np.array(every).T).tolist() == expected
 
 
-def test_what_is_no_number_has_no_sine_and_no_angle():
+def test_inf_and_nan_have_no_sine_and_no_angle():
     answers = [*cos_sin(math.inf), *cos_sin(math.nan), angle_of(math.nan, 1.0)]
     assert all(map(math.isnan, answers))
     several = np.array([math.inf, math.nan])

@@ -31,7 +31,7 @@ def test_proofs_of_settled_scenes_hold_in_fractions(tmp_path, kind, count):
 
 
 @pytest.mark.parametrize(("kind", "count"), [("wall", 8), ("tower", 7), ("grid", 9)])
-def test_what_a_refined_start_ends_in_is_what_walks_alone_end_in(kind, count):
+def test_a_refined_start_and_walks_alone_end_at_the_same_bits(kind, count):
     step = settled_step(kind, 1, count)
     solution = solve_step(step, "daqp")
     assert len(solution.certificate.active) > 32

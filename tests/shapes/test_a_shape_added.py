@@ -67,7 +67,7 @@ def scene(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("other", [Sphere(0.05), HalfSpace((0, 0, -1.0), 0.05)])
-def test_its_distance_to_other_solids_is_that_of_the_faces(other):
+def test_the_distance_of_an_added_shape_is_that_of_its_faces(other):
     # The ball's lowest point, and the plane of the half-space, are 0.05 from their frame.
     gap = 0.02
     above = in_world(other, [0.01, 0.02, HALF[2] + RADIUS + gap + 0.05])
@@ -95,14 +95,14 @@ def test_edges_of_a_polytope_cross_outside_of_its_margin(monkeypatch):
             assert_relative(near.phi, 0.001, 1e-12)
 
 
-def test_what_it_has_not_said_is_refused_in_a_sentence():
+def test_an_added_shape_without_faces_is_refused_where_faces_are_needed():
     with pytest.raises(ContactError, match="shape: has no closest points with this solid"):
         solid_pair("pad", in_world(PAD), in_world(Box(np.full(3, 0.05))))
     with pytest.raises(ContactError, match="shape: has no known faces"):
         kinks(PAD)
 
 
-def test_a_ball_comes_to_rest_on_it_in_a_scenario(scene):
+def test_a_ball_comes_to_rest_on_an_added_shape(scene):
     scenario = load_scenario(scene)
     run = scenario.run()
     # The wrench of the scene is along y and about z: in contact the load is the weight, m g.
@@ -110,7 +110,7 @@ def test_a_ball_comes_to_rest_on_it_in_a_scenario(scene):
     assert_relative(run["wrench"][0, 0, 2], 0.3 * 9.81, SCENARIO)
 
 
-def test_it_is_drawn_and_inspected(scene, cli):
+def test_an_added_shape_is_drawn_and_inspected(scene, cli):
     scenario = load_scenario(scene)
     run = scenario.run()
     page, (axes,) = panels(4.6, 4.0)

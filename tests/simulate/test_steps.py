@@ -45,7 +45,7 @@ def same(one, other):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_each_is_the_step_of_a_cold_simulator_and_the_order_does_not_matter(kind):
+def test_steps_at_once_are_those_of_a_cold_simulator_in_any_order(kind):
     simulator, here, targets, loads = place(*KINDS[kind])
     kept = simulator.solver
     results = simulator.steps(here, targets, loads)
@@ -86,7 +86,7 @@ def test_sums_of_forces_are_those_of_each_step():
         assert all(bits(pairs[name][k]) == bits(f) for name, f in results[k].pair_forces().items())
 
 
-def test_what_is_refused_is_refused_as_by_a_step():
+def test_steps_at_once_refuse_a_target_or_load_as_a_step_does():
     simulator, here, targets, loads = place("bunny_grasp", "solver.backend=daqp")
     for field, where in (("target", targets), ("load", loads)):
         wrong = where.copy()

@@ -153,7 +153,7 @@ def test_the_header_says_what_the_run_was(run):
     }  # fmt: skip
 
 
-def test_it_is_a_mapping_of_its_arrays(run):
+def test_a_trajectory_is_a_mapping_of_its_arrays(run):
     assert "phi" in run
     assert "phii" not in run
     assert list(run) == list(run.keys()) == list(run.arrays)

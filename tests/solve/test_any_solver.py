@@ -85,7 +85,7 @@ def test_a_function_has_a_name_on_the_command_line(name, mine, cli):
     assert set(run.certificate) == {"exact"}
 
 
-def test_what_a_function_prints_comes_not_among_the_answers(mine, capfd):
+def test_the_output_of_a_function_comes_not_among_the_answers(mine, capfd):
     (mine / "loud.py").write_text(f"print('noise of the module')\n{MINE}")
     assert main(["solve", "step.json", "--backend", "loud.py:prints"]) == 0
     said = capfd.readouterr()
@@ -116,7 +116,7 @@ WRONG = {
 
 
 @cases("answer, says", WRONG)
-def test_what_a_function_returns_is_not_believed(answer, says):
+def test_the_answer_of_a_function_is_not_believed(answer, says):
     def function(P, q, G, h):
         return answer(q, h)
 

@@ -162,7 +162,7 @@ def test_impulses_whose_forces_leave_float64_are_refused():
         solve.solve_step(point_on_floor(m=0.3, phi=-1.0, h=1e-155))
 
 
-def test_what_highs_prints_at_its_first_object_is_not_seen(monkeypatch, capfd):
+def test_the_greeting_of_highs_is_not_seen(monkeypatch, capfd):
     greeted = []
 
     def greeting():

@@ -60,7 +60,7 @@ def interrupted():
 
 
 @pytest.mark.parametrize("name", ENDLESS)
-def test_it_ends_a_solve_through_cvxpy(form, interrupted, name):
+def test_an_interrupt_ends_a_solve_through_cvxpy(form, interrupted, name):
     program = Program(form)
     cvxpy_reply(program, name, {})  # compiled here, so that the signal comes during the solve
     interrupted()
@@ -71,7 +71,7 @@ def test_it_ends_a_solve_through_cvxpy(form, interrupted, name):
 
 
 @pytest.mark.parametrize("name", ENDLESS)
-def test_it_ends_a_solve_through_qpsolvers(form, interrupted, name):
+def test_an_interrupt_ends_a_solve_through_qpsolvers(form, interrupted, name):
     interrupted()
     with pytest.raises(KeyboardInterrupt):
         qpsolvers_reply(form, name, ENDLESS[name])

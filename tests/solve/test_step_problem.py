@@ -137,7 +137,7 @@ def test_rows_and_costs_of_a_user_are_in_metres_and_newton_metre_seconds(kind):
     assert_within(page.problem.value, page.problem.objective.value, 1e-9)
 
 
-def test_what_has_no_solution_is_said_in_a_sentence():
+def test_a_page_without_a_solution_is_said_in_a_sentence():
     def walls(page):
         return [page.delta_q[0] >= 1e-3, page.delta_q[0] <= -1e-3]
 

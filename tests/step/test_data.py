@@ -69,7 +69,7 @@ LEAKS = {
 
 
 @cases("build", LEAKS)
-def test_nothing_but_the_package_s_own_error_comes_out(build):
+def test_arguments_raise_the_package_s_own_error_alone(build):
     with pytest.raises(StepDataError):
         build()
 

@@ -32,7 +32,7 @@ def test_blocks_stand_for_the_whole_matrix():
         assert not again.__dict__.keys() & {"_parts", "_formed"}
 
 
-def test_what_is_exact_is_formed_once_a_run_for_each_of_many_bodies(monkeypatch):
+def test_exact_numbers_are_formed_once_a_run_for_each_of_many_bodies(monkeypatch):
     """Of more bodies of different masses than any cache of recent ones would hold."""
     formed = []
     inverse = form.inverse

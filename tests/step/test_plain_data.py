@@ -79,7 +79,7 @@ def test_a_copy_of_a_simulator_has_every_setting(things, trip):
         assert_same(again[name], value)
 
 
-def test_what_a_solver_took_of_the_clock_is_not_compared_but_copied(things):
+def test_the_time_of_a_solver_is_not_compared_but_copied(things):
     solution = things["StepSolution"]
     result = things["StepResult"]
     slower = solution.statistics.with_fields(solve_time=1e3)

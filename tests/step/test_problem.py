@@ -29,7 +29,7 @@ def with_mu_of(other, step):
     return step.replace(contacts=changed(step.contacts, **mu))
 
 
-def test_nothing_is_compiled_after_the_first_solve(monkeypatch):
+def test_a_program_is_compiled_at_its_first_solve_alone(monkeypatch):
     first, *others = (planted_step(seed, *PAPER)[0] for seed in range(3))
     others = [with_mu_of(first, step) for step in others]
     kept = CvxpySolver(first, "clarabel")

@@ -62,7 +62,7 @@ def test_the_fields_of_solver_are_keywords_by_their_own_words(path):
             load_scenario(path, **{word: value})
 
 
-def test_what_is_given_is_not_changed(path):
+def test_the_table_and_settings_of_a_user_are_not_changed(path):
     K_q = {"slide": [7.0], "turn": 8.5}
     settings = {"bodies.rail.K_q": K_q}
     load_scenario(path, settings)
@@ -130,7 +130,7 @@ def test_changes_that_cannot_be_made_are_one_sentence(path, settings, named, say
         load_scenario(path, settings, **named)
 
 
-def test_what_the_file_says_wrong_is_said_of_the_file_whatever_else_is_changed(path):
+def test_a_mistake_of_the_file_is_said_of_the_file_whatever_else_is_changed(path):
     path.write_text(path.read_text().replace("mu_v", "mu_w", 1))
     with refusal(InputError, f"{path}: contacts."):
         load_scenario(path, ["h=0.02", "contacts.floor.k=3"], steps=3)

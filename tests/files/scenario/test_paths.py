@@ -36,7 +36,7 @@ def test_a_file_elsewhere_has_no_shared_folder(share, tmp_path):
     "address",
     ["package://nowhere/arm.urdf", "package://arms/leg.urdf", "package://", "package://arms"],
 )
-def test_what_is_not_installed_is_refused_with_the_remedy(share, tmp_path, address):
+def test_a_scenario_that_is_not_installed_is_refused_with_the_remedy(share, tmp_path, address):
     with pytest.raises(ScenarioError, match=r"pip install 'quasistatic-ref\[robots\]'") as caught:
         path_found(tmp_path, address)
     assert (caught.value.field, caught.value.value) == ("bodies.arm.urdf", address)

@@ -158,7 +158,7 @@ def test_urdf_1_2_has_optional_limits_and_quaternions():
         loaded(turned.replace("quat_xyzw", 'rpy="0 0 0" quat_xyzw'))
 
 
-def test_what_is_missing_is_named():
+def test_a_missing_element_of_a_urdf_is_named():
     with pytest.raises(ModelError, match="robot: has no <link>"):
         loaded('<robot name="a"/>')
     with pytest.raises(ModelError, match=r"robot\.name: is missing"):

@@ -145,7 +145,9 @@ def test_bounds_are_those_of_the_format(lines, low, high, tmp_path):
         (("1.5", "1e999"), "is beyond the range of float64"),
     ],
 )
-def test_what_readers_differ_in_or_none_solves_gets_one_sentence(changes, sentence, tmp_path):
+def test_files_in_which_readers_differ_or_that_none_solves_get_one_sentence(
+    changes, sentence, tmp_path
+):
     with pytest.raises(qr.InputError, match=r"model\.qps: ") as caught:
         answer(changed(*changes), tmp_path)
     assert sentence in str(caught.value)

@@ -44,7 +44,9 @@ UNUSABLE = {
 
 
 @pytest.mark.parametrize("command", UNUSABLE)
-def test_what_is_not_usable_ends_in_one_sentence(tmp_path, monkeypatch, cli, command):
+def test_a_folder_of_reality_that_is_not_usable_ends_in_one_sentence(
+    tmp_path, monkeypatch, cli, command
+):
     monkeypatch.chdir(tmp_path)
     said = cli("validate", command, status=2).err
     assert UNUSABLE[command] in said

@@ -30,7 +30,7 @@ def test_the_summary_is_what_the_rows_beside_it_give(table):
     assert (STUDIES / "default" / "summary.md").read_text("utf-8") == page(table)
 
 
-def test_what_was_reached_is_what_the_residuals_beside_it_give(committed):
+def test_the_accuracy_reached_is_that_of_the_residuals_beside_it(committed):
     for row in committed:
         sizes = (row.primal, row.dual, row.gap)
         accuracy = row.accuracy

@@ -31,7 +31,7 @@ RETURNED = {
 
 
 @pytest.mark.usefixtures("in_this_process")
-def test_what_a_function_returns_is_judged_as_it_is(tmp_path, three):
+def test_the_answer_of_a_function_is_judged_as_it_is(tmp_path, three):
     functions = [function_solver(getattr(broken, name), options={"high": {}}) for name in RETURNED]
     limits = Limits(repetitions=1)
     rows = study(three[:1], functions, ["high"], folder=tmp_path, limits=limits)

@@ -29,7 +29,7 @@ BAD = {
 
 
 @pytest.mark.parametrize("command", BAD)
-def test_it_is_refused_in_one_sentence(command, tmp_path, monkeypatch, cli):
+def test_a_bad_input_of_vectors_is_refused_in_one_sentence(command, tmp_path, monkeypatch, cli):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "answers").mkdir()
     answer_file(tmp_path / "answers", "selection", right_answers("selection"))

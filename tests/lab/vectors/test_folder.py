@@ -114,7 +114,7 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
 
 
 @pytest.mark.long
-def test_what_is_committed_is_copied_byte_for_byte(tmp_path):
+def test_the_committed_vectors_are_copied_byte_for_byte(tmp_path):
     generate_folder(VECTORS, tmp_path)
     assert contents(tmp_path) == contents(VECTORS)
 

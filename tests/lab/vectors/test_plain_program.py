@@ -60,7 +60,7 @@ def test_the_plain_program_passes_layers_1_to_8(tmp_path, every):
         assert report.count("passed") > 0
 
 
-def test_what_challenges_found_in_programs_is_mended():
+def test_faults_of_programs_that_challenges_found_are_mended():
     program = Program(PLAIN_PROGRAM)
     with program:
         for i, case in enumerate(json.loads(FOUND.read_text())):

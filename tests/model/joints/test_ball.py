@@ -113,7 +113,7 @@ def test_a_target_turns_it_the_shorter_way(base, name):
     assert_within(held.targets(0.05), half.as_quat(), 8 * ROUNDING)
 
 
-def test_what_a_ball_cannot_is_refused():
+def test_positions_and_targets_that_a_ball_lacks_are_refused():
     with pytest.raises(ModelError, match=r"arm\.positions: has no position that is one number"):
         System([Body("arm", HANGING, positions={"ball": 0.1})])
     away = [{"t": 0.0, "base": {"xyz": [0, 0, 1], "rpy": [0, 0, 0]}}]

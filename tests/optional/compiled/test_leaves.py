@@ -32,13 +32,13 @@ FUNCTIONS = [
 
 
 @pytest.mark.parametrize("function", FUNCTIONS, ids=lambda function: function.__qualname__)
-def test_each_answers_its_trials(function):
+def test_a_leaf_answers_its_trials(function):
     of, trials = leaves.leaf(function)
     assert all(of(instance)(*arguments) is not None for instance, arguments in trials())
     assert leaves.is_right(function)
 
 
-def test_one_with_other_bits_is_left_out(monkeypatch, capfd):
+def test_a_leaf_with_other_bits_is_left_out(monkeypatch, capfd):
     """As if a compiler had made it wrong."""
     of, trials = leaves.leaf(FUNCTIONS[1])
 

@@ -128,7 +128,7 @@ def test_a_guide_without_clearance_lets_a_point_slip_as_far_as_the_first_guess_s
     assert slip == pytest.approx(min(s / mu, H**2 * force / M), abs=1e-12)
 
 
-def test_what_is_not_usable_is_refused_in_a_sentence():
+def test_a_start_that_is_not_usable_is_refused_in_a_sentence():
     step = point(0.5)[0]
     for start in ([-1.0], [np.nan], [0.0, 0.0]):
         with pytest.raises(InputError, match=r"^start: must have one length >= 0 for each contact"):

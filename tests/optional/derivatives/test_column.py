@@ -103,7 +103,7 @@ def test_a_constructed_kink_is_named_by_the_rows_and_points_that_differ(scene, n
     assert np.isfinite(found.dq_dtau).all()
 
 
-def test_what_is_free_goes_where_it_is_sent_also_half_a_turn():
+def test_a_free_joint_reaches_its_target_also_half_a_turn_away():
     """The way there jumps from one side to the other, and where it ends does not."""
     wheel = Body("hand", WHEEL, actuated=("turn",))
     hand = Body.of_shape("hand", Sphere(0.05), 0.3, actuated=["base"])

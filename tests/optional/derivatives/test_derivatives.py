@@ -149,7 +149,7 @@ def test_friction_of_zero_has_a_derivative_from_above_alone():
         found.along(mu_v=[-0.1])
 
 
-def test_what_has_no_derivatives_is_refused_in_a_sentence():
+def test_a_step_without_derivatives_is_refused_in_a_sentence():
     simulator, q, q_bar_a = vector_scene("floating/push", cone="ellipsoid")
     with pytest.raises(InputError, match="polyhedron"):
         derivatives(simulator, q, q_bar_a)

@@ -41,7 +41,7 @@ def test_contacts_in_one_place_share_a_load_as_their_friction_allows():
 
 
 @pytest.mark.parametrize("i", [4, 5, 7])
-def test_what_does_not_balance_is_outside_of_its_cone(i):
+def test_impulses_that_do_not_balance_are_outside_of_their_cone(i):
     """A second contact without load of its own: a force there has no normal, or no coefficient."""
     step = body_on_one_place((0.0, 0.0, -2.0), [0.5, 0.5])
     lam = np.zeros(8)

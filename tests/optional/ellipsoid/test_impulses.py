@@ -53,7 +53,7 @@ def test_only_normal_parts_are_raised_and_only_by_rounding():
         assert outside_of_cones(step, fractions(lower)) == name
 
 
-def test_what_is_inside_is_left_as_it_is():
+def test_impulses_inside_of_their_cone_are_left():
     lam = np.array([*GOOD[0], *GOOD[1], 1.0])
     assert (raised(step_of(), lam) == lam).all()
     edge = np.array([1.0, 0.5, 0.0, 0.0, 1.0, 0.0, -0.25, 0.0, 1.0])  # exactly at the boundary

@@ -40,7 +40,7 @@ def test_any_start_ends_in_the_same_bits(step):
         np.testing.assert_allclose(other.net, found.net, rtol=ROUNDING, atol=ROUNDING * size)
 
 
-def test_what_a_push_claims_is_proved_by_the_interior_point():
+def test_claims_of_a_push_are_proved_by_the_interior_point():
     # The two pairs may be on opposite sides of the optimum: sqrt(2 RESERVE) is as long as the
     # interior point's own bound twice over, as long as its gap is below RESERVE / 4.
     for result in pushed_block().run(8):

@@ -244,6 +244,6 @@ REFUSED = {
 
 
 @pytest.mark.parametrize(("text", "old", "new", "says"), REFUSED.values(), ids=REFUSED)
-def test_what_means_nothing_is_refused_by_name(text, old, new, says):
+def test_a_rise_that_means_nothing_is_refused_by_name(text, old, new, says):
     with pytest.raises(InputError, match=says):
         scene(text.replace(old, new))

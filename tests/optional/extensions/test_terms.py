@@ -55,7 +55,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("named", REFUSED)
-def test_what_is_no_term_is_an_error_that_names_the_extension(named):
+def test_a_wrong_term_is_an_error_that_names_the_extension(named):
     with pytest.raises(qr.InputError, match=named) as caught:
         qr.solve_step(STEP, extension=qr.Extension(REFUSED[named]))
     assert caught.value.field.startswith("extension")

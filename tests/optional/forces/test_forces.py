@@ -276,7 +276,7 @@ def test_a_compliance_that_is_none_is_refused(compliance):
         contact_forces(block(), compliance)
 
 
-def test_whatever_should_not_matter_does_not(monkeypatch):
+def test_contact_forces_do_not_depend_on_backend_start_or_order(monkeypatch):
     """Random steps, one of them by fractions; and a planted fault."""
     monkeypatch.setattr(checks, "BACKENDS", ("daqp", "none"))
     for _, step in checks.random_steps(5):

@@ -217,7 +217,7 @@ def test_a_kind_that_no_step_has_is_refused_by_name(field, kind):
         answer(model, data)
 
 
-def test_what_is_left_out_is_said():
+def test_notes_name_each_force_that_is_left_out():
     model, data = scene()
     data.qvel[0] = 0.5
     _, coordinates = answer(model, data)
@@ -264,6 +264,6 @@ CLOTH = '<flexcomp type="grid" count="3 3 1" spacing=".1 .1 .1" name="cloth" pos
         (SCENE.replace("1M", "20K"), "size.memory: .*out of memory"),
     ],
 )  # fmt: skip
-def test_what_no_step_can_say_is_refused_by_name(text, match):
+def test_an_element_that_no_step_has_is_refused_by_name(text, match):
     with pytest.raises(ModelError, match=match):
         answer(*scene(text))

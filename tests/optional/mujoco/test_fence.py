@@ -109,7 +109,7 @@ def test_a_model_that_reads_elsewhere_or_asks_for_too_much_is_refused(home, case
         (b"<mujoco>", "is not XML: "),
     ],
 )
-def test_what_is_no_plain_xml_is_refused(tmp_path, content, says):
+def test_xml_that_is_not_plain_is_refused(tmp_path, content, says):
     path = tmp_path / "m.xml"
     path.write_bytes(content)
     assert says in refusal(path)

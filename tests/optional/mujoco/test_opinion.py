@@ -57,7 +57,7 @@ def test_the_guide_shows_what_is_found(opinions):
     assert [flat(block) for block in printed_blocks(PAGE)] == sentences
 
 
-def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(opinions):
+def test_needed_and_possible_loads_are_those_of_statics(opinions):
     """Weights and slopes by hand; the pads of the capsule press with what MuJoCo says, too."""
     slope = np.radians(15)
     block = opinions["block"].bodies[0]
@@ -136,7 +136,7 @@ def test_bodies_in_each_other_are_found_with_their_depth_and_forces():
     assert "contact/exclude" in finding.remedy
 
 
-def test_what_rests_by_rolling_friction_alone_is_found():
+def test_a_ball_that_rests_by_rolling_friction_alone_is_found():
     """A ball on a slope of 3 degrees; the exact step has no row for rolling."""
     g = f"{GRAVITY * np.sin(0.05)} 0 {-GRAVITY * np.cos(0.05)}"
     rolls = 'condim="6" friction="1 .1 .1"'
@@ -185,7 +185,7 @@ REFUSED = {
 
 @pytest.mark.usefixtures("compiled_here")
 @pytest.mark.parametrize("named", REFUSED)
-def test_what_cannot_be_asked_ends_with_2_and_is_named(named, tmp_path, cli):
+def test_a_wrong_option_of_opinion_ends_with_2_and_is_named(named, tmp_path, cli):
     field = 'stiffness="1" springyield="1"' if "yield" in named else ""
     scene = tmp_path / "scene.xml"
     scene.write_text(mjcf(f'<body><joint name="x" {field}/><geom size=".1"/></body>'))
@@ -255,7 +255,7 @@ CARRIED = {
 
 
 @pytest.mark.parametrize("by", CARRIED)
-def test_what_a_damper_bears_is_a_load(by):
+def test_the_force_of_a_damper_is_a_load(by):
     """A plate that sinks at a steady speed carries a box: 9.81 N in both answers."""
     joint, more = CARRIED[by]
     lift = f'<body name="lift">{UP} {joint}/>{LIFT}</body>'
@@ -270,7 +270,7 @@ SLOPE = '<option gravity="-2.539 0 -9.4757" {}>{}</option>'  # 15 degrees
 ON_SLOPE = f"{FLOOR}{FREE}{BOX}</body>".replace("size", 'friction="0.5" size')
 
 
-def test_what_sleeps_is_looked_at_as_if_awake():
+def test_a_body_that_sleeps_is_looked_at_as_if_awake():
     """It creeps by 0.97 mm/s, as the same block does that may not sleep."""
     asleep = SLOPE.format("", '<flag sleep="enable"/>')
     speeds = [
@@ -366,7 +366,7 @@ def test_bodies_that_may_overlap_are_not_found():
 @pytest.mark.parametrize(
     ("seconds", "mu", "slope"), [(0.2, 0.3, 0.45), (0.5, 0.5, 0.6), (1, 0.2, 0.3), (2, 0.6, 0.62)]
 )
-def test_what_slides_and_hops_is_told_what_its_friction_holds(seconds, mu, slope, cone):
+def test_a_box_that_slides_and_hops_has_the_share_that_its_friction_holds(seconds, mu, slope, cone):
     """It is mu over slope, though it touches in a quarter of MuJoCo's steps, with some corners.
 
     MuJoCo's mean force along the normal is m g cos: but for the momentum of a hop.
@@ -384,7 +384,7 @@ def test_what_slides_and_hops_is_told_what_its_friction_holds(seconds, mu, slope
     assert sum(c.theirs.normal for c in said.contacts) == pytest.approx(down, rel=0.3)
 
 
-def test_what_spins_and_hops_is_told_what_would_hold_it():
+def test_a_ball_that_spins_and_hops_has_the_friction_that_would_hold_it():
     """0.25 N m about the normal of 9.81 N: 25.5 mm, of which it has 20."""
     rough = 'friction="1 0.02 0" condim="4"'
     floor = f'<geom type="plane" size="5 5 .1" {rough}/>'
@@ -398,7 +398,7 @@ def test_what_spins_and_hops_is_told_what_would_hold_it():
     assert turns.remedy.startswith("raise the second number of friction")
 
 
-def test_what_falls_beside_the_scene_is_said():
+def test_a_body_that_falls_beside_the_scene_is_found():
     wall = '<geom type="box" pos="1 0 0" size=".1 1 1"/>'
     box = free("box", 'type="box" size=".02 .02 .02" mass=".1"', "0 0 .5")
     (finding,) = opinion(f"<mujoco><worldbody>{wall}{box}</worldbody></mujoco>", 2.0).findings

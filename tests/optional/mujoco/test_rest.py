@@ -282,7 +282,7 @@ EACH = [(name, "pyramidal") for name in CASES] + [(name, "elliptic") for name in
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("name", "cone"), EACH)
-def test_what_rests_in_mujoco_rests(name, cone, seed):
+def test_a_body_that_rests_in_mujoco_rests(name, cone, seed):
     case = CASES[name]
     model, data = random_model(case, cone, FINE, seed)
     settle(model, data)
@@ -298,7 +298,7 @@ def test_what_rests_in_mujoco_rests(name, cone, seed):
 
 
 @pytest.mark.parametrize(("name", "cone"), EACH)
-def test_what_moves_in_mujoco_keeps_the_bound(name, cone):
+def test_a_body_that_moves_in_mujoco_keeps_the_bound(name, cone):
     model, data = random_model(CASES[name], cone, FINE, seed=0)
     for _ in range(10):
         mujoco.mj_step(model, data)

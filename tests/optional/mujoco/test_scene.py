@@ -145,7 +145,7 @@ BALL = '<body name="b"><joint name="j" type="hinge"/><geom size=".1"/>{}</body>'
          "</tendon>", "springlength"),
     ],
 )  # fmt: skip
-def test_what_no_run_has_is_refused_before_the_first_step(body, rest, field):
+def test_an_element_that_no_run_has_is_refused_before_the_first_step(body, rest, field):
     """By element and field."""
     text = BALL.format(body).replace("<geom", '<geom name="g"', 1)
     world = f'<worldbody><geom name="f" size=".1"/><site name="f"/>{text}</worldbody>'

@@ -61,7 +61,7 @@ def test_a_mesh_has_the_hull_of_all_its_vertices_as_mujoco_has_it(tmp_path, obj)
         assert np.abs(corners - vertex).max(axis=1).min() < 1e-7
 
 
-def test_what_a_mocap_body_carries_is_borne():
+def test_a_mocap_body_bears_its_load():
     table = (
         '<body name="table" mocap="true"><geom type="box" size="1 1 0.1" pos="0 0 -0.1"/></body>'
     )
@@ -83,7 +83,7 @@ def test_keyframes_that_move_a_mocap_body_are_refused_by_name(up):
         scene(table + slide, rest, targets=["down", "up"])
 
 
-def test_what_nothing_may_touch_is_told_in_words_of_mjcf():
+def test_a_body_that_nothing_may_touch_is_told_in_words_of_mjcf():
     apart = BOX.format("", ' contype="0" conaffinity="0"')
     (finding,) = scene(FLOOR + FREE.format("0 0 0.05", apart), steps=2).run().findings
     assert "let geoms of box and what should bear it touch (contype" in finding.remedy

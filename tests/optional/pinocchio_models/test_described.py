@@ -341,7 +341,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("what", REFUSED)
-def test_what_has_no_place_is_refused_by_name(what):
+def test_a_part_of_pinocchio_without_a_place_is_refused_by_name(what):
     made, message = REFUSED[what]
     with pytest.raises(InputError, match=message):
         Body.of_pinocchio("r", *made())
@@ -365,7 +365,7 @@ SILENT = {
 
 
 @pytest.mark.parametrize("what", SILENT)
-def test_what_pinocchio_takes_in_silence_the_own_reader_refuses(what):
+def test_texts_that_pinocchio_takes_in_silence_are_refused(what):
     moved, mass, count = SILENT[what]
     text = robot(link("a"), moved, joint("j", "a", "b"))
     model, geometry = read_by_pinocchio(text)

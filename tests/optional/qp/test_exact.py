@@ -120,7 +120,7 @@ def test_2000_random_programs_have_the_bits_of_another_method_in_fractions(part,
 NEAR = [[1.0, 1.0], [1.0, 1.0 + 2.0**-50]]
 
 
-def test_what_a_step_would_refuse_is_an_answer():
+def test_programs_that_a_step_would_refuse_have_answers():
     answer = qr.exact_qp(NEAR, [-1.0, 0.0])  # 2^50 [1 + 2^-50, -1]
     assert answer.x.tolist() == [2.0**50 + 1, -(2.0**50)]
     walls = qr.exact_qp(np.eye(2), [0.0, 0.0], [[1.0, 0.0], [-1.0, 1e-12]], [-1.0, -1.0])

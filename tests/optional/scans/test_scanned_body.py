@@ -168,7 +168,7 @@ def test_of_very_many_points_a_sample_is_covered_evenly_and_corners_stay_first(r
 @pytest.mark.parametrize(
     ("length", "taken"), [(0.0049, False), (0.0051, True), (2.9, True), (3.1, False)]
 )
-def test_what_is_as_long_as_a_thing_in_hand_needs_no_unit(tmp_path, length, taken):
+def test_a_scan_as_long_as_a_thing_in_hand_needs_no_unit(tmp_path, length, taken):
     points = on_surface(SOLIDS["can"], 3000, seed=1)
     points = points * length / np.ptp(points, axis=0).max()
     if taken:

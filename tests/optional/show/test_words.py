@@ -82,7 +82,7 @@ def test_empty_things_are_short_too(tmp_path, rng):
     assert "why it ended: step 3:" in repr(failed)
 
 
-def test_what_is_known_of_multipliers_and_active_rows_is_said_and_nothing_else():
+def test_words_of_multipliers_and_active_rows_say_the_known_facts_alone():
     """Two rows, n + mu d1 >= 0 and n - mu d1 >= 0, keep a point where nothing pulls along d2."""
     step = point_on_floor(force=(0.0, 0.0, -1.0))
     proved = solve_step(step)

@@ -76,7 +76,7 @@ def test_a_set_whose_numbers_were_changed_is_refused(tmp_path):
         set_read(tmp_path)
 
 
-def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, cli):
+def test_a_problem_that_is_not_there_is_refused(tmp_path, cli):
     export = "study problems export --out", tmp_path
     for more, words in (
         ("--id wedge/9/9", "holds no problem"),

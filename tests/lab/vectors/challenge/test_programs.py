@@ -42,7 +42,7 @@ def test_a_program_that_is_right_has_no_findings(tmp_path):
         ("refuses", "error", "not today"),
     ],
 )
-def test_it_is_reported(name, kind, words, tmp_path, monkeypatch):
+def test_a_program_that_fails_is_reported(name, kind, words, tmp_path, monkeypatch):
     monkeypatch.setattr("quasistatic_ref.lab.vectors.challenge.run.MOST_FINDINGS", 1)
     found = outcome(name, tmp_path)
     assert found.status == 1

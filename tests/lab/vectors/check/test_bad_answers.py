@@ -99,7 +99,7 @@ def test_a_missing_answer_before_a_wrong_one_hides_nothing(folder):
     assert usual_sentence("rows") not in report.sentences
 
 
-def test_what_a_program_does_not_do_is_neither_wrong_nor_missing(folder):
+def test_a_case_that_a_program_leaves_out_is_neither_wrong_nor_missing(folder):
     first, *others = WRENCHES.items()
     answers = [{"id": name, "output": output} for name, output in others]
     answers.append({"id": first[0], "unsupported": True})

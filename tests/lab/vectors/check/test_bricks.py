@@ -40,7 +40,7 @@ def test_package_and_plain_program_are_right_by_the_same_rules(turn):
         (38, {"index": 40}, "stack has no candidate 40"),
     ],
 )
-def test_what_is_no_crossing_and_does_not_fill_is_refused(index, changes, words):
+def test_a_contact_that_is_no_crossing_and_does_not_fill_is_refused(index, changes, words):
     case, record = brick((0.0, 0.0, 0.0, 1.0), 8)
     contacts = copy.deepcopy(record["output"]["contacts"])
     (wrong,) = (contact for contact in contacts if contact["index"] == index)

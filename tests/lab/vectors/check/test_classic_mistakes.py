@@ -206,7 +206,7 @@ def wrong_field(layers, layer, case, digits):
     return verdict_to_digits(layer, case.input, record, output, digits).field
 
 
-def test_they_are_those_of_the_page():
+def test_the_mistakes_are_those_of_the_page():
     _, _, section = PAGE.read_text("utf-8").partition("## Classic mistakes")
     table, _, _ = section.partition("\n## ")
     layers_of = {mistake: set(NAME.findall(layers)) for layers, mistake in ROW.findall(table)}

@@ -67,7 +67,7 @@ def judged(planted, changes, digits=None):
 
 
 @pytest.mark.parametrize("planted", PLANTED)
-def test_what_is_expected_passes(planted):
+def test_the_expected_answer_passes(planted):
     assert judged(planted, {}).verdict == "passed"
 
 

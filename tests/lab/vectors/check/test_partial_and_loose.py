@@ -59,7 +59,7 @@ def test_contacts_that_are_none_are_wrong_and_not_left_out(contacts):
     assert (report.first.field, report.partial) == ("contacts", "")
 
 
-def test_what_follows_from_other_fields_may_be_left_out():
+def test_fields_that_follow_from_others_may_be_left_out():
     for layer in ("qp", "step"):
         answers = {
             name: {k: v for k, v in output.items() if k not in ("A_lam", "slack", "forces")}

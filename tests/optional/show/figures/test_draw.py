@@ -168,7 +168,7 @@ def test_the_circle_of_torsion_has_radius_mu_omega():
     ],
     ids=lambda shape: type(shape).__name__,
 )  # fmt: skip
-def test_what_is_drawn_of_a_shape_is_on_it_and_reaches_as_far(shape):
+def test_points_drawn_of_a_shape_are_on_it_and_reach_as_far(shape):
     """An ellipsoid of half axes a and b, seen along a, reaches to a / (1 + (b/a)^2 tan^2 d)^1/2.
 
     That is at an angle d from a direction that is tried; no direction is farther from one of those

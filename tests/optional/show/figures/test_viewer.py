@@ -110,7 +110,7 @@ def test_a_page_says_what_it_shows(pushed, tmp_path, capfd):
     assert len(still) < len(page)
 
 
-def test_what_cannot_be_shown_is_refused(pushed, tmp_path):
+def test_a_run_that_cannot_be_shown_is_refused(pushed, tmp_path):
     scenario, run = pushed
     from_file = pickle.loads(pickle.dumps(run))
     with pytest.raises(InputError, match=r"is from a file; give its scenario or simulator first"):
