@@ -217,7 +217,8 @@ def text_of(
             problem = "is a ZIP archive, as a trajectory is, and not text"
             raise error(problem, file=path) from None
         line = content[: failure.start].count(b"\n") + 1
-        raise error("is not UTF-8 text", file=path, field=f"line {line}") from None
+        problem = "is not UTF-8 text; save it as UTF-8"
+        raise error(problem, file=path, field=f"line {line}") from None
 
 
 def text_read(

@@ -33,7 +33,7 @@ def xml_root(text: str) -> Element:
     parser.buffer_text = True
 
     def refusal(*_: object) -> None:
-        problem = "a DOCTYPE is not allowed, because entities are not expanded"
+        problem = "has a DOCTYPE, whose entities are not expanded; leave it out"
         raise ModelError(problem, field=f"line {parser.CurrentLineNumber}")
 
     parser.StartDoctypeDeclHandler = refusal

@@ -175,7 +175,7 @@ def check_mass(M_u: Array, coordinates: Sequence[Coordinate], bodies: Iterable[s
         if not positive_pivots(M_u[np.ix_(indices, indices)]):
             problem = (
                 "its mass matrix M_u is singular in float64 at the start: an un-actuated "
-                "coordinate moves almost no mass"
+                "coordinate moves almost no mass; give it some, or actuate it"
             )
             names = [coordinates[k].name for k in indices]
             raise ModelError(problem, field=body, value=names)

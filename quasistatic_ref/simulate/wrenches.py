@@ -43,7 +43,7 @@ class ContactsOverSteps(NamedTuple):
         check_kind(scene, Scene, "scene", "a Scenario or Simulator")
         n_c = len(contact_layout(scene.pairs).names)
         if self.wrench.shape[1] != n_c or self.q.shape[1] != scene.system.n_q:
-            problem = "is another one than that of the steps: numbers of contacts or of q differ"
+            problem = "must be that of the steps: numbers of contacts or of q differ"
             raise InputError(problem, field="scene")
 
 

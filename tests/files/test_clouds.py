@@ -90,7 +90,7 @@ BAD = {
     "pcd of other words": (
         ".pcd",
         b"solid thing\n",
-        "header: lacks these lines .*'FIELDS', 'SIZE'",
+        "header: lacks these lines; add them .*'FIELDS', 'SIZE'",
     ),
     "pcd without its body": (".pcd", pcd("binary", b""), "points: must be 2 .got 0"),
     "pcd of an odd type": (

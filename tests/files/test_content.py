@@ -131,7 +131,7 @@ def test_a_writer_that_fails_sends_nothing_down_a_pipe(error):
 
 
 def test_a_text_that_is_not_utf_8_names_its_line():
-    with pytest.raises(InputError, match=r"^t: line 3: is not UTF-8 text$"):
+    with pytest.raises(InputError, match=r"^t: line 3: is not UTF-8 text; save it as UTF-8$"):
         text_of(b"one\ntwo\n\xff", "t")
 
 

@@ -115,8 +115,8 @@ def test_a_trajectory_from_a_file_or_a_pickle_is_given_its_scene(scenario, run, 
 def test_other_names_and_scenes_are_refused(run, pinch, tmp_path):
     with pytest.raises(ModelError, match="link: is not a link; did you mean 'ball'"):
         run.wrench_on("bal")
-    with pytest.raises(InputError, match="scene: is another one than that of the steps"):
+    with pytest.raises(InputError, match="scene: must be that of the steps"):
         run.wrench_on("held", pinch[0])
     swing = load_scenario(written_scenario(tmp_path, SWING), fast=True)
-    with pytest.raises(InputError, match="scene: is another one than that of the steps"):
+    with pytest.raises(InputError, match="scene: must be that of the steps"):
         run.wrench_on("post", swing)

@@ -188,4 +188,6 @@ def check_motion(system: System, pairs: Sequence[ContactPair]) -> None:
             still = [body.name for body in system.bodies if body.base == "fixed"]
             if fixed := [name for name in still if name in names]:
                 problem += f'; if {fixed[-1]} is to move freely, give it base = "floating"'
+            else:
+                problem += "; leave it out"
             raise ScenarioError(problem, field=f"contacts.{pair.name}")

@@ -137,7 +137,7 @@ def _tree(urdf: UrdfText, package_dirs: Sequence[str | Path], missing: list[str]
         links[link.name] = link
         collisions[link.name] = _collisions(tag)
     if not links:
-        raise ModelError("has no <link>", field="robot")
+        raise ModelError("has no <link>; add one", field="robot")
     needed = version != "1.2"  # which made limits optional
     joints = _followers([_joint(tag, needed) for tag in top.named("joint")], top.notes)
     moving = [joint.kind for joint in joints if joint.kind != "fixed"]
@@ -166,7 +166,8 @@ def _tree(urdf: UrdfText, package_dirs: Sequence[str | Path], missing: list[str]
 
 def _check_count(count: int, most: int, what: str) -> None:
     if count > most:
-        raise ModelError(f"holds more than {most} {what}", field="robot", value=count)
+        problem = f"holds more than {most} {what}; leave some out"
+        raise ModelError(problem, field="robot", value=count)
 
 
 def _link(link: Tag) -> TreeLink:

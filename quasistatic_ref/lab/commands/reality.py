@@ -67,7 +67,7 @@ def _exit_status(options: argparse.Namespace, settings: Settings, every: int) ->
 
     pairs = pairs_read(options.sets.split(",") if options.sets else ())
     if min(len(some.every(every).before) for some in pushes_read(pairs).values()) < 2:
-        problem = "leaves a pair fewer than two pushes"
+        problem = "leaves a pair fewer than two pushes; raise it"
         raise InputError(problem, field="--fraction", value=options.fraction)
     folder = writable_folder(options.out)
     with workers(options.jobs) as executor:

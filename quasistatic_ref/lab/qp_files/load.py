@@ -162,7 +162,7 @@ def _parquet(path: Path) -> dict[str, QuadraticProgram]:
         size = sum(file.metadata.row_group(k).total_byte_size for k in groups)
         rows = file.read().to_pylist() if size <= 8 * MOST_NUMBERS else None
     if rows is None:
-        raise InputError("unpacks to more than is read", value=size)
+        raise InputError("unpacks to more than is read; split it", value=size)
     if not rows:
         raise InputError("holds no program; write one for each row")
     programs: dict[str, QuadraticProgram] = {}

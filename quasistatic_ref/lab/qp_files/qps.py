@@ -282,7 +282,8 @@ def _read(text: str, fields_of: Callable[[str], list[str]]) -> _Qps:
             error.field = f"line {k}" + (f", {error.field}" if error.field else "")
             raise
         except (ValueError, IndexError):
-            raise InputError("has another number of fields", field=f"line {k}") from None
+            problem = "must have as many fields as lines of its section"
+            raise InputError(problem, field=f"line {k}") from None
     raise InputError("ends without ENDATA; add this line, if nothing is cut off")
 
 

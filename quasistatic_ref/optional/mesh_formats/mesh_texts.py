@@ -173,7 +173,7 @@ def _off(content: bytes) -> Mesh:
         raise ModelError("must begin with OFF", field="line 1")
     number, line = (number, header[1]) if header[1] else next(left, (number, ""))
     if not line:
-        raise ModelError("is cut off after OFF")
+        raise ModelError("is cut off after OFF; export it again")
     counts = _numbers(line.split(), number)
     follow = sum(1 for _ in _numbered(lines)) - (1 if header[1] else 2)
     if len(counts) < 2 or follow != sum(counts[:2]):
@@ -235,7 +235,7 @@ def _ply(content: bytes) -> Mesh:
     if is_text:
         check_equal("lines", len(lines), sum(count for _, count, _ in elements))
     if read.left:
-        raise ModelError("holds more than its header says")
+        raise ModelError("holds more than its header says; export it again")
     return Mesh(points, triangles)
 
 
@@ -336,7 +336,7 @@ def _ply_header(lines: list[str]) -> tuple[bool, list[tuple[str, int, _Propertie
             case ["comment" | "obj_info", *_] | []:
                 pass
             case _:
-                problem = "is not a line of a header of PLY"
+                problem = "is not a line of a header of PLY; export it again"
                 raise ModelError(problem, field=f"line {number}", value=line)
     if not kinds:
         raise ModelError("must state its format", field="line 2")

@@ -101,9 +101,10 @@ def _placed_triangles(parts: Mapping[Hashable, _Part], top: Sequence[Hashable]) 
 
     def total(name: Hashable, depth: int) -> tuple[int, int]:
         if name not in parts:
-            raise ModelError("is placed, but not in the file", value=name)
+            raise ModelError("is placed, but not in the file; export it again", value=name)
         if depth > DEEPEST:
-            raise ModelError(f"is nested deeper than {DEEPEST} parts, or contains itself")
+            problem = f"is nested deeper than {DEEPEST} parts, or contains itself; export it flat"
+            raise ModelError(problem, value=name)
         if name not in totals:
             size, triangles, below = parts[name]
             pairs = [(PART + size, triangles), *(total(one, depth + 1) for one in below)]
@@ -116,7 +117,7 @@ def _placed_triangles(parts: Mapping[Hashable, _Part], top: Sequence[Hashable]) 
         raise ModelError(f"places more than {MOST_PLACED} vertices and triangles", value=size)
     count = sum(count for _, count in sizes)
     if not count and any(part.triangles for part in parts.values()):
-        raise ModelError("places none of the triangles that it holds")
+        raise ModelError("places none of the triangles that it holds; export it again")
     return count
 
 

@@ -66,7 +66,7 @@ def _check_pcd(content: bytes) -> None:
     end = len(content) if line is None else line.end()
     header = dict(re.findall(rb"^([A-Z]+)[ \t]+(.*?)\r?$", content[:end], re.MULTILINE))
     if missing := [name for name in PCD_LINES if name.encode() not in header]:
-        raise ModelError("lacks these lines", field="header", value=missing)
+        raise ModelError("lacks these lines; add them", field="header", value=missing)
     sizes, counts, *shape, (stated,) = [
         [int(word) for word in header[name.encode()].split()] for name in PCD_LINES[1:6]
     ]

@@ -118,7 +118,8 @@ def check(state: MujocoState) -> None:
     """
     model = state.model
     if model.nflex:
-        raise ModelError("is not supported: bodies are rigid", field=state.words("flex", 0))
+        problem = "is not supported, as bodies are rigid; leave it out"
+        raise ModelError(problem, field=state.words("flex", 0))
     for field, reason in REFUSED.items():
         values = getattr(model, field)
         for i in np.argwhere(values)[:1, 0].tolist():

@@ -166,7 +166,9 @@ def _links_of_joints(
     names = [*carriers.values(), *(name for frames in welded.values() for name in frames)]
     for name in names:
         if names.count(name) > 1:
-            problem = "is the name of two links, or of a joint whose origin has no BODY frame, too"
+            problem = (
+                "is the name of two links, or of a joint without a BODY frame, too; rename one"
+            )
             raise ModelError(problem, field=f"frame[{name}]")
     return carriers, welded
 

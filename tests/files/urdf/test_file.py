@@ -12,7 +12,9 @@ def test_a_file_holds_as_many_links_as_are_allowed(monkeypatch):
     monkeypatch.setattr(file, "MOST_LINKS", 2)
     arms = joint("j", "a", "b"), joint("k", "b", "c")
     assert len(urdf_tree(robot(link("a"), link("b"), arms[0])).links) == 2
-    with pytest.raises(ModelError, match=r"robot: holds more than 2 links \(got 3\)"):
+    with pytest.raises(
+        ModelError, match=r"robot: holds more than 2 links; leave some out \(got 3\)"
+    ):
         urdf_tree(robot(link("a"), link("b"), link("c"), *arms))
 
 

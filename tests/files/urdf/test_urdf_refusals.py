@@ -29,7 +29,7 @@ REFUSED = {
     # name: text, what is replaced, by what, words of the sentence
     "malformed": (TWO, "</robot>", "", "line 1: is not well-formed XML: no element found"),
     "another root": (TWO, "robot", "model", r"root element: must be <robot> \(got 'model'\)"),
-    "doctype": (TWO, "<robot", EXPANSION + "<robot", "line 1: a DOCTYPE is not allowed"),
+    "doctype": (TWO, "<robot", EXPANSION + "<robot", "line 1: has a DOCTYPE"),
     "xacro": (TWO, "</robot>", "<xacro:arm/></robot>", r"robot.xacro:arm: is a macro: expand"),
     "version": (TWO, '"1.1"', '"3.0"', r"robot.version: must be one of 1.0, 1.1, 1.2.*'3.0'"),
     "mesh": (

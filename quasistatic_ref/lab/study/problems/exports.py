@@ -45,7 +45,8 @@ def exported_files(name: str, problems: Sequence[Problem], folder: Path) -> list
     """
     problems = [one for one in problems if has_place(one)]
     if not problems:
-        raise InputError("holds no problem that the format has a place for", value=name)
+        problem = "holds no problem that the format has a place for; name one with a solution"
+        raise InputError(problem, value=name)
     stem = name.replace("-", "_")
     title = "".join(part.title() for part in stem.split("_"))
     here = Path(__file__).parent

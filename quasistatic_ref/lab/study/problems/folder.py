@@ -81,7 +81,7 @@ def manifest(folder: Path) -> dict[str, Any]:
     """
     path = folder / MANIFEST
     if not path.exists():
-        raise InputError("holds no set of problems", file=folder)
+        raise InputError("holds no set of problems; name one with a manifest", file=folder)
     try:
         top = TableReader(head := json_read(path))
         top.check_format(FORMAT, VERSION)

@@ -151,7 +151,7 @@ def frames(scene: Scene, run: Trajectory, fps: float) -> tuple[list[Moment], flo
     check_kind(scene, Scene, "scene", "a Scenario or Simulator")
     check_kind(run, Trajectory, "run", "a Trajectory")
     if not run.steps:
-        raise InputError("has no steps to show", field="trajectory")
+        raise InputError("has no steps to show; take one", field="trajectory")
     h = run.header.h
     every = max(round(1 / (fps * h)), 1)
     return [moment(scene, run, k) for k in range(0, run.steps, every)], 1 / (every * h)
