@@ -532,7 +532,8 @@ def _blocks(H: arb_mat) -> list[tuple[list[int], arb_mat]]:
     entries = H.entries()
     coupled = np.array([not v.is_zero() for v in entries], dtype=bool).reshape(n, n)
     block_of, _ = labels(coupled)
-    every = [np.flatnonzero(block_of == first).tolist() for first in np.unique(block_of)]
+    firsts = np.flatnonzero(block_of == np.arange(n))
+    every = [np.flatnonzero(block_of == first).tolist() for first in firsts]
     return [
         (at, arb_mat(len(at), len(at), [entries[i * n + j] for i in at for j in at]))
         for at in every

@@ -139,14 +139,14 @@ def groups_of(
     of_contacts, of_extra_rows, _ = np.split(of_coupling, [len(counts), shape[0] - n_v])
     of_rows = np.concatenate([np.repeat(of_contacts, counts), of_extra_rows])
     parts = (label, of_contacts, of_extra_rows, of_rows)
-    firsts = np.unique(label) if n_v else np.zeros(1, np.int64)
+    firsts = np.flatnonzero(label == np.arange(n_v)) if n_v else np.zeros(1, np.int64)
     return tuple(
         Group(*(read_only(np.flatnonzero(part == first)) for part in parts)) for first in firsts
     )
 
 
 def labels(couplings: Mask) -> tuple[Indices, Indices]:
-    """Group labels, as of :func:`linked`, from a mask of coordinates, shape (couplings, n)."""
+    """As :func:`connected_components`, from a mask of coordinates, shape (couplings, n)."""
     coupling, coordinate = np.nonzero(couplings)
     return connected_components(coupling, coordinate, couplings.shape)
 
@@ -162,7 +162,7 @@ def connected_components(
     Parameters
     ----------
     coupling, coordinate, shape
-        As of :func:`parted`.
+        As of :func:`groups_of`.
     """
     count, n = shape
     label = np.arange(n)

@@ -55,7 +55,8 @@ class ContactGeometry:
         of_link = padded(link, column, len(moves), -1)
         movers = of_link[links].transpose(1, 0, 2).reshape(len(layout.rows), 2 * of_link.shape[1])
         at, k = np.nonzero(movers >= 0)
-        every = np.unique(at * self.n_x + movers[at, k])
+        every = np.sort(at * self.n_x + movers[at, k])
+        every = every[np.diff(every, prepend=-1) > 0]
         contact, mover = np.divmod(every, max(self.n_x, 1))
         some = np.lexsort((of_x[mover].min(axis=1, initial=self.n_v), contact))
         joint = padded(contact, mover[some], len(layout.rows), -1)

@@ -76,7 +76,7 @@ class JointColumns(JacobianColumns):
         self.order = order
         # A mimic joint comes after the one that it mimics.
         self.owned = np.unique(self.owner, return_index=True)[1]
-        copies = np.setdiff1d(np.arange(n_x), self.owned)
+        copies = np.delete(np.arange(n_x), self.owned)
         self.copies = list(zip(copies.tolist(), self.owner[copies].tolist(), strict=True))
 
     def of_coordinates(self, columns: Array) -> Array:

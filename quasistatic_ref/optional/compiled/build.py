@@ -8,7 +8,6 @@ import hashlib
 import os
 import shlex
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -36,6 +35,8 @@ def digest() -> str:
 
 def problem() -> str | None:
     """Compile the library; return why there is none, in words, or None."""
+    import subprocess  # not needed where there is a library
+
     if os.environ.get(VARIABLE) == "0":
         return f"{VARIABLE} was 0"
     try:

@@ -1,12 +1,13 @@
 """The compiled library, which is called by cffi."""
 
+import ctypes
 import os
 from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any, Final
 
 import numpy as np
-from cffi import FFI
+from _cffi_backend import FFI  # cffi itself imports a parser of C, which takes longer than a step
 from numpy.typing import NDArray
 
 from quasistatic_ref.optional.compiled.build import LIBRARY, PROBLEM, VARIABLE, digest
@@ -21,7 +22,8 @@ ARGUMENTS: Final = {
 }
 """Numbers of arguments of each function, all of them addresses of arrays."""
 
-_address = FFI().from_buffer
+_ffi = FFI()
+_address = _ffi.from_buffer
 
 
 def addresses(read: Iterable[NDArray[Any]], written: Iterable[NDArray[Any]] = ()) -> list[Any]:
@@ -47,7 +49,8 @@ def missing() -> str | None:
 
 def function(name: str) -> Callable[..., int]:
     """A function of the library by its name, where nothing is :func:`missing`."""
-    found: Callable[..., int] = getattr(_loaded(), name)
+    arguments = ", ".join(["const void *"] * ARGUMENTS[name])
+    found: Callable[..., int] = _of_type(_loaded(), name, f"int64_t(*)({arguments})")
     return found
 
 
@@ -58,15 +61,16 @@ def _loaded() -> Any:
     if not LIBRARY.exists():
         why = PROBLEM.read_text("utf-8") if PROBLEM.exists() else "the package was copied"
         return f"it was not compiled when the package was installed: {why}"
-    ffi = FFI()
-    ffi.cdef("const char *digest(void);")
-    for name, count in ARGUMENTS.items():
-        ffi.cdef(f"int64_t {name}({', '.join(['const void *'] * count)});")
     try:
-        functions = ffi.dlopen(str(LIBRARY))
-        sources = ffi.string(functions.digest()).decode()
+        library = ctypes.CDLL(str(LIBRARY))
+        sources = _ffi.string(_of_type(library, "digest", "const char *(*)(void)")()).decode()
     except (OSError, AttributeError) as failure:  # another machine's; without the function
         return f"it cannot be loaded: {failure}"
     if sources != digest():
         return "it was compiled from other sources than those here; install the package again"
-    return functions
+    return library
+
+
+def _of_type(library: ctypes.CDLL, name: str, written: str) -> Any:
+    """A function of a library by its name, of a type as it is written in C."""
+    return _ffi.cast(written, ctypes.cast(getattr(library, name), ctypes.c_void_p).value)
