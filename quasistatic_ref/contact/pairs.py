@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import count
 from typing import Final
 
@@ -184,14 +184,20 @@ class ContactLayout(Plain):
 
     def contact_names(self, point: Indices) -> tuple[str, ...]:
         """A name for each contact: its pair, and its point's number, of shape (n_c,)."""
-        numbered = zip(self.names, point.tolist(), strict=True)
-        return tuple([f"{pair}/{i}" for pair, i in numbered])
+        return _numbered(self.names, point.tobytes())
 
     @property
     def slots(self) -> tuple[str, ...]:
         """A name for the place of each contact: its pair, and its number within that from 0."""
         numbers: dict[str, Iterator[int]] = defaultdict(count)
         return tuple(f"{name}/{next(numbers[name])}" for name in self.names)
+
+
+@lru_cache(maxsize=8)  # points mostly stay from step to step
+def _numbered(names: tuple[str, ...], point: bytes) -> tuple[str, ...]:
+    """Names with a number each, from the bytes of these."""
+    numbered = zip(names, np.frombuffer(point, np.int64).tolist(), strict=True)
+    return tuple([f"{pair}/{i}" for pair, i in numbered])
 
 
 def checked_pairs(pairs: object) -> tuple[ContactPair, ...]:

@@ -205,9 +205,9 @@ class System(Mechanism):
         ModelError
             If q has another shape, or a quaternion in it is not of length one.
         """
+        if isinstance(q, SystemState) and q.system is self:
+            return q
         if isinstance(q, State):
-            if isinstance(q, SystemState) and q.system is self:
-                return q
             q = q.q
         q = with_shape(q, "q", (self.n_q,), ModelError)
         self.units.check(q)

@@ -16,8 +16,6 @@ from quasistatic_ref.model.world import World
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array, Indices
 
-WORLD_POSE = np.eye(3), np.zeros(3)
-
 
 class WorkspacePart(NamedTuple):
     """Some bodies: their own model and workspace, and where their entries are in the whole.
@@ -25,8 +23,6 @@ class WorkspacePart(NamedTuple):
     Parameters
     ----------
     model, data : pinocchio.Model, pinocchio.Data
-    R, t : list of ndarray, shapes (3, 3) and (3,)
-        Poses of the links of these bodies: views of the workspace, which pinocchio overwrites.
     entries : ndarray of int
         For each entry of the part's own q, the entry of the paper's q that it is, or is made of.
     turns : list of int
@@ -35,8 +31,6 @@ class WorkspacePart(NamedTuple):
 
     model: pin.Model
     data: pin.Data
-    R: list[Array]
-    t: list[Array]
     entries: Indices
     turns: list[int]
 
@@ -60,17 +54,21 @@ class Workspace:
 
     def __init__(self, world: World, order: Order) -> None:
         self.parts: list[WorkspacePart] = []
+        # Poses of all links and columns of all joints: views that pinocchio overwrites.
+        self._R = [np.eye(3)]
+        self._t = [np.zeros(3)]
+        self._columns = [np.zeros((6, 0))]
         of_paper = np.argsort(order.q)
         joints = iter(world.joints)
         for part in world.parts:
             model = pin.Model(part.model)  # its gravity is written
             data = pin.Data(model)
             placements = [data.oMf[frame] for frame in part.frames]
-            R = [p.rotation for p in placements]
-            t = [p.translation for p in placements]
+            self._R += [p.rotation for p in placements]
+            self._t += [p.translation for p in placements]
+            self._columns.append(data.J.reshape(6, -1))  # a single column comes as a vector
             entries, turns = _sources(model, joints)
-            self.parts.append(WorkspacePart(model, data, R, t, of_paper[entries], turns))
-        self._none = np.zeros((6, 0))
+            self.parts.append(WorkspacePart(model, data, of_paper[entries], turns))
         self._gravity: tuple[float, ...] | None = None
 
     def q_parts(self, q: Array) -> list[Array]:
@@ -95,15 +93,7 @@ class Workspace:
         They are those of the last move. Columns are as in
         :class:`~quasistatic_ref.model.kinematics.Kinematics`; all are read-only.
         """
-        R = [WORLD_POSE[0]]
-        t = [WORLD_POSE[1]]
-        columns = []
-        for part in self.parts:
-            R += part.R
-            t += part.t
-            columns.append(part.data.J.reshape(6, -1))  # a single column comes as a vector
-        all_columns = np.concatenate([self._none, *columns], axis=1)
-        arrays = np.array(R), np.array(t), all_columns
+        arrays = np.array(self._R), np.array(self._t), np.concatenate(self._columns, axis=1)
         for array in arrays:
             array.setflags(write=False)
         return arrays
@@ -128,7 +118,7 @@ class Workspace:
             pin.computeGeneralizedGravity(part.model, part.data, q_part)
             for part, q_part in zip(self.parts, q_parts, strict=True)
         ]
-        return torques[0] if len(torques) == 1 else np.concatenate([self._none[0], *torques])
+        return torques[0] if len(torques) == 1 else np.concatenate([np.zeros(0), *torques])
 
 
 def _sources(model: pin.Model, joints: Iterator[Joint]) -> tuple[Indices, list[int]]:

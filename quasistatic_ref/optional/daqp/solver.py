@@ -62,7 +62,7 @@ class Workspace:
     """
 
     def __init__(self, H: Array, f: Array, A: Array, b: Array, options: Options) -> None:
-        self._program = {"f": f, "A": A, "blower": b}
+        self._program = f, A, None, b
         self._above = np.full(len(b), np.inf)
         self._cold = np.zeros(len(b), np.int32)
         self._warm = False
@@ -76,7 +76,7 @@ class Workspace:
         self._H = H
         self._model: Any = daqp.Model()
         self._model.settings = self._options
-        f, A, b = self._program.values()
+        f, A, _, b = self._program
         self._model.setup(H, f, A, self._above, b, self._cold)
 
     def answer(self, H: Array) -> Answer:
@@ -85,7 +85,7 @@ class Workspace:
         A workspace that has had no finite answer may have none for ever: it is set up again.
         """
         if not len(self._cold):
-            x = np.asarray(np.linalg.solve(H, -self._program["f"]), dtype=np.float64)
+            x = np.asarray(np.linalg.solve(H, -self._program[0]), dtype=np.float64)
             return Answer(x, np.zeros(0), 1, 0, 0.0)
         if self._warm:
             answer = self._solved(H, warm=True)
@@ -123,7 +123,7 @@ class Workspace:
         if not len(b):
             x[:] = np.linalg.solve(self._H, -f.T).T
             return x, lam, flags, iterations
-        f_now, _, b_now = self._program.values()
+        f_now, _, _, b_now = self._program
         update, solve = self._model.update, self._model.solve
         last = None
         for i, size in enumerate(sizes.tolist()):
@@ -138,16 +138,9 @@ class Workspace:
         return x, 0.0 - lam, flags, iterations
 
     def _solved(self, H: Array, *, warm: bool) -> Answer:
-        if warm and H is self._H:  # DAQP keeps its factor, with the same bits
-            self._model.update(**self._program)
-        elif warm:
-            self._model.update(H=H, **self._program)
-        else:
-            self._model.update(H=H, sense=self._cold, **self._program)
+        changed = None if warm and H is self._H else H  # DAQP keeps its factor, with the same bits
+        self._model.update(changed, *self._program, sense=None if warm else self._cold)
         self._H = H
-        return self._result()
-
-    def _result(self) -> Answer:
         x, _, flag, info = self._model.solve()
         return Answer(x, info["lam"], flag, info["iterations"], info["solve_time"])
 
@@ -181,15 +174,14 @@ class Workspaces:
         np.negative(programs.g, out=self.program.g)
         self.program.A[:] = programs.A
         self.program.b[:] = programs.b
-        both = zip(self.each, programs.blocks, strict=True)
-        answers = [one.answer(H) for one, H in both]
-        flag = next((one.flag for one in answers if one.flag != 1), 1)
-        x = programs.joined([one.x for one in answers])
+        answers = [one.answer(H) for one, H in zip(self.each, programs.blocks, strict=True)]
+        each_x, each_lam, flags, iterations, seconds = zip(*answers, strict=True)
+        flag = next((flag for flag in flags if flag != 1), 1)
+        x = programs.joined(each_x)
         lam = np.zeros(len(programs.b))
-        lam[self.layout.rows] = 0.0 - np.concatenate([one.lam for one in answers])
-        iterations = sum(one.iterations for one in answers)
-        seconds = sum(one.seconds for one in answers)
-        return Reply(x, lam, flag == 1, STATUS.get(flag) or str(flag), iterations, seconds)
+        lam[self.layout.rows] = 0.0 - np.concatenate(each_lam)
+        status = STATUS.get(flag) or str(flag)
+        return Reply(x, lam, flag == 1, status, sum(iterations), sum(seconds))
 
 
 def cold_answers(scaled: ScaledStep, g: Array, sizes: Array, options: Options) -> ManyAnswers:
