@@ -373,18 +373,13 @@ class Trajectory(RecordArrays, Plain, HasPage):
             That of the run. A trajectory that comes from a file or a pickle needs it, a light
             record needs the scenario, which has the loads.
         certify : str
-            ``"full"``: the ends of all iterations are proved; ``"off"``: none.
-
-        Returns
-        -------
-        Standings
-            A row a body.
+            As of :meth:`~quasistatic_ref.simulate.simulator.Simulator.stands`, as is what returns.
 
         Raises
         ------
         InputError
-            If there is no such step, no ``optional/stands``, the scene is missing or another one,
-            or the loads are not known.
+            Also if there is no such step, the scene is missing or another one, or the loads are not
+            known.
         """
         self._check_step(k)
         stands_after: StandsAfter = part("stands_after")

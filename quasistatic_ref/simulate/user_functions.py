@@ -15,7 +15,7 @@ from quasistatic_ref.model.configuration import surely_configurations
 from quasistatic_ref.model.named import Values
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, checked_numbers, read_only
-from quasistatic_ref.simulate.simulator import FROM_LOADS, checked_force
+from quasistatic_ref.simulate.step_maker import FROM_LOADS, checked_force
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.text.quoting import known_names
 

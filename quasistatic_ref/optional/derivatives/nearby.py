@@ -12,7 +12,8 @@ from quasistatic_ref.model.state import State
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.numbers.ordered import crossed
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.simulator import Simulator, checked_force
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.step_maker import checked_force
 from quasistatic_ref.solve.backends import DAQP, NONE
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solution_of, solve_step

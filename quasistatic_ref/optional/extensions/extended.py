@@ -14,7 +14,7 @@ from quasistatic_ref.errors import BackendError, InputError, StepDataError
 from quasistatic_ref.optional.extensions.extension import checked_extension, none
 from quasistatic_ref.optional.extensions.own_rows import joined, with_numbers
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.step_solver import StepSolver
 from quasistatic_ref.solve.backends import DEFAULT, Certify
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
@@ -77,7 +77,7 @@ def extended_step(
 
 
 def simulated_solution(
-    simulator: Simulator, step: StepData, extension: StepExtension
+    simulator: StepSolver, step: StepData, extension: StepExtension
 ) -> StepSolution:
     """The solution of a step of a simulator, whose solver serves all steps with linear rows.
 
