@@ -93,8 +93,8 @@ class Program:
             _kill(process)
 
         timer = threading.Timer(seconds, end)
-        timer.start()
         try:
+            timer.start()
             reply = self._reply(process, id, {"id": id, "layer": layer, "input": case})
         finally:
             timer.cancel()
