@@ -10,6 +10,7 @@ from quasistatic_ref.files.clouds import point_cloud
 from quasistatic_ref.files.scenario import contacts
 from quasistatic_ref.simulate.trajectory import certified
 from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written
+from tests.files.urdf.urdf_texts import collision, link, robot
 
 BALL = "bodies/ball/"
 RAIL = "bodies/rail/"
@@ -132,13 +133,13 @@ CAUSES = {
 }  # fmt: skip
 
 
-def test_very_many_pairs_are_refused_before_they_are_made(tmp_path, refused, monkeypatch):
-    monkeypatch.setattr(contacts, "MOST_PAIRS", 1)
-    sentence = refused("run", scene_written(tmp_path, SCENE), "--out", tmp_path / "out")
-    assert (
-        "contacts.push: makes more pairs than 1 in this scenario; name fewer shapes (got 2)"
-        in sentence
-    )
+def test_very_many_pairs_are_refused_before_they_are_made():
+    balls = robot(link("a", 224 * collision('<sphere radius="1"/>')))
+    bodies = {name: {"urdf": balls} for name in ("one", "two")}
+    push = {"alpha": "one", "beta": "two", "mu_v": 0.0, "rows": 4}
+    says = r"contacts.push: makes more pairs than 50000 .*; name fewer shapes \(got 50176\)"
+    with pytest.raises(InputError, match=says):
+        load_scenario({"h": 1, "steps": 1, "bodies": bodies, "contacts": {"push": push}})
 
 
 @pytest.mark.parametrize("cause", CAUSES)

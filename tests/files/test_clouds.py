@@ -1,6 +1,7 @@
 """Point clouds from files: every format gives the same points, every defect a sentence."""
 
 import io
+import os
 import struct
 
 import numpy as np
@@ -8,8 +9,8 @@ import pypcd4
 import pytest
 
 from quasistatic_ref import ModelError
-from quasistatic_ref.files import text
 from quasistatic_ref.files.clouds import point_cloud, seen_points
+from quasistatic_ref.files.text import MOST_POINTS
 from tests.cases import cases, refusal
 from tests.oracles.shape_files import PCD_BODY, PCD_HEADER, pcd
 
@@ -178,30 +179,28 @@ def test_more_points_than_a_cloud_may_have_are_refused(tmp_path, name, content):
         point_cloud(path)
 
 
-def test_coordinates_may_reach_their_limit(tmp_path, monkeypatch):
+def test_coordinates_may_reach_their_limit(tmp_path):
     far = tmp_path / "far.xyz"
-    far.write_text("2 0 0\n0 -2 0\n")
-    monkeypatch.setattr("quasistatic_ref.files.clouds.LARGE", 2.0)
+    far.write_text("1e15 0 0\n0 -1e15 0\n")
     assert len(point_cloud(far).points) == 2
-    monkeypatch.setattr("quasistatic_ref.files.clouds.LARGE", 1.0)
-    with pytest.raises(ModelError, match="must be at most 1 m"):
+    far.write_text("1e15 0 0\n0 -1.1e15 0\n")
+    with pytest.raises(ModelError, match=r"must be at most 1e\+15 m"):
         point_cloud(far)
 
 
-def test_a_text_of_points_has_at_most_so_many_letters_lines_and_points(tmp_path, monkeypatch):
-    for name, value in (("LARGEST_TEXT", 40), ("MOST_POINTS", 4)):
-        monkeypatch.setattr(text, name, value)
+def test_a_text_of_points_has_at_most_so_many_letters_lines_and_points(tmp_path):
     path = tmp_path / "a.csv"
     path.write_text("# of a camera\nx,y,z\n" + "0,0,1\n" * 3)
     assert len(point_cloud(path).points) == 1  # the same point
-    path.write_text("x,y,z\n" + "0,0,1\n" * 4)  # as many points as may be, and a header
-    assert len(seen_points(path)[0]) == 4
-    for content, words in (
-        ("x,y,z\n" + "0,0,1\n" * 5, "holds more than 4 points"),
-        ("0,0,1\n" + "\n" * 8, "holds more than 8 lines"),
-        ("0,0,1\n" * 7, "is a text of more than"),
+    path.write_text("x,y,z\n" + "0,0,1\n" * MOST_POINTS)  # and a header
+    assert len(seen_points(path)[0]) == MOST_POINTS
+    for content, size, words in (
+        ("x,y,z\n" + "0,0,1\n" * (MOST_POINTS + 1), 0, "holds more than 1000000 points"),
+        ("0,0,1\n" + "\n" * 2 * MOST_POINTS, 0, "holds more than 2000000 lines"),
+        ("", 2**26 + 1, "is a text of more than"),
     ):
         path.write_text(content)
+        os.truncate(path, size or len(content))
         with pytest.raises(ModelError, match=words):
             point_cloud(path)
 

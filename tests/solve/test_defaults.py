@@ -4,10 +4,9 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
+import quasistatic_ref as qr
 from quasistatic_ref import Extension, Simulator, StepNotSolved, load_scenario, solve_step
-from quasistatic_ref.lab.bench.scenes import boxes
-from quasistatic_ref.optional.daqp import default
-from quasistatic_ref.optional.daqp.default import default_backend
+from quasistatic_ref.optional.daqp.default import DENSE_BELOW, default_backend
 from quasistatic_ref.optional.daqp.solver import Workspaces
 from quasistatic_ref.simulate.law import CONVEX, COULOMB
 from quasistatic_ref.solve.solver import Reply
@@ -30,16 +29,18 @@ def test_the_default_backend_is_clarabel_and_with_fast_daqp():
         assert scenario.backend == scenario.simulator().backend == named
 
 
-def test_bodies_that_cannot_touch_count_one_by_one(monkeypatch):
-    """3 boxes with 4 contacts each: the dense J of each has 4 * 4 * 6 entries."""
-    simulator = boxes(3).simulator("off", True)
-    scene = simulator.system, simulator.pairs, "pyramid"
-    monkeypatch.setattr(default, "DENSE_BELOW", 4 * 4 * 6 + 1)
-    assert default_backend(*scene, CONVEX) == "daqp"
-    assert default_backend(*scene, COULOMB) == "clarabel"
-    monkeypatch.setattr(default, "DENSE_BELOW", 4 * 4 * 6)
-    assert default_backend(*scene, CONVEX) == "clarabel"
-    assert default_backend(simulator.system, (), "pyramid", CONVEX) == "daqp"
+def test_bodies_that_cannot_touch_count_one_by_one():
+    """Points of two clouds over a floor: the dense J has 24 entries a contact."""
+    cloud = qr.PointCloud(np.random.default_rng(0).random((DENSE_BELOW // 24, 3)))
+    system = qr.System([qr.Body.of_shape(name, qr.Sphere(0.1), 1.0) for name in "ab"])
+    floor = qr.PlacedShape.in_world("floor", qr.HalfSpace((0, 0, 1), 0.0))
+    shapes = [qr.PlacedShape(f"c{link}", link, np.eye(3), np.zeros(3), cloud) for link in (1, 2)]
+    for fewer, named in ((1, "daqp"), (0, "clarabel")):
+        k = DENSE_BELOW // 24 - fewer
+        pairs = [qr.ContactPair(one.name, floor, one, 0.5, 0.0, 4, k) for one in shapes]
+        assert default_backend(system, pairs, "pyramid", CONVEX) == named
+        assert default_backend(system, pairs, "pyramid", COULOMB) == "clarabel"
+    assert default_backend(system, (), "pyramid", CONVEX) == "daqp"
 
 
 @pytest.mark.parametrize("failed", [FAILED, UNCLAIMED])

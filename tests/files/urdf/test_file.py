@@ -3,26 +3,25 @@
 import pytest
 
 from quasistatic_ref import ModelError
-from quasistatic_ref.files.urdf import file
 from quasistatic_ref.files.urdf.file import urdf_tree
 from tests.files.urdf.urdf_texts import joint, link, robot
 
 
-def test_a_file_holds_as_many_links_as_are_allowed(monkeypatch):
-    monkeypatch.setattr(file, "MOST_LINKS", 2)
-    arms = joint("j", "a", "b"), joint("k", "b", "c")
-    assert len(urdf_tree(robot(link("a"), link("b"), arms[0])).links) == 2
-    with pytest.raises(
-        ModelError, match=r"robot: holds more than 2 links; leave some out \(got 3\)"
-    ):
-        urdf_tree(robot(link("a"), link("b"), link("c"), *arms))
+def star(count, kind):
+    """A robot of so many links on joints of a kind about its first one."""
+    joints = (joint(f"j{i}", "l0", f"l{i}", kind) for i in range(1, count))
+    return robot(*(link(f"l{i}") for i in range(count)), *joints)
 
 
-def test_a_file_has_as_many_coordinates_as_are_allowed(monkeypatch):
+def test_a_file_holds_as_many_links_as_are_allowed():
+    assert len(urdf_tree(star(1000, "fixed")).links) == 1000
+    says = r"robot: holds more than 1000 links; leave some out \(got 1001\)"
+    with pytest.raises(ModelError, match=says):
+        urdf_tree(star(1001, "fixed"))
+
+
+def test_a_file_has_as_many_coordinates_as_are_allowed():
     """Pinocchio takes memory with the cube of their number: 300 hinges took 1.2 GiB."""
-    monkeypatch.setattr(file, "MOST_COORDINATES", 3)
-    balls = joint("j", "a", "b", "ball"), joint("k", "b", "c", "ball")
-    fixed = joint("f", "b", "c", "fixed")
-    urdf_tree(robot(link("a"), link("b"), link("c"), balls[0], fixed))
-    with pytest.raises(ModelError, match=r"more than 3 coordinates; fix some of them \(got 6\)"):
-        urdf_tree(robot(link("a"), link("b"), link("c"), *balls))
+    urdf_tree(star(84, "ball"))
+    with pytest.raises(ModelError, match=r"more than 250 coordinates; fix some of .* \(got 252\)"):
+        urdf_tree(star(85, "ball"))

@@ -234,8 +234,7 @@ def one_for_each_field():
 
 
 @pytest.mark.parametrize(("name", "layer", "field", "change"), list(one_for_each_field()))
-def test_a_challenge_finds_it(name, layer, field, change, monkeypatch):
-    monkeypatch.setattr("quasistatic_ref.lab.vectors.challenge.run.MOST_FINDINGS", 1)
+def test_a_challenge_finds_each_mistake(name, layer, field, change):
     wrong = written_wrong(*change)
     found = challenge(lambda _, case: wrong[layer](case), layers=[layer], cases=500)
-    assert [one.field for one in found.findings] in ([field], [EARLIER.get(name)])
+    assert found.findings[0].field in (field, EARLIER.get(name))
