@@ -1,13 +1,12 @@
 """Observers of a run: when they are asked, what is kept of what they say, and how they end it."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, InputError, Observer, Recorder, RunFailed, load_scenario
-from quasistatic_ref.simulate import recorder as recorder_module
+from quasistatic_ref.simulate.recorder import PACKED
 from tests.cases import cases
 
 STEPS = 3
@@ -59,19 +58,18 @@ def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario
 
 
 @pytest.mark.parametrize("name", ["bunny_grasp", "block_push"])
-def test_a_run_whose_steps_are_packed_one_by_one_is_the_same(name, monkeypatch):
+def test_a_run_whose_steps_are_packed_one_by_one_is_the_same(name):
     """In all arrays, notes and findings."""
-    scene = load_scenario(name, steps=16, record="full", fast=True)
+    scene = load_scenario(name, steps=PACKED + 5, record="full", fast=True)
     of_whole = Witness(every_step=False)
     whole = scene.run(observers=[of_whole])
     witness = Witness(every_step=True)
     single = scene.run(observers=[witness])
     assert len(witness.asked) == 2 * len(whole) + 1
     assert witness.noted == of_whole.noted
-    monkeypatch.setattr(recorder_module, "PACKED", 7)
     witness = Witness(every_step=False)
     some = scene.run(observers=[witness])
-    assert len(witness.asked) == len(whole) + math.ceil(len(whole) / 7) + 1
+    assert len(witness.asked) == len(whole) + 2 + 1
     assert witness.noted == of_whole.noted
     assert single == some == whole
 
@@ -126,18 +124,16 @@ FAILS = {
 
 
 @cases("note, says", FAILS)
-def test_an_observer_that_fails_in_a_block_leaves_all_steps(note, says, monkeypatch):
+def test_an_observer_that_fails_in_a_block_leaves_all_steps(note, says):
     """Also in the last block of the run, which is shorter."""
-    taken = steps = 12
-    monkeypatch.setattr(recorder_module, "PACKED", 7)
-    scene = load_scenario("sphere_spin", steps=steps)
+    taken = PACKED + 5
+    scene = load_scenario("sphere_spin", steps=taken, fast=True)
     observer = Failing(note)
     with pytest.raises(RunFailed, match=f"^step {taken - 1}: {says}") as caught:
         scene.run(observers=[observer])
-    assert observer.found == [(7, 0), (taken, 7)]
+    assert observer.found == [(PACKED, 0), (taken, PACKED)]
     failed = str(caught.value)
-    monkeypatch.undo()
-    whole = load_scenario("sphere_spin", steps=taken).run()
+    whole = scene.run()
     assert caught.value.trajectory == replace(whole, header=replace(whole.header, failed=failed))
 
 

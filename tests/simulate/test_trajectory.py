@@ -14,6 +14,7 @@ from quasistatic_ref import (
     HalfSpace,
     InputError,
     PlacedShape,
+    PointCloud,
     RunFailed,
     Simulator,
     Sphere,
@@ -29,7 +30,6 @@ from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.files.trajectory import header_table
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.parts import part
-from quasistatic_ref.simulate import recorder
 from quasistatic_ref.simulate.record import ARRAYS
 from quasistatic_ref.simulate.trajectory import RecordArrays
 from tests.closeness import assert_same
@@ -93,16 +93,18 @@ def test_a_recorded_program_is_the_standard_form_of_its_step(name, changes):
 
 
 def test_a_full_record_of_very_many_contacts_is_refused_before_the_first_step(monkeypatch):
-    scenario = load_scenario("stack", steps=2)
-    entries = 4 * sum(pair.n_c for pair in scenario.pairs) * scenario.system.n_v
-    monkeypatch.setattr(recorder, "LARGEST", entries - 1)
-    monkeypatch.setattr(Simulator, "step", None)
-    with pytest.raises(InputError, match=rf"has {entries} entries.*; say record = \"light\""):
-        scenario.run(progress=False)
-    monkeypatch.undo()
-    monkeypatch.setattr(recorder, "LARGEST", entries - 1)
-    light = replace(scenario, record="light").run(progress=False, findings=False)
-    assert light.steps == 2
+    """A ball that has 41,667 contacts with a cloud: J has 4 * 6 entries for each."""
+    system = System([Body.of_shape("ball", Sphere(0.1), 1.0)])
+    points = PointCloud(np.random.default_rng(0).random((41_667, 3)))
+    dust = PlacedShape.in_world("dust", points)
+    pair = ContactPair("dust", dust, system.shapes[0], 0.5, 0.0, 4, k=41_667)
+    taken = system.q_start, [], 2
+    monkeypatch.setattr(Simulator, "step", lambda *_: pytest.fail("a step"))
+    simulator = Simulator(system, [pair], h=0.01)
+    with pytest.raises(InputError, match=r"has 1000008 entries.*; say record = \"light\""):
+        rollout(simulator, *taken, record="full", findings=False)
+    with pytest.raises(pytest.fail.Exception, match="a step"):
+        rollout(simulator, *taken, record="light", findings=False)
 
 
 def test_a_file_read_back_is_the_same_bits(tmp_path, run):
