@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.lab.qp_files.load import SUFFIXES, load_qp
-from quasistatic_ref.optional.qp.answer import NO_OPTIMUM, Answer, ExactQP
+from quasistatic_ref.optional.qp.answer import Answer, ExactQP, NoOptimum
 from quasistatic_ref.optional.qp.exact import exact_qp
 from quasistatic_ref.text.quoting import listed, one_line
 
@@ -93,7 +93,7 @@ def _answer(program: object) -> Answer:
     try:
         with warnings.catch_warnings(action="ignore"):  # a remark is printed
             return exact_qp(program)  # type: ignore[arg-type]  # a program has all arrays
-    except NO_OPTIMUM as proof:
+    except NoOptimum as proof:
         return proof
 
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, ClassVar, Final
 
 import numpy as np
-from flint import fmpq
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.farkas import fractions_read
@@ -20,7 +19,7 @@ from quasistatic_ref.numbers.precision import nearest_fraction
 from quasistatic_ref.optional.qp.digits import correct_digits, multiplier_digits
 from quasistatic_ref.optional.qp.numbers import texts
 from quasistatic_ref.optional.qp.program import FIELDS, QuadraticProgram
-from quasistatic_ref.optional.qp.verdict import Proof, optimum_verdict
+from quasistatic_ref.optional.qp.verdict import Proof, optimum_verdict, row_factors
 from quasistatic_ref.text.json_text import json_text
 from quasistatic_ref.text.plain import Plain, field_values
 from quasistatic_ref.text.quoting import counted, listed
@@ -140,7 +139,34 @@ class ExactQP(Plain, Shown):
         return optimum_verdict(replace(claims.pop("problem")), claims)
 
 
-class QPInfeasible(QuasistaticError):
+class NoOptimum(QuasistaticError):
+    """A program has no optimum, which is proved.
+
+    Attributes
+    ----------
+    problem : QuadraticProgram
+    status : str
+    claims : mapping of str to object
+        The proof, as it stands in a file.
+    """
+
+    status: ClassVar[str]
+    refuted: ClassVar[Callable[..., str]]
+    """What is wrong with the claims, which follow the :class:`Proof`."""
+    problem: QuadraticProgram
+    claims: Mapping[str, Any]
+
+    def save(self, path: str | Path) -> Path:
+        """Write the problem and this proof as one JSON file, as of :meth:`ExactQP.save`."""
+        return _saved(path, self.problem, {"status": self.status, **self.claims})
+
+    def verdict(self) -> Verdict:
+        """Whether the proof holds, checked without a solver."""
+        reason = type(self).refuted(Proof(replace(self.problem)), *self.claims.values())
+        return Verdict(not reason, reason)
+
+
+class QPInfeasible(NoOptimum):
     """No x satisfies the rows of a quadratic program; this is proved.
 
     Parameters
@@ -167,16 +193,17 @@ class QPInfeasible(QuasistaticError):
     """
 
     status = "infeasible"
+    refuted = Proof.infeasible
 
     def __init__(self, problem: QuadraticProgram, exact: Mapping[str, str]) -> None:
         self.problem = problem
         self.exact = dict(exact)
-        self.rows = tuple(name for name in problem.rows.names if name in exact)
-        factors = np.zeros(len(problem.rows.names))
-        for i, name in enumerate(problem.rows.names):
-            if name in exact and (read := fractions_read([exact[name]])):
-                way = -1 if name.startswith("A[") else 1
-                factors[i] = way * nearest_fraction(read[0])
+        self.claims = {"farkas": self.exact}
+        names = problem.rows.names
+        self.rows = tuple(name for name in names if name in exact)
+        factors = np.zeros(len(names))
+        for i, v in row_factors(names, exact).items():
+            factors[i] = nearest_fraction(v)
         multipliers = problem.multipliers(factors)
         self.z, self.y, self.z_box = multipliers["z"], multipliers["y"], multipliers["z_box"]
         super().__init__("the program has no solution")
@@ -205,30 +232,16 @@ class QPInfeasible(QuasistaticError):
     def _missed(self, places: Sequence[int]) -> tuple[float, float]:
         """By how much the limits miss, and the largest number of the rows."""
         rows = self.problem.rows
-        factors = fractions_read([self.exact[name] for name in self.rows]) or []
-        block = Proof(self.problem).block
-        total = fmpq(0)
-        for i, v in zip(places, factors, strict=True):
-            way = -1 if rows.names[i].startswith("A[") else 1
-            total += way * v * block.row(i).side / block.row(i).unit
+        _, total = Proof(self.problem).block.combined(row_factors(rows.names, self.exact))
         largest = max(np.abs(rows.a[places]).max(), np.abs(rows.c[places]).max())
         return abs(nearest_fraction(total)), float(largest)
-
-    def save(self, path: str | Path) -> Path:
-        """Write the problem and this proof as one JSON file, as of :meth:`ExactQP.save`."""
-        return _saved(path, self.problem, {"status": self.status, "farkas": self.exact})
-
-    def verdict(self) -> Verdict:
-        """Whether the proof that there is no solution holds, checked without a solver."""
-        reason = Proof(replace(self.problem)).infeasible(self.exact)
-        return Verdict(not reason, reason)
 
 
 MOST_ULPS: Final = 1e4
 """Units in the last place up to which rounding may be what makes rows contradict each other."""
 
 
-class QPUnbounded(QuasistaticError):
+class QPUnbounded(NoOptimum):
     """The cost of a quadratic program falls without end; this is proved.
 
     Parameters
@@ -253,31 +266,22 @@ class QPUnbounded(QuasistaticError):
     """
 
     status = "unbounded"
+    refuted = Proof.unbounded
 
     def __init__(
         self, problem: QuadraticProgram, exact_x: Sequence[str], exact_direction: Sequence[str]
     ) -> None:
         self.problem = problem
         self.exact_x, self.exact_direction = tuple(exact_x), tuple(exact_direction)
+        self.claims = {"x": self.exact_x, "direction": self.exact_direction}
         self.x, self.direction = _rounded(exact_x), _rounded(exact_direction)
         super().__init__(
             f"the cost falls without end along {_direction_in_words(exact_direction)} "
             "(proved without rounding)"
         )
 
-    def save(self, path: str | Path) -> Path:
-        """Write the problem and this proof as one JSON file, as of :meth:`ExactQP.save`."""
-        claims = {"status": self.status, "x": self.exact_x, "direction": self.exact_direction}
-        return _saved(path, self.problem, claims)
 
-    def verdict(self) -> Verdict:
-        """Whether the proof holds, checked without a solver."""
-        proof = Proof(replace(self.problem))
-        reason = proof.unbounded(self.exact_x, self.exact_direction)
-        return Verdict(not reason, reason)
-
-
-class QPNotConvex(QuasistaticError):
+class QPNotConvex(NoOptimum):
     """P has a direction that equations leave and that costs less than nothing; this is proved.
 
     Parameters
@@ -301,10 +305,12 @@ class QPNotConvex(QuasistaticError):
     """
 
     status = "not convex"
+    refuted = Proof.not_convex
 
     def __init__(self, problem: QuadraticProgram, exact_direction: Sequence[str]) -> None:
         self.problem = problem
         self.exact_direction = tuple(exact_direction)
+        self.claims = {"direction": self.exact_direction}
         self.direction = _rounded(exact_direction)
         super().__init__(
             f"P as float64 holds it is not convex: {_direction_in_words(exact_direction)} costs "
@@ -312,20 +318,8 @@ class QPNotConvex(QuasistaticError):
             "exact_qp decimals as texts"
         )
 
-    def save(self, path: str | Path) -> Path:
-        """Write the problem and this proof as one JSON file, as of :meth:`ExactQP.save`."""
-        claims = {"status": self.status, "direction": self.exact_direction}
-        return _saved(path, self.problem, claims)
 
-    def verdict(self) -> Verdict:
-        """Whether the proof holds, checked without a solver."""
-        reason = Proof(replace(self.problem)).not_convex(self.exact_direction)
-        return Verdict(not reason, reason)
-
-
-Answer = ExactQP | QPInfeasible | QPUnbounded | QPNotConvex
-NO_OPTIMUM: Final = (QPInfeasible, QPUnbounded, QPNotConvex)
-"""What ``exact_qp`` raises where there is no optimum."""
+Answer = ExactQP | NoOptimum
 
 
 def _rounded(exact: Sequence[str]) -> Array:

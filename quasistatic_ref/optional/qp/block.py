@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, reduce
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpz
@@ -69,6 +69,15 @@ class Convex:
     q: Sequence[fmpz]
     unit: fmpq
     definite: bool
+
+    @property
+    def balls(self) -> tuple[arb_mat, arb_mat]:
+        """H, (n, n), and g, (n, 1), of 1/2 x'Hx - g'x, over the power of two next to `unit`."""
+        n = len(self.q)
+        with working_precision(EXACT):
+            share = arb(2) ** (int(self.unit.q).bit_length() - int(self.unit.p).bit_length())
+            H = arb_mat([dense(row, range(n)) for row in self.P]) * share
+            return H, arb_mat(n, 1, [-v for v in self.q]) * share
 
 
 class Block:
@@ -150,8 +159,24 @@ class Block:
             self._kept[i] = Row(dict(zip(at.tolist(), entries, strict=True)), c, unit)
         return self._kept[i]
 
-    def split(self, W: Iterable[int]) -> tuple[dict[int, int], list[int]]:
-        """The bounds of some rows by coordinate, and the other rows."""
+    def combined(self, factors: Mapping[int, fmpq]) -> tuple[dict[int, fmpq], fmpq]:
+        """The sum of rows a x + c, each times its factor: the entries that are left, and c."""
+        total: dict[int, fmpq] = {}
+        limit = fmpq(0)
+        for i, v in factors.items():
+            entries, side, unit = self.row(i)
+            limit += v / unit * side
+            for j, entry in entries.items():
+                total[j] = total.get(j, fmpq(0)) + v / unit * entry
+        return {j: v for j, v in total.items() if v}, limit
+
+    def spread(self, numbers: Iterable[Any], zero: Any) -> list[Any]:
+        """Numbers of the block's coordinates among zeros of all others."""
+        entries = dict(zip(self.coordinates.tolist(), numbers, strict=True))
+        return [entries.get(j, zero) for j in range(len(self.program.q))]
+
+    def split(self, W: Iterable[int]) -> tuple[dict[int, int], list[int], list[int]]:
+        """The bounds of some rows by coordinate, the other rows, and the other coordinates."""
         bounds: dict[int, int] = {}
         general = []
         for i in W:
@@ -160,7 +185,7 @@ class Block:
                 general.append(i)
             else:
                 bounds[j] = i
-        return bounds, general
+        return bounds, general, [j for j in range(self.n) if j not in bounds]
 
     def independent(self, W: Sequence[int]) -> list[int]:
         """The rows, in order of preference, that do not depend on earlier ones, modulo a prime."""
@@ -170,8 +195,7 @@ class Block:
 
     def are_independent(self, W: Sequence[int]) -> bool:
         """Whether rows are independent modulo a prime, and so in whole numbers."""
-        bounds, general = self.split(W)
-        rest = [j for j in range(self.n) if j not in bounds]
+        _, general, rest = self.split(W)
         return len(independent_modulo(self._dense(general, rest), self.prime)) == len(general)
 
     def _dense(self, rows: Sequence[int], columns: Sequence[int]) -> list[list[fmpz]]:
@@ -179,8 +203,7 @@ class Block:
 
     def free_coordinates(self, W: Sequence[int], P: Sequence[Sparse]) -> list[int]:
         """One coordinate for each direction that P and the rows W leave free, modulo a prime."""
-        bounds, general = self.split(W)
-        rest = [j for j in range(self.n) if j not in bounds]
+        _, general, rest = self.split(W)
         lines = [row for j in rest if (row := P[j])] + [self.row(i).entries for i in general]
         columns = [[line.get(j, fmpz(0)) for line in lines] for j in rest]
         held = {rest[t] for t in independent_modulo(columns, self.prime)}
@@ -189,10 +212,7 @@ class Block:
     @cached_property
     def form(self) -> MatrixForm:
         """The program for the dual method, where P is positive definite."""
-        with working_precision(EXACT):
-            share = arb(2) ** -twos(self.unit)
-            H = arb_mat([dense(row, range(self.n)) for row in self.P]) * share
-            g = arb_mat(self.n, 1, [-v for v in self.q]) * share
+        H, g = Convex(self.P, self.q, self.unit, definite=True).balls
         return matrix_form(H, g, self.exact_rows, self.equations)
 
     @cached_property
@@ -254,11 +274,6 @@ def shortest(v: Sequence[fmpz]) -> list[fmpz]:
     """Whole numbers without a common factor; not all are zero."""
     content = reduce(lambda a, b: a.gcd(b), v, fmpz(0))
     return [(fmpq(a) / content).p for a in v]
-
-
-def twos(unit: fmpq) -> int:
-    """The power of two next to a positive number."""
-    return int(unit.p).bit_length() - int(unit.q).bit_length()
 
 
 def blocks_of(program: QuadraticProgram) -> list[Block]:

@@ -157,21 +157,20 @@ def exact_ls(
     of_R, of_s = fraction_matrix(R, "R"), fraction_matrix(s, "s")
     r, n = of_R.nrows(), of_R.ncols()
     of_s = fmpq_mat(of_s.nrows() * of_s.ncols(), 1, of_s.entries())
-    of_W = of_R if W is None else fraction_matrix(W, "W")
-    if of_s.nrows() != r or (W is not None and (of_W.nrows(), of_W.ncols()) != (r, r)):
+    of_W = None if W is None else fraction_matrix(W, "W")
+    if of_s.nrows() != r or (of_W is not None and (of_W.nrows(), of_W.ncols()) != (r, r)):
         raise InputError(f"must be of {r} residuals, as R says", field="s or W")
-    weighed = of_R.transpose() if W is None else of_R.transpose() * of_W
+    weighed = of_R.transpose() if of_W is None else of_R.transpose() * of_W
     P, slope = weighed * of_R, weighed * of_s
-    size = (of_s.transpose() * (of_s if W is None else of_W * of_s))[0, 0]
-    others = [fraction_matrix(v, k) for k, v in (("D", D), ("q", q)) if v is not None]
+    size = (of_s.transpose() * (of_s if of_W is None else of_W * of_s))[0, 0]
     if D is not None:
-        add = others.pop(0)
+        add = fraction_matrix(D, "D")
         if 1 in (add.nrows(), add.ncols()):
             add = fmpq_mat(
                 [[v * int(i == j) for j in range(n)] for i, v in enumerate(add.entries())]
             )
         P = P + add
-    linear = others[0].entries() if others else [fmpq(0)] * n
+    linear = [fmpq(0)] * n if q is None else fraction_matrix(q, "q").entries()
     arrays = (
         [[*map(as_fraction, row)] for row in P.tolist()],
         [as_fraction(v - w) for v, w in zip(linear, slope.entries(), strict=True)],
@@ -260,9 +259,7 @@ def _convex(program: QuadraticProgram, block: Block) -> Convex:
     try:
         return convex_cost(block)
     except Indefinite as found:
-        entries = dict(zip(block.coordinates.tolist(), found.direction, strict=True))
-        texts = [str(entries.get(j, 0)) for j in range(len(program.q))]
-        raise QPNotConvex(program, texts) from None
+        raise QPNotConvex(program, [*map(str, block.spread(found.direction, 0))]) from None
 
 
 def _of_block(
@@ -287,12 +284,10 @@ def _unbounded(
     program: QuadraticProgram, blocks: Sequence[Block], endless: Block, end: Endless
 ) -> QPUnbounded:
     """The proof of one block, at a feasible point of all."""
-    n = len(program.q)
-    x, direction = [fmpq(0)] * n, [fmpq(0)] * n
+    x = [fmpq(0)] * len(program.q)
     for block in blocks:
         point = end.x if block is endless else without_warnings(feasible_point, block)
         for j, v in zip(block.coordinates.tolist(), point, strict=True):
             x[j] = v
-    for j, v in zip(endless.coordinates.tolist(), end.direction, strict=True):
-        direction[j] = v
+    direction = endless.spread(end.direction, 0)
     return QPUnbounded(program, [*map(str, x)], [*map(str, direction)])

@@ -77,7 +77,7 @@ class Face:
         self, block: Block, convex: Convex, W: Sequence[int], *, balls: bool = False
     ) -> None:
         self.block, self.convex, self.W = block, convex, [*W]
-        bounds, self.general = block.split(W)
+        bounds, self.general, _ = block.split(W)
         self.free = [] if convex.definite else block.free_coordinates(W, convex.P)
         self.fixed = {
             j: (i, -block.row(i).side * block.row(i).entries[j]) for j, i in bounds.items()

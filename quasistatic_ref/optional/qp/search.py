@@ -22,7 +22,7 @@ from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.modulo import independent_modulo
 from quasistatic_ref.numbers.precision import working_precision
-from quasistatic_ref.optional.qp.block import Block, Convex, Unlucky, dense, matrix_form, twos
+from quasistatic_ref.optional.qp.block import Block, Convex, Unlucky, dense, matrix_form
 from quasistatic_ref.optional.qp.face import Face, decided, sign
 from quasistatic_ref.optional.qp.guess import Scaled, guesses
 from quasistatic_ref.optional.qp.least_norm import LeastNorm
@@ -189,11 +189,10 @@ def _held_equations(block: Block) -> list[int]:
         c = combination(block, held, p)
         if c is None:
             raise Unlucky
-        y = {i: -v for i, v in c.items() if v} | {p: fmpq(1)}
-        total = sum((v * block.row(i).side for i, v in y.items()), fmpq(0))
+        y = {i: -v * block.row(i).unit for i, v in c.items() if v} | {p: block.row(p).unit}
+        _, total = block.combined(y)
         if total:
-            way = -1 if total > 0 else 1
-            raise Contradiction({i: way * v * block.row(i).unit for i, v in y.items()})
+            raise Contradiction({i: -v if total > 0 else v for i, v in y.items()})
     return held
 
 
@@ -250,10 +249,7 @@ def _nearer(
     some = [*held, *range(e, block.m)]
     at = {i: t for t, i in enumerate(some)}
     exact = [block.exact_rows[i] for i in some]
-    with working_precision(EXACT):
-        share = arb(2) ** -twos(convex.unit)
-        P = arb_mat([dense(row, range(n)) for row in convex.P]) * share
-        g = arb_mat(n, 1, [-v for v in convex.q]) * share
+    P, g = convex.balls
     most = max((abs(float(v)) for v in P.entries()), default=0.0) or 1.0
     for k in count(1):
         weight = exact_matrix(np.eye(n) * 2.0 ** (np.round(np.log2(most)) - 16 * k))

@@ -16,13 +16,8 @@ CLOSE = 1e-6
 def short_proof(block: Block) -> dict[int, fmpq] | None:
     """Factors of two parallel rows, or of a row and bounds, that contradict each other."""
     for factors in _suspects(block):
-        total, limit = dict[int, fmpq](), fmpq(0)
-        for i, v in factors.items():
-            entries, side, unit = block.row(i)
-            limit += v / unit * side
-            for j, entry in entries.items():
-                total[j] = total.get(j, fmpq(0)) + v / unit * entry
-        if limit < 0 and not any(total.values()):
+        left, limit = block.combined(factors)
+        if limit < 0 and not left:
             return factors
     return None
 
@@ -30,8 +25,6 @@ def short_proof(block: Block) -> dict[int, fmpq] | None:
 def _suspects(block: Block) -> Iterator[dict[int, fmpq]]:
     """Factors of few rows that float64 does not show to be consistent."""
     a, c, e = block.a, block.c, block.equations
-    low, high = np.full(block.n, -np.inf), np.full(block.n, np.inf)
-    of_low, of_high = np.zeros((2, block.n), dtype=int)
     lowest: dict[bytes, tuple[float, int]] = {}
     highest: dict[bytes, tuple[float, int]] = {}
     first = np.take_along_axis(a, (a != 0).argmax(axis=1)[:, None], axis=1)[:, 0]
@@ -42,18 +35,15 @@ def _suspects(block: Block) -> Iterator[dict[int, fmpq]]:
             lowest[key] = max(lowest.get(key, (-np.inf, i)), (at, i))
         if i < e or first[i] < 0:
             highest[key] = min(highest.get(key, (np.inf, i)), (at, i))
-        if np.count_nonzero(a[i]) == 1:
-            (j,) = np.flatnonzero(a[i]).tolist()
-            if key in lowest:
-                low[j], of_low[j] = lowest[key]
-            if key in highest:
-                high[j], of_high[j] = highest[key]
     for key in lowest.keys() & highest.keys():
         (least, i), (most, k) = lowest[key], highest[key]
         if least > most - CLOSE * abs(most):
             one, other = (abs(_entry(block, t)) for t in (i, k))
             way = 1 if first[i] > 0 else -1
             yield {i: way * other, k: way * one if first[k] < 0 else -way * one}
+    units = [row.tobytes() for row in np.eye(block.n)]
+    low, of_low = np.array([lowest.get(key, (-np.inf, 0)) for key in units]).T
+    high, of_high = np.array([highest.get(key, (np.inf, 0)) for key in units]).T
     with np.errstate(invalid="ignore"):
         for way in (1, -1):
             limit = np.where(way * a > 0, high, low)

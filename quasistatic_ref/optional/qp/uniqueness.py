@@ -21,8 +21,7 @@ def combination(block: Block, W: Sequence[int], p: int) -> dict[int, fmpq] | Non
 
     Rows are those of :meth:`Block.row`. An unlucky prime raises Unlucky.
     """
-    bounds, general = block.split(W)
-    rest = [j for j in range(block.n) if j not in bounds]
+    bounds, general, rest = block.split(W)
     rows = [dense(block.row(i).entries, rest) for i in general]
     a = block.row(p).entries
     some = independent_modulo([*map(list, zip(*rows, strict=True))], block.prime)
@@ -55,10 +54,12 @@ def multipliers_unique(face: Face, tight: Sequence[int]) -> bool:
         return False
     if len(tight) == 1:
         return True
-    bounds, general = block.split(W)
-    rest = [j for j in range(block.n) if j not in bounds]
-    rows = [[*map(arb, dense(block.row(i).entries, rest)), arb(0)] for i in general]
-    rows += [[*map(arb, dense(block.row(i).entries, rest)), arb(-1)] for i in tight]
+    _, general, rest = block.split(W)
+    sides = [arb(0)] * len(general) + [arb(-1)] * len(tight)
+    rows = [
+        [*map(arb, dense(block.row(i).entries, rest)), side]
+        for i, side in zip([*general, *tight], sides, strict=True)
+    ]
     n = len(rest)
     form = matrix_form(exact_matrix(np.eye(n)), arb_mat(n, 1), rows, len(general))
     return isinstance(dual_active_set(form), Minimiser)

@@ -38,8 +38,7 @@ def joined(
         active += held.tolist()
         least += block.rows[[*optimum.least]].tolist()
         if optimum.direction is not None and not direction:
-            entries = dict(zip(block.coordinates.tolist(), optimum.direction, strict=True))
-            direction = [str(entries.get(j, 0)) for j in range(n)]
+            direction = [*map(str, block.spread(optimum.direction, 0))]
     terms = np.concatenate([*(optimum.objective for optimum in optima), _terms(problem)])
     obj = math.fsum(terms)
     return {
@@ -70,20 +69,7 @@ def optimum_verdict(problem: QuadraticProgram, claims: Mapping[str, Any]) -> Ver
     blocks = blocks_of(problem)
     optima = []
     for block in blocks:
-        try:
-            convex = convex_cost(block)
-        except Indefinite:
-            return Verdict(False, "P is not convex where something can move")
-        rows = [names[i] for i in block.rows]
-        W, least = (
-            [i for i, name in enumerate(rows) if name in claims[field]]
-            for field in ("active", "least_norm")
-        )
-
-        def judged(balls: bool) -> BlockOptimum | str:
-            return _judged(block, convex, W, least, rows, balls)  # noqa: B023  # called at once
-
-        found = decided(block, convex, judged)
+        found = _of_block(block, [names[i] for i in block.rows], claims)
         if isinstance(found, str):
             return Verdict(False, found)
         optima.append(found)
@@ -92,6 +78,19 @@ def optimum_verdict(problem: QuadraticProgram, claims: Mapping[str, Any]) -> Ver
         if reason := fault(name, claims[name], right):
             return Verdict(False, reason)
     return Verdict(True)
+
+
+def _of_block(block: Block, names: Sequence[str], claims: Mapping[str, Any]) -> BlockOptimum | str:
+    """The optimum of a block on its claimed rows, or what is wrong with what is claimed."""
+    try:
+        convex = convex_cost(block)
+    except Indefinite:
+        return "P is not convex where something can move"
+    W, least = (
+        [i for i, name in enumerate(names) if name in claims[field]]
+        for field in ("active", "least_norm")
+    )
+    return decided(block, convex, lambda balls: _judged(block, convex, W, least, names, balls))
 
 
 def _judged(
@@ -126,6 +125,13 @@ def _judged(
     return read(face, least)
 
 
+def row_factors(names: Sequence[str], exact: Mapping[str, str]) -> dict[int, fmpq]:
+    """Factors of rows a x + c by place, of those texts by name that are fractions of rows."""
+    place = {name: i for i, name in enumerate(names)}
+    read = {name: fractions_read([text]) for name, text in exact.items() if name in place}
+    return {place[name]: -v[0] if name.startswith("A[") else v[0] for name, v in read.items() if v}
+
+
 class Proof:
     """A program in fractions, to check a claim about all of it.
 
@@ -142,24 +148,17 @@ class Proof:
 
     def infeasible(self, factors: Mapping[str, str]) -> str:
         """What is wrong with a proof that there is no solution; empty if it holds."""
-        place = {name: i for i, name in enumerate(self.names)}
-        read = fractions_read([*factors.values()])
-        if read is None:
+        if fractions_read([*factors.values()]) is None:
             return "the proof has factors that are no fractions"
-        total: dict[int, fmpq] = {}
-        limit = fmpq(0)
-        for name, v in zip(factors, read, strict=True):
-            if name not in place:
+        for name in factors:
+            if name not in self.names:
                 return f"the proof uses {name!r}, which is no limit of the program"
-            i = place[name]
+        by_row = row_factors(self.names, factors)
+        for i, v in by_row.items():
             if v < 0 and i >= self.block.equations:
-                return f"the factor of {name} is negative"
-            entries, side, unit = self.block.row(i)
-            share = (-v if name.startswith("A[") else v) / unit
-            limit += share * side
-            for j, entry in entries.items():
-                total[j] = total.get(j, fmpq(0)) + share * entry
-        if any(total.values()):
+                return f"the factor of {self.names[i]} is negative"
+        left, limit = self.block.combined(by_row)
+        if left:
             return "the rows of the proof do not add up to zero"
         return "" if limit < 0 else "the limits that the proof adds up are not negative"
 
