@@ -9,8 +9,8 @@ from tests.meta.remedies import assert_alike, assert_among
 from tests.optional.doctor.mistake_scenes import GRAVE, mistakes
 from tests.optional.doctor.test_cases import ROWS
 
-HERE = {"artifact", "crossed-margin", "target-without-effect", "rings"}
-"""Findings whose scenes are in this file."""
+HERE = {"crossed-margin", "target-without-effect"}
+"""Findings of MuJoCo scenes, which are in this file, with what ends them."""
 
 
 def test_each_finding_of_the_page_has_a_scene():
@@ -31,7 +31,7 @@ def test_each_finding_of_the_page_has_a_scene():
 
 def test_each_note_has_a_scene_that_only_just_lacks_it():
     assert_among(
-        {name for name, grave in GRAVE.items() if grave is False} - HERE,
+        {name for name, grave in GRAVE.items() if grave is False},
         {case.get("lacks") for case in ROWS},
         'No scene only just lacks "{}": add one with lacks = "{}" to '
         "tests/optional/doctor/cases/findings.toml",
@@ -52,6 +52,7 @@ WITHOUT_EFFECT = {
     ),
     "a gain of zero": ("", '<general joint="j" gainprm="0"/>'),
 }  # fmt: skip
+WITH_EFFECT = '<position joint="j" kp="9"/>'
 
 
 @pytest.mark.parametrize("why", WITHOUT_EFFECT)
@@ -59,8 +60,9 @@ def test_a_target_of_an_actuator_that_does_nothing_has_no_effect(why, tmp_path):
     option, actuator = WITHOUT_EFFECT[why]
     table = tmp_path / "targets.csv"
     table.write_text("t,0\n0,0\n0.02,1\n")
-    more = f"<actuator>{actuator}</actuator>"
-    assert "target-without-effect" in of_mujoco(SLIDE, more, option, targets=table, steps=3)
+    for one, is_named in ((actuator, True), (WITH_EFFECT, False)):
+        said = of_mujoco(SLIDE, f"<actuator>{one}</actuator>", option, targets=table, steps=3)
+        assert ("target-without-effect" in said) is is_named
 
 
 def test_the_unit_of_the_friction_that_mujoco_gives_by_default_is_said_once():
@@ -72,6 +74,23 @@ def test_the_unit_of_the_friction_that_mujoco_gives_by_default_is_said_once():
     unit = of_mujoco(world, option=condim, steps=1)["unit-of-mu-omega"]
     assert unit.remedy.startswith("check the unit of the second number of friction of the geoms")
     assert unit.cause.endswith("the smaller body, 0.0012 m (5 more pairs are as suspect)")
+
+
+def test_each_finding_ends_where_its_remedy_is_applied():
+    """By `after` of a case, by a mistake that is undone, or in this file."""
+    ended = {
+        name
+        for case in ROWS
+        for name, hand in case["hand"].items()
+        if "after" in case and (len(case["hand"]) == 1 or hand.get("remedy") in case["after"])
+    }
+    undone = {one["finding"][0] for one in mistakes() if "remedy" in one}
+    assert_among(
+        GRAVE,
+        ended | undone | HERE,
+        'No remedy of "{}" is applied: write after."REMEDY" = { ... } into one of its cases in '
+        "tests/optional/doctor/cases",
+    )
 
 
 @pytest.mark.parametrize(("margin", "depth"), [(0.004, [12.0]), (0.03, [])])
