@@ -6,7 +6,7 @@ from contextlib import suppress
 
 import pytest
 
-from quasistatic_ref import Body, InputError, System, load_step
+from quasistatic_ref import Body, InputError, System, load_scenario, load_step
 from quasistatic_ref.files import xml_text
 from quasistatic_ref.files.clouds import point_cloud
 from quasistatic_ref.files.mesh_files import loaded_mesh
@@ -69,6 +69,9 @@ FILES = {
     "a step of lists": (
         "a.json", b'{"format": "quasistatic-ref/step", "x": [' + lines(b"[],") + b"0]}",
     ),
+    "a scenario of one deep key": ("a.toml", lines(b"a.") + b"a = 1\n"),
+    "a scenario of deep keys": ("a.toml", lines(b"[a.a.a.a.a.a.a.a.a.a]\n")),
+    "a scenario of deep tables": ("a.toml", b"a = " + lines(b"{a=") + b"1\n"),
     "a URDF of empty elements": ("a.urdf", URDF % lines(b"<b/>", MANY)),
     "a URDF of attributes": (
         "a.urdf", URDF % b"".join(b'<b c="" d="" e="" f="%d"/>' % k for k in range(SIZE // 26)),
@@ -87,6 +90,7 @@ FILES = {
 READERS = {
     ".csv": point_cloud,
     ".json": load_step,
+    ".toml": load_scenario,
     ".urdf": lambda path: System([Body("r", path)]),
 }
 

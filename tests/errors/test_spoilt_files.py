@@ -51,6 +51,7 @@ TOKEN = re.compile(rb"[-+]?\d[\w.+-]*|[A-Za-z_][\w:.-]*|\"[^\"\n]*\"|[^\w\s]")
 OTHERS = (
     *(b"", b"nan", b"inf", b"-1", b"0", b"1e308", b"1e-323", b"9223372036854775808", b'"x"', b"["),
     *(b"{}", b"null", b"..", b"\x00", b"\xff", b"\n", "\u00e9".encode(), b"x" * 1000),
+    *(b"a." * 1200 + b"a", b"[" * 1200, b"{a=" * 1200, b'"\\"".' * 1200 + b"a"),
 )
 """What stands in the place of a token or of some bytes."""
 POINTS = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)])

@@ -1,15 +1,12 @@
 """Trees as pinocchio models: what is loaded is what was written, and inertias are looked at."""
 
 import numpy as np
-import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Body, ModelError, System
-from tests.closeness import assert_within
 from tests.files.urdf.urdf_texts import (
     BOX,
-    CHAIN,
     inertial,
     joint,
     link,
@@ -18,7 +15,6 @@ from tests.files.urdf.urdf_texts import (
     robot,
     urdf_of_text,
 )
-from tests.oracles.coal_solids import coal_solid
 from tests.tolerances import ROUNDING
 
 
@@ -105,35 +101,3 @@ def test_a_mimic_may_be_met_before_its_leader():
         of = system.mimics[0].name.replace("k", "c" if text is near else "e")
         R = system.kinematics(system.q_start).R[system.links.index(of)]
         assert np.abs(R - turned).max() < ROUNDING
-
-
-@pytest.mark.parametrize("base", ["fixed", "floating"])
-def test_the_model_is_that_of_another_reader(base):
-    """Pinocchio's own reader makes the same joints, inertias, links and shapes of CHAIN.
-
-    But a revolute joint without mimic, of which CHAIN has none, is continuous.
-    """
-    ours = loaded_urdf(CHAIN, base=base)
-    root = () if base == "fixed" else (pin.JointModelFreeFlyer(), "base")
-    model = pin.buildModelFromXML(CHAIN, *root, mimic=True)
-    assert [*ours.model.names] == [*model.names]
-    assert [j.shortname() for j in ours.model.joints] == [j.shortname() for j in model.joints]
-    for made, read in zip(ours.model.inertias, model.inertias, strict=True):
-        assert_within(made.matrix(), read.matrix(), 4 * ROUNDING)
-    geometry = pin.buildGeomFromUrdfString(model, CHAIN, pin.GeometryType.COLLISION)
-    q = pin.integrate(model, pin.neutral(model), 0.3 * np.arange(1, model.nv + 1))
-    links = list(ours.tree.links)
-    here, there = ours.model.createData(), model.createData()
-    pin.framesForwardKinematics(ours.model, here, q)
-    pin.framesForwardKinematics(model, there, q)
-    for name in links:
-        made = here.oMf[ours.model.getFrameId(name, pin.FrameType.BODY)].homogeneous
-        read = there.oMf[model.getFrameId(name, pin.FrameType.BODY)].homogeneous
-        assert_within(made, read, 8 * ROUNDING)
-    for shape, read in zip(ours.shapes, geometry.geometryObjects, strict=True):
-        assert coal_solid(shape.shape) == read.geometry
-        frame = model.frames[read.parentFrame]
-        assert links[shape.link] == frame.name
-        placement = frame.placement.actInv(read.placement)
-        assert_within(shape.R, placement.rotation, 4 * ROUNDING)
-        assert_within(shape.t, placement.translation, 4 * ROUNDING)
