@@ -5,8 +5,6 @@ import pickle
 
 import numpy as np
 
-import quasistatic_ref as qr
-from quasistatic_ref.certify import form
 from quasistatic_ref.step.hessian import Hessian, hessian
 from tests.made import bits
 
@@ -30,27 +28,3 @@ def test_blocks_stand_for_the_whole_matrix():
     for again in (pickle.loads(pickle.dumps(by_blocks)), copy.deepcopy(by_blocks)):
         assert again == by_blocks
         assert not again.__dict__.keys() & {"_parts", "_formed"}
-
-
-def test_exact_numbers_are_formed_once_a_run_for_each_of_many_bodies(monkeypatch):
-    """Of more bodies of different masses than any cache of recent ones would hold."""
-    formed = []
-    inverse = form.inverse
-    monkeypatch.setattr(form, "inverse", lambda H: formed.append(1) or inverse(H))
-    shape = qr.Box((0.02, 0.02, 0.02))
-    masses = np.linspace(0.2, 0.3, 40)
-    bodies = [
-        qr.Body.of_shape(f"b{i}", shape, mass, xyz=(0.1 * i, 0, 0.02))
-        for i, mass in enumerate(masses)
-    ]
-    system = qr.System(bodies)
-    floor = qr.PlacedShape.in_world("floor", qr.HalfSpace((0, 0, 1), 0.0))
-    pairs = [
-        qr.ContactPair(one.name, floor, one, mu_v=0.5, mu_omega=0.0, rows=4, k=1)
-        for one in system.shapes
-    ]
-    simulator = qr.Simulator(system, pairs, h=0.02, backend="none")
-    here = simulator.step(system.q_start, np.zeros(0)).end
-    assert len(formed) == 40
-    simulator.step(here, np.zeros(0), np.tile([1.0, 0, 0, 0, 0, 0], 40))
-    assert len(formed) == 40
