@@ -36,7 +36,7 @@ STEPS = {
 
 @pytest.mark.filterwarnings("ignore:Solution may be inaccurate")
 @pytest.mark.parametrize("name", STEPS)
-def test_its_program_and_answer_are_those_of_the_package(name):
+def test_the_program_and_answer_of_the_example_are_those_of_the_package(name):
     step = STEPS[name]()
     form = qr.standard_form(step)
     H, g, A, b = PAGE["program"](*arrays(step))
@@ -51,7 +51,7 @@ def test_its_program_and_answer_are_those_of_the_package(name):
 
 
 @pytest.mark.parametrize("torque", [0.02, 0.04])
-def test_its_sphere_is_that_of_the_package(torque):
+def test_the_sphere_of_the_example_is_that_of_the_package(torque):
     wrench = (0, 0, -0.3 * GRAVITY, 0, 0, torque)
     inertia = 0.4 * 0.3 * 0.05**2
     step = sphere_step(0.3, inertia, 0.05, wrench, mu_v=1.0, mu_omega=0.01, phi=0.0, h=0.01)
@@ -59,7 +59,7 @@ def test_its_sphere_is_that_of_the_package(torque):
     assert np.abs(delta_q - qr.solve_step(step).delta_q).max() < 1e-9
 
 
-def test_its_jacobian_is_a_central_difference_of_a_point_that_turns():
+def test_the_jacobian_of_the_example_is_a_central_difference():
     r, n = np.array([0.1, -0.2, 0.3]), np.array([0.6, 0.0, 0.8])
     J = PAGE["jacobian"](r, n)
     for i in range(3):
@@ -70,7 +70,7 @@ def test_its_jacobian_is_a_central_difference_of_a_point_that_turns():
         assert J[3, 3 + i] == n[i]
 
 
-def test_it_needs_numpy_and_cvxpy_alone_and_prints_the_numbers_of_lecture_1(capsys):
+def test_the_example_needs_numpy_and_cvxpy_alone_and_prints_lecture_1(capsys):
     tree = ast.parse(FILE.read_text("utf-8"))
     imports = [node for node in ast.walk(tree) if isinstance(node, ast.Import | ast.ImportFrom)]
     assert {alias.name for node in imports for alias in node.names} == {"cvxpy", "numpy"}

@@ -155,7 +155,7 @@ def test_every_step_has_13_variables_and_80_rows_and_is_proved(runs, case):
     assert run.failed is None
 
 
-def test_13_is_a_bunny_and_a_gripper_with_a_floating_base_and_one_width(scenario):
+def test_the_variables_are_a_bunny_and_a_gripper_with_a_base_and_a_width(scenario):
     twist = ("x", "y", "z", "rx", "ry", "rz")
     expected = [f"gripper/base.{axis}" for axis in twist]
     expected += ["gripper/width", *(f"bunny/base.{axis}" for axis in twist)]

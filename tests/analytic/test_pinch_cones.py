@@ -38,7 +38,7 @@ def slip_at_contacts(step):
 
 @pytest.mark.parametrize("name", THRESHOLDS)
 @pytest.mark.parametrize("seed", range(3))
-def test_r21_r22_r23_r24_it_slips_below_the_threshold_and_not_at_all_above_it(name, seed):
+def test_r21_r22_r23_r24_a_pinch_slips_below_the_threshold_and_not_above(name, seed):
     rng = np.random.default_rng(seed)
     bar = {
         "m": 10 ** rng.uniform(-2, 1),

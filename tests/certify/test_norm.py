@@ -31,7 +31,7 @@ def test_digits_are_clipped(error, digits):
     assert_within(digits_of_error(error), digits)
 
 
-def test_where_nothing_happens_errors_are_measured_by_a_micrometre():
+def test_errors_of_idle_steps_are_measured_by_a_micrometre():
     step = point_between_walls([EAST], [1.0])
     zero = np.zeros(3)
     assert correct_digits(step, zero, zero) == 16.0

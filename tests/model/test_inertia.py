@@ -9,7 +9,7 @@ from tests.files.urdf.urdf_texts import inertial, joint, link, loaded_urdf, robo
 
 
 @pytest.mark.parametrize("moments", [(0.0, 0.0, 0.0), (1e-3, 1e-3, 0.0), (0.0, 0.0, 1e-3)])
-def test_of_a_rod_a_point_mass_or_a_puck_it_is_said_what_to_write(moments):
+def test_the_remedy_for_a_rod_a_point_mass_or_a_puck_is_an_inertia(moments):
     defect = inertia_defect(np.diag(moments))
     assert defect is not None
     assert "with a radius r write m r^2/2 about the axis of a rod or disk" in defect[1]

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from quasistatic_ref import (
     Body,
     ContactPair,
-    HalfSpace,
     InputError,
     PlacedShape,
     PointCloud,
@@ -170,19 +169,6 @@ def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
         back.step_data(0)
 
 
-def test_a_run_of_no_steps_is_a_trajectory(tmp_path, folder):
-    empty = load_scenario(folder / "scene.toml", ["steps=0"], fast=True).run()
-    back = load_trajectory(save_trajectory(tmp_path / "run.npz", empty))
-    assert (back.steps, back.failed, back["q"].shape) == (0, None, (1, 10))
-    assert worst_residual(back) is None
-    for run in (empty, back):
-        shapes = {name: array.shape for name, array in run.arrays.items()}
-        assert shapes == SHAPES_OF_NO_STEPS
-    assert {name: a.dtype.kind for name, a in empty.arrays.items()} == {
-        name: a.dtype.kind for name, a in back.arrays.items()
-    }
-
-
 SHAPES_OF_NO_STEPS = {
     name: (0, *shape[1:]) if shape[0] == 5 else shape for name, shape in SHAPES.items()
 } | {"q": (1, 10)}
@@ -190,25 +176,24 @@ SHAPES_OF_NO_STEPS = {
 
 @pytest.mark.parametrize("record", ["full", "light", "forces"])
 @pytest.mark.parametrize("law", ["convex", "coulomb"])
-def test_a_run_that_fails_in_its_first_step_has_arrays_of_no_steps(tmp_path, record, law):
-    body = Body.of_shape("ball", Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
-    system = System([body])
-    floor = PlacedShape.in_world("floor", HalfSpace((0, 0, 1), 0.5))  # 0.5 m deep: refused
-    pair = ContactPair("f", floor, system.shapes[0], mu_v=0.5, mu_omega=0.01)
-    simulator = Simulator(system, [pair], h=0.01, law=law)
-    with pytest.raises(RunFailed) as failure:
-        rollout(simulator, system.q_start, [], 3, progress=False, record=record)
-    run = failure.value.trajectory
-    assert (run.steps, run.delta_q.shape, run.phi.shape) == (0, (0, 6), (0, 1))
-    assert run.wrench_on("ball").shape == (0, 6)
-    if record != "light":
-        assert run.forces.shape == (0, 1, 4)
-        assert run.forces_on("ball").shape == (0, 6)
-        assert {name: force.shape for name, force in run.pair_forces().items()} == {"f": (0, 3)}
-    back = load_trajectory(save_trajectory(tmp_path / "run.npz", run))
-    assert back.keys() == run.keys()
-    assert all(back[name].shape == run[name].shape for name in run)
-    assert back["mu_v"].tolist() == [0.5]
+def test_a_run_of_no_steps_and_one_that_fails_at_once_are_trajectories(folder, record, law):
+    settings = [f"record={record}", f"law={law}"]
+    none = load_scenario(folder / "scene.toml", [*settings, "steps=0"], fast=True).run()
+    with pytest.raises(RunFailed) as failure:  # 0.5 m deep
+        load_scenario(folder / "scene.toml", [*settings, "shapes.floor.halfspace.offset=0.5"]).run()
+    for run in (none, failure.value.trajectory):
+        back = load_trajectory(save_trajectory(folder / "run.npz", run))
+        assert (back.steps, back.failed, worst_residual(back)) == (0, run.failed, None)
+        for name, array in back.arrays.items():
+            assert run[name].shape == array.shape == SHAPES_OF_NO_STEPS.get(name, array.shape)
+            assert run[name].dtype.kind == array.dtype.kind
+        assert record != "full" or run.keys() >= SHAPES.keys()
+        assert run.wrench_on("ball").shape == (0, 6)
+        if record != "light":
+            assert run.forces.shape == (0, 2, 4)
+            assert run.forces_on("ball").shape == (0, 6)
+            assert {force.shape for force in run.pair_forces().values()} == {(0, 3)}
+        assert back["mu_v"].tolist() == [0.5, 0.3]
 
 
 def spoilt(run, **changes):

@@ -26,7 +26,7 @@ def test_how_many_multipliers_a_contact_has(name, counts, rng):
 @pytest.mark.parametrize(
     "name", ["", "facets-", "facets-5", "facets-2", "facets-08", "facets-1026", "facets-٨"],
 )  # fmt: skip
-def test_another_name_is_refused(name, rng):
+def test_an_unknown_name_of_a_cone_is_refused(name, rng):
     with pytest.raises(StepDataError, match=r"cone: must be one of pyramid, "):
         random_step(rng).replace(cone=name)
 

@@ -116,13 +116,13 @@ UNLIKE = {
 
 
 @cases("one, two", ALIKE)
-def test_alike(one, two):
+def test_data_of_the_same_bits_are_equal(one, two):
     assert Some(one) == Some(two)
     assert hash(Some(one)) == hash(Some(two))
 
 
 @cases("one, two", UNLIKE)
-def test_unlike(one, two):
+def test_data_of_other_bits_are_not_equal(one, two):
     assert Some(one) != Some(two)
 
 

@@ -38,7 +38,7 @@ FOUND = Path(__file__).with_name("found_by_challenges.json")
 contradict each other, cones at their tips."""
 
 
-def test_a_cone_that_it_does_not_know_is_refused():
+def test_a_cone_that_the_plain_program_lacks_is_refused():
     with pytest.raises(ValueError, match="the cone pyramid-45 is none that this program knows"):
         cone_table("pyramid-45", 4)
 

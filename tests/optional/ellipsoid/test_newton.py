@@ -66,7 +66,7 @@ def test_contacts_stick_by_dependent_rows_while_another_slides():
     assert verify_answer(step, found.delta_q, (), found.lam, claims)
 
 
-def test_a_contact_without_friction_and_rows_of_zero_do_not_stop_it():
+def test_contacts_without_friction_and_rows_of_zero_do_not_stop_newton():
     step = planar_push()
     smooth = step.replace(contacts=changed(step.contacts, mu_v=[0.4, 0.0]))
     found, _ = enclosure_from_clarabel(smooth)

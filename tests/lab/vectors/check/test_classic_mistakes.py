@@ -214,7 +214,7 @@ def test_the_mistakes_are_those_of_the_page():
 
 
 @pytest.mark.parametrize(("name", "layer", "field", "change"), FIRST_OF_EACH)
-def test_a_committed_case_finds_it_and_passes_without_it(name, layer, field, change):
+def test_a_committed_case_finds_each_mistake_and_passes_without_it(name, layer, field, change):
     digits = None if name in TO_ALL_DIGITS else 6
     wrong = written_wrong(*change)
     found = next(
