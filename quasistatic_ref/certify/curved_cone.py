@@ -82,7 +82,7 @@ class CurvedCone(FrictionCone):
         claims: Certificate | None,
         net: Array | None = None,
     ) -> Verdict:
-        """As :func:`~quasistatic_ref.certify.verification.verify_answer`, its wrench left out.
+        """Whether an answer in this cone holds, its wrench left out; as of ``verify_answer``.
 
         `net` is A'lam, shape (n_v,) [N s, N m s].
         """

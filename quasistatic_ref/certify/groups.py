@@ -146,7 +146,7 @@ def groups_of(
 
 
 def labels(couplings: Mask) -> tuple[Indices, Indices]:
-    """As :func:`connected_components`, from a mask of coordinates, shape (couplings, n)."""
+    """The group of each coordinate and of each coupling, from a mask, shape (couplings, n)."""
     coupling, coordinate = np.nonzero(couplings)
     return connected_components(coupling, coordinate, couplings.shape)
 

@@ -123,7 +123,9 @@ def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
         If the optimum of a group is absurdly long.
     """
     if not cone(step.cone).polyhedral:
-        raise InputError("has no rational optimum", field="cone", value=step.cone)
+        raise InputError(
+            "has no rational optimum; use a polyhedral cone", field="cone", value=step.cone
+        )
     parts = group_steps(step)
     starts = [group.within(warm) for group, _ in parts]
     optimum = optimum_by_groups(step, parts, starts)

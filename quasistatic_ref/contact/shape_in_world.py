@@ -97,7 +97,7 @@ def poses_in_world(
 def on_plane(
     normal: Array, offset: float | Array, plane: Pose, t: Array
 ) -> tuple[Array, Array, Array]:
-    """Feet of places on planes, and where the planes' frames and the places are, seen from there.
+    """Feet of points on planes, and the planes' origins and the points, seen from the feet.
 
     A plane's frame may stand anywhere along it; all are of shape (..., 3), in the world's axes [m].
 

@@ -171,7 +171,7 @@ def array_of(file: IO[bytes], size: int, name: str) -> NDArray[Any]:
         If it is no such array; :func:`readable` says so of the file.
     """
     if np.lib.format.read_magic(file) != (1, 0):
-        raise NoSuchArray(f"{name} is an array file of another version")
+        raise NoSuchArray(f"{name} is an array file of another version; write it by numpy.save")
     shape, _, kind = np.lib.format.read_array_header_1_0(file)
     if kind.hasobject:
         raise NoSuchArray(f"{name} is a pickle, which is never opened; save a dense array")
@@ -179,7 +179,7 @@ def array_of(file: IO[bytes], size: int, name: str) -> NDArray[Any]:
         shape, start=kind.itemsize
     )  # of Python's own numbers: it does not overflow
     if min(shape, default=0) < 0 or byte_count != size - file.tell():
-        raise NoSuchArray(f"{name} does not have the size that it says")
+        raise NoSuchArray(f"{name} does not have the size that it says; copy it again")
     file.seek(0)
     array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
     return array

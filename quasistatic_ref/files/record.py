@@ -139,4 +139,4 @@ def _check_array(name: str, array: NDArray[Any], lengths: dict[str, int]) -> Non
 
 def _check_present(arrays: Mapping[str, NDArray[Any]], name: str) -> None:
     if name not in arrays:
-        raise InputError(f"has no array named {name!r}")
+        raise InputError(f"has no array named {name!r}; write it again")

@@ -86,11 +86,11 @@ class OnHalfSpaces(RoundedPoints):
         self._offset = np.array([plane.offset for plane in planes])
 
     def places(self, alpha: Pose, beta: Pose) -> Array:
-        """Largest coordinates of both places, or offsets, at poses of both, shape (P,) [m]."""
+        """Largest coordinate of either body's origin, or offset of its plane, shape (P,) [m]."""
         return np.asarray(np.maximum(super().places(alpha, beta), np.abs(self._offset)))
 
     def from_near(self, alpha: Pose, beta: Pose) -> tuple[Array, Array, Array]:
-        """The foot of each pair on its plane, and both places seen from there, (P, 3) [m]."""
+        """The foot of each body on its plane, and both origins seen from there, (P, 3) [m]."""
         plane, other = (alpha, beta)[:: self._turn]
         foot, *seen = on_plane(self._normal[:, 0], self._offset, plane, other.t)
         of_alpha, of_beta = seen[:: self._turn]

@@ -69,9 +69,9 @@ class Batch(ABC):
         """
 
     def places(self, alpha: Pose, beta: Pose) -> Array:
-        """Largest coordinates of both places of the pairs at poses of both, shape (P,) [m]."""
+        """Largest coordinate of either body's origin, for each of P pairs, shape (P,) [m]."""
         return np.asarray(np.maximum(np.abs(alpha.t), np.abs(beta.t)).max(axis=1))
 
     def from_near(self, alpha: Pose, beta: Pose) -> tuple[Array, Array, Array]:
-        """A point of each pair at poses of both, and both places seen from there, (P, 3) [m]."""
+        """A point near each pair, and both bodies' origins seen from there, shape (P, 3) [m]."""
         return beta.t, alpha.t - beta.t, np.zeros_like(beta.t)

@@ -151,7 +151,7 @@ def body_entry(
 
 
 def stiffnesses(system: System, entry: BodyEntry) -> Iterator[tuple[str, Indices, Any]]:
-    """The parts of K_q that a body's table says: their fields, coordinates and numbers.
+    """The blocks of K_q that a body's table states: field, coordinates and numbers of each.
 
     They are those of its joints, or one of the whole body.
 

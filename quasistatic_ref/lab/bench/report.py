@@ -25,7 +25,7 @@ MuJoCo's is `mj_step` of the same boxes, and of a box of the bunny's mass betwee
 
 
 def measured(quick: bool, tell: Callable[[str], None]) -> dict[str, Any]:
-    """The figures of every scene; `quick` measures a few steps of two, to see that it runs.
+    """Times of every scene; `quick` measures a few steps of two, to see that it runs.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def _of_scene(name: str, tell: Callable[[str], None], what: str) -> None:
 
 
 def rows(scenes: Mapping[str, Mapping[str, float]]) -> list[tuple[str, ...]]:
-    """The figures of `scenes` [us] side by side, a scene a row, the first row their names.
+    """Times of `scenes` [us] side by side, a scene a row, the first row their names.
 
     Below them stands how each grows with the number of boxes [-].
     """

@@ -60,7 +60,7 @@ class Steps:
 def figures(
     scene: Scene, steps: int, repeat: int, tell: Callable[[str], None] = lambda _: None
 ) -> dict[str, float]:
-    """The figures of a scene [us], by name; MuJoCo's where that is installed.
+    """Times of a scene's steps and runs [us], by name; MuJoCo's where that is installed.
 
     Parameters
     ----------

@@ -136,7 +136,7 @@ def fields_after_head(path: Path, wanted: str, layer: str) -> TableReader:
 def _check_ids(ids: Sequence[str]) -> None:
     twice = next((name for name in ids if ids.count(name) > 1), None)
     if twice is not None:
-        raise InputError("is the id of two cases", field="id", value=twice)
+        raise InputError("is the id of two cases; rename one", field="id", value=twice)
 
 
 def _whole(value: Json, shapes: Json) -> Json:

@@ -42,7 +42,7 @@ DRAG = "dampers: their forces at the present velocity are loads"
 def mujoco_opinion(
     model: MjModel, data: MjData, tolerance: float = CREEP, start: MjData | None = None
 ) -> Opinion:
-    """What MuJoCo says of the contacts of a state, and what rigid bodies with that friction do.
+    """MuJoCo's forces and motions at the contacts of a state, next to those of an exact step.
 
     Parameters
     ----------

@@ -95,7 +95,7 @@ TABLES = Tables({
 
 @dataclass(frozen=True, eq=False)
 class Opinion(Plain):
-    """What MuJoCo and the exact model say of the same contacts.
+    """MuJoCo's and the exact model's answers for the same contacts, and what is found.
 
     Parameters
     ----------

@@ -72,7 +72,7 @@ class StateContact(NamedTuple):
 
 
 def numbers(state: MujocoState) -> list[int]:
-    """Numbers of MuJoCo's contacts between bodies of which at least one can move."""
+    """Which of MuJoCo's contacts, by number, are between bodies of which one can move."""
     if state.disables("CONSTRAINT"):
         return []
     return [i for i, touch in enumerate(state.data.contact) if touch.exclude in USED_OR_IN_GAP]
@@ -194,7 +194,7 @@ def forces(
 
 
 def step_contacts(every: Sequence[StateContact], T: Array, as_is: bool) -> Contacts:
-    """Contacts of a step, of whose coordinates T, (nv, n_v), makes MuJoCo's velocities [-]."""
+    """Contacts in a step's coordinates, from which T, (nv, n_v), makes MuJoCo's velocities [-]."""
     frames = np.reshape([contact.frame for contact in every], (-1, 3, 3))
     return Contacts(
         name=[contact.name for contact in every],

@@ -145,7 +145,7 @@ def guesses(scaled: Scaled) -> Iterator[tuple[list[int], Array]]:
 def guessed(
     program: QuadraticProgram, block: Block, scaled: Scaled, initvals: Any
 ) -> Iterator[tuple[list[int], Array]]:
-    """As :func:`guesses`, from what a user gave.
+    """Rows that seem to bear, and multipliers (m,), from a start that a user gave.
 
     Each is the numbers of rows, and multipliers of shape (m,).
 

@@ -130,7 +130,7 @@ def optimum(block: Block, convex: Convex, of_guesses: Guesses) -> BlockOptimum:
 
 
 def proved(block: Block, convex: Convex, rows: Sequence[int]) -> BlockOptimum | None:
-    """The optimum, if equations and some of `rows` hold it; None if they do not."""
+    """The optimum, if no other rows bear at it than equations and some of `rows`; else None."""
     return decided(block, convex, lambda balls: _proved(block, convex, rows, balls=balls))
 
 

@@ -34,7 +34,9 @@ def challenge_status(options: argparse.Namespace) -> int:
     if options.again is not None:
         record = json_read(options.again)
         if not isinstance(record, dict) or record.get("format") != FORMAT:
-            raise InputError("is not a counterexample", file=options.again)
+            raise InputError(
+                "is not a counterexample; name one that a challenge wrote", file=options.again
+            )
         outcome = asked_again(program, record, options.digits)
     else:
         outcome = challenge(

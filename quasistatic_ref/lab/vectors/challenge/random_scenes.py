@@ -64,7 +64,7 @@ WITH_CORNERS = ("sphere", "box", "halfspace")
 
 
 def random_scene(rng: Rng, level: int) -> Json:
-    """The input of a case."""
+    """A random scene as the input of a case; a higher level has more in it."""
     kind = int(rng.integers(4))
     if level != EASY and kind == 0:
         return (_cloud if rng.integers(5) < 2 else _bricks)(rng)

@@ -61,13 +61,13 @@ def check_answers(
         raise InputError(f"must be from 0 to {DIGITS:g}", field="digits", value=digits)
     folder = Path(answers)
     if not folder.is_dir():
-        raise InputError("is not a folder of answers", file=folder)
+        raise InputError("is not a folder of answers; name one with LAYER.json", file=folder)
     if only and layers is None:
         layers = list(dict.fromkeys(one.partition("/")[0] for one in only))
     named = LAYERS if layers is None else [check_layer(name) for name in layers]
     known = [name for name in named if (Path(vectors) / "expected" / f"{name}.json").exists()]
     if not known:
-        raise InputError("holds no expected/LAYER.json", file=vectors)
+        raise InputError("holds no expected/LAYER.json; name a folder of vectors", file=vectors)
     of_layers = {name: answers_read(folder, name) for name in known}
     if not any(answer.present for answer in of_layers.values()):
         names = ", ".join(f"{name}.json" for name in known)
@@ -89,7 +89,11 @@ def _cases_named(cases: Sequence[Case], only: Sequence[str], layer: str) -> Sequ
         matching = [case for case in cases if case.id.startswith(one)]
         matching = [case for case in matching if case.id == one] or matching
         if not matching and one.partition("/")[0] == layer:
-            raise InputError("is no beginning of the id of a case", field="only", value=one)
+            raise InputError(
+                "is no beginning of the id of a case; see inputs/LAYER.json",
+                field="only",
+                value=one,
+            )
         chosen += [case for case in matching if case not in chosen]
     return chosen if only else cases
 

@@ -36,7 +36,7 @@ def own_shape(shape: dict[str, Any]) -> Shape:
         case "cloud":
             return PointCloud(np.array(shape["points"]))
         case _:
-            raise InputError("is not a kind of shape", field="shape.kind", value=shape["kind"])
+            raise InputError("must be a kind of shape", field="shape.kind", value=shape["kind"])
 
 
 def own_shape_in_world(case: dict[str, Any], side: str) -> ShapeInWorld:

@@ -89,7 +89,7 @@ def posed_case(case_input: Json) -> PosedCase:
 
 
 def own_step(case_input: Json) -> Json:
-    """The answer of the layer `step`."""
+    """The package's own answer to a case of the layer `step`."""
     mine, simulator, q, _, _, points, step = posed_case(case_input)
     at = step.contacts
     output = _program(step, mine)
