@@ -523,7 +523,7 @@ def inverse(H: arb_mat, bits: int = PRECISION) -> arb_mat:
 
 
 def blocks_of(H: arb_mat) -> list[tuple[list[int], arb_mat]]:
-    """Coordinates and numbers of each block of a matrix, (n, n): none of one that is small."""
+    """Coordinates and entries of each diagonal block of a matrix, (n, n); none if it is small."""
     return _blocks(H) if H.nrows() > MANY else []
 
 
