@@ -24,7 +24,7 @@ class ContactGeometry:
     ----------
     layout : ContactLayout
         Which links the points belong to; 0 is the world.
-    column_map : ColumnMap
+    column_map : JacobianColumns
         How the links move.
 
     Attributes

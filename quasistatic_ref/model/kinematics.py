@@ -24,7 +24,7 @@ class Kinematics:
         velocity of the body that the joint moves, per unit of the joint's coordinate. Rows 0-2:
         velocity of the point fixed to the body that is now at the world's origin [m]; rows 3-5:
         angular velocity [rad].
-    column_map : ColumnMap
+    column_map : JacobianColumns
         Which columns move a link.
     """
 

@@ -32,7 +32,7 @@ class MassMatrix:
 
     Parameters
     ----------
-    column_map : ColumnMap
+    column_map : JacobianColumns
     n_a : int
     masses : ndarray, shape (L,)
         [kg]

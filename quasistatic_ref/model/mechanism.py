@@ -128,7 +128,6 @@ class Mechanism(ABC):
         counts = f"n_a = {self.n_a}, n_u = {self.n_u}, {links}"
         return f"<{type(self).__name__} of {clipped(names) or 'no bodies'}: {counts}>"
 
-    @abstractmethod
     def at(self, q: ArrayLike | State) -> State:
         """The system at a configuration, which is checked here and not again.
 
@@ -142,6 +141,17 @@ class Mechanism(ABC):
         ModelError
             If q has another shape, or a quaternion in it is not of length one.
         """
+        if isinstance(q, State):
+            if q.system is self:
+                return q
+            q = q.q
+        q = with_shape(q, "q", (self.n_q,), ModelError)
+        self.units.check(q)
+        return self._state_at(q)
+
+    @abstractmethod
+    def _state_at(self, q: Array) -> State:
+        """The state at a q, (n_q,) [m, rad, -], that has been checked."""
 
     def kinematics(self, q: ArrayLike) -> Kinematics:
         """Pose and Jacobian of every link at q, (n_q,)."""
@@ -302,8 +312,8 @@ class Mechanism(ABC):
         self,
         kinematics: Kinematics,
         name: str,
-        force: ArrayLike = (0.0, 0.0, 0.0),
-        torque: ArrayLike = (0.0, 0.0, 0.0),
+        force: ArrayLike,
+        torque: ArrayLike,
         at: ArrayLike | None = None,
     ) -> Array:
         """Generalised force of a load, shape (n_v,) [N, N m], where all links are placed already.

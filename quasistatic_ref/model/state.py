@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.text.quoting import shown_value
 
 
@@ -17,10 +18,11 @@ class State(ABC):
 
     Each is formed once, when it is asked for.
 
-    Attributes
+    Parameters
     ----------
+    system : Mechanism
     q : ndarray, shape (n_q,)
-        The configuration [m, rad, -]; a copy, read-only.
+        The configuration, checked [m, rad, -]; a copy, read-only.
 
     Examples
     --------
@@ -31,7 +33,9 @@ class State(ABC):
     np.float64(0.001)
     """
 
-    q: Array
+    def __init__(self, system: Any, q: Array) -> None:
+        self.system = system
+        self.q = read_only(q.copy())
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} at q = {shown_value(self.q.tolist())}>"

@@ -197,20 +197,8 @@ class System(Mechanism):
             entries += joint.neutral()
         return np.array(entries)
 
-    def at(self, q: ArrayLike | State) -> SystemState:
-        """The system at a configuration, shape (n_q,), or at a state of its own.
-
-        Raises
-        ------
-        ModelError
-            If q has another shape, or a quaternion in it is not of length one.
-        """
-        if isinstance(q, SystemState) and q.system is self:
-            return q
-        if isinstance(q, State):
-            q = q.q
-        q = with_shape(q, "q", (self.n_q,), ModelError)
-        self.units.check(q)
+    def _state_at(self, q: Array) -> SystemState:
+        """The state at a q, (n_q,) [m, rad, -], that has been checked."""
         return SystemState(self, q)
 
     def difference(self, q: ArrayLike, q_next: ArrayLike) -> Array:
@@ -227,18 +215,9 @@ class System(Mechanism):
 
 
 class SystemState(State):
-    """A System at one configuration.
+    """A System at one configuration."""
 
-    Parameters
-    ----------
-    system : System
-    q : ndarray, shape (n_q,)
-        Checked.
-    """
-
-    def __init__(self, system: System, q: Array) -> None:
-        self.system = system
-        self.q = read_only(q.copy())
+    system: System
 
     @cached_property
     def _q_parts(self) -> list[Array]:

@@ -104,5 +104,5 @@ def test_only_what_would_keep_its_bits_is_surely_a_configuration(q, entries, val
 
 def test_a_part_of_length_zero_has_no_direction(q):
     q[UNITS["turn"]] = 0
-    with pytest.raises(ModelError, match=r"q\[arm/spin\]: its \(cos, sin\) has length 0"):
+    with pytest.raises(ModelError, match=r"q\[arm/spin\]: its \(cos, sin\) must not have length 0"):
         unit_configuration(JOINTS, len(q), q)

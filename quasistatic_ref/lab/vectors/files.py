@@ -74,8 +74,7 @@ def inputs_read(folder: str | Path, layer: str) -> list[Case]:
         top = fields_after_head(path, INPUTS, layer)
         shapes = top.take("shapes", {})
         cases = []
-        for i, entry in enumerate(top.sequence("cases")):
-            one = TableReader(entry, f"cases[{i}]")
+        for one in top.tables("cases"):
             case_input = _whole(one.take("input"), shapes)
             cases.append(Case(one.text("id"), one.text("provenance"), case_input))
             one.close()
@@ -96,13 +95,13 @@ def expected_read(folder: str | Path, layer: str) -> dict[str, dict[str, Json]]:
     path = Path(folder) / "expected" / f"{layer}.json"
     try:
         top = fields_after_head(path, EXPECTED, layer)
-        records = top.sequence("cases")
+        readers = [*top.tables("cases")]
         top.close()
-        ids = [TableReader(record, f"cases[{i}]").text("id") for i, record in enumerate(records)]
+        ids = [one.text("id") for one in readers]
         _check_ids(ids)
     except InputError as error:
         raise error.in_file(path) from None
-    return dict(zip(ids, records, strict=True))
+    return {name: one.fields for name, one in zip(ids, readers, strict=True)}
 
 
 def answers_written(

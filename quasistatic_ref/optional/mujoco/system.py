@@ -24,7 +24,7 @@ from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.state import State
-from quasistatic_ref.numbers.arrays import Array, Indices, read_only, with_shape
+from quasistatic_ref.numbers.arrays import Array, Indices, with_shape
 from quasistatic_ref.numbers.ordered import rotated
 from quasistatic_ref.optional.extensions.extension import Extension
 from quasistatic_ref.optional.mujoco import constraints
@@ -309,20 +309,8 @@ class MujocoSystem(Mechanism):
             self._at = bits
         return self._state
 
-    def at(self, q: ArrayLike | State) -> SceneState:
-        """The system at a configuration, shape (n_q,), or at a state of its own.
-
-        Raises
-        ------
-        ModelError
-            If q has another shape, or a quaternion in it is not of length one.
-        """
-        if isinstance(q, State):
-            if isinstance(q, SceneState) and q.system is self:
-                return q
-            q = q.q
-        q = with_shape(q, "q", (self.n_q,), ModelError)
-        self.units.check(q)
+    def _state_at(self, q: Array) -> SceneState:
+        """The state at a q, (n_q,) [m, rad, -], that has been checked."""
         return SceneState(self, q)
 
     def freed(self, points: ClosestPoints, columns: Array) -> ClosestPoints:
@@ -378,18 +366,9 @@ class MujocoSystem(Mechanism):
 
 
 class SceneState(State):
-    """A MuJoCo scene at one configuration.
+    """A MuJoCo scene at one configuration."""
 
-    Parameters
-    ----------
-    system : MujocoSystem
-    q : ndarray, shape (n_q,)
-        Checked.
-    """
-
-    def __init__(self, system: MujocoSystem, q: Array) -> None:
-        self.system = system
-        self.q = read_only(q.copy())
+    system: MujocoSystem
 
     @cached_property
     def kinematics(self) -> Placed:

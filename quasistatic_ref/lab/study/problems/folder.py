@@ -86,8 +86,7 @@ def manifest(folder: Path) -> dict[str, Any]:
         top = TableReader(head := json_read(path))
         top.check_format(FORMAT, VERSION)
         top.table("families")
-        for i, entry in enumerate(top.sequence("files")):
-            one = TableReader(entry, f"files[{i}]")
+        for one in top.tables("files"):
             name = one.text("path")
             wanted = one.text("sha256")
             if name not in (FACTS, *(f"{NUMBERS}/{family}.npz" for family in head["families"])):
