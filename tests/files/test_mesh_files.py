@@ -13,7 +13,7 @@ from quasistatic_ref import Body, InputError, ModelError, System, load_scenario
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.files.mesh_files import loaded_mesh, mesh_hull, mesh_path
 from quasistatic_ref.files.urdf import shapes as urdf_shapes
-from quasistatic_ref.optional.mesh_formats import files, placed_meshes
+from quasistatic_ref.optional.mesh_formats import placed_meshes
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from tests.cases import cases
 from tests.closeness import assert_within
@@ -304,9 +304,8 @@ LIES = {
                          "must be a file in the folder of this one"),
     "a short buffer": ("a.gltf", gltf_at("data:,"),
                        r"buffers\[0\]: must be 72, as the file states \(got 0\)"),
-    "a long buffer": ("a.gltf", plain_gltf(
-        buffers=[{"uri": "data:;base64," + 3000 * "AAAA", "byteLength": 9000}]),
-                      "unpacks to more than"),
+    "long buffers": ("a.gltf", plain_gltf(buffers=5 * [{"uri": "zeros", "byteLength": 2**24}]),
+                     "unpacks to more than 64 MiB"),
     "a view beyond its buffer": ("a.gltf", plain_gltf(
         bufferViews=[{"buffer": 0, "byteLength": 99}]), r"Views\[0\]: is not within its buffer"),
     "an array beyond its view": ("a.gltf", plain_gltf().replace(b'"count": 4', b'"count": 5'),
@@ -360,13 +359,14 @@ LIES = {
 def test_the_statements_of_a_mesh_file_are_compared_with_its_content(
     tmp_path, monkeypatch, name, content, words
 ):
-    """With bounds of a few kilobytes; next to it lie a pipe and a glTF of another shape."""
+    """Few parts may be placed; next to it lie a pipe, 16 MiB and a glTF of another shape."""
     os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "zeros").touch()
+    os.truncate(tmp_path / "zeros", 2**24)
     for other, part in trimesh.creation.box().export(file_type="gltf").items():
         (tmp_path / other).write_bytes(part)
     monkeypatch.setattr(placed_meshes, "MOST_PLACED", 150)
     monkeypatch.setattr(placed_meshes, "PART", 0)
-    monkeypatch.setattr(files, "LARGEST_UNPACKED", 8000)
     (tmp_path / name).write_bytes(bytes_of(content))
     with pytest.raises(ModelError, match=f"^{re.escape(str(tmp_path))}/.*{words}"):
         loaded_mesh(tmp_path / name)

@@ -57,6 +57,11 @@ for number, case in enumerate(cases):
     sys.stdout.flush()
     say(case["id"], output=right(case))
 """,
+    "prints a line without end": """
+sys.stdout.write("x" * (2**26 + 9))
+sys.stdout.flush()
+import time; time.sleep(60)
+""",
     "closes its output": """
 import os, time
 for number, case in enumerate(cases):
