@@ -29,6 +29,7 @@ def turned_more(forces):
 
 
 ROWS, FLAT, GRASP = "rows/random/3", "qp/ellipsoid/flat", "qp/grasp/0"
+NO_CONTACTS = [5, "all of them", [5], {"phi": 0.0}]
 BAD = {
     # name: (case, its output from the right one, words of the reason)
     "without a field": (ROWS, lambda output: {"A": output["A"]}, "b is missing"),
@@ -54,6 +55,12 @@ BAD = {
         "step/stack/0", changed("forces", turned_more),
         "forces[5][3], tau_n of contact 5, is off by 0.001 ",
     ),
+    "contacts in another order than that of index": (
+        "step/cloud/tilted", changed("contacts", lambda c: sorted(c, key=lambda one: one["phi"])),
+        "do not stand in the order of index",
+    ),
+    **{f"contacts = {no}": ("step/stack/0", changed("contacts", lambda _, no=no: no), "contacts")
+       for no in NO_CONTACTS},
 }  # fmt: skip
 
 
@@ -62,8 +69,10 @@ def test_a_bad_output_fails_in_one_sentence(case, spoilt, says):
     layer = case.partition("/")[0]
     output = expected_of(layer)[case]["output"]
     assert report_on(layer, {case: output}).ok
-    verdict = report_on(layer, {case: spoilt(output)}).first
+    report = report_on(layer, {case: spoilt(output)})
+    verdict = report.first
     assert verdict is not None
+    assert report.partial == ""
     assert says in verdict.reason
     assert len(verdict.reason) < 400
 

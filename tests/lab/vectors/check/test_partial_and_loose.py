@@ -52,13 +52,6 @@ def test_a_step_is_judged_for_what_it_contains(names, wrong):
     assert report_on("step", {one: output}).first.field == wrong
 
 
-@pytest.mark.parametrize("contacts", [5, "all of them", [5], {"phi": 0.0}], ids=str)
-def test_contacts_that_are_none_are_wrong_and_not_left_out(contacts):
-    output = right_answers("step")["step/stack/0"] | {"contacts": contacts}
-    report = report_on("step", {"step/stack/0": output})
-    assert (report.first.field, report.partial) == ("contacts", "")
-
-
 def test_fields_that_follow_from_others_may_be_left_out():
     for layer in ("qp", "step"):
         answers = {
@@ -67,14 +60,6 @@ def test_fields_that_follow_from_others_may_be_left_out():
         }
         report = report_on(layer, answers)
         assert (report.count("passed"), report.partial) == (len(answers), "")
-
-
-def test_contacts_in_another_order_than_that_of_index_fail():
-    name = "step/cloud/tilted"
-    answer = right_answers("step")[name]
-    by_phi = sorted(answer["contacts"], key=lambda contact: contact["phi"])
-    assert by_phi != answer["contacts"]
-    assert report_on("step", {name: {**answer, "contacts": by_phi}}).first.id == name
 
 
 def test_fields_that_a_layer_does_not_ask_for_are_named_and_not_looked_at():
