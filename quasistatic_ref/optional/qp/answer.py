@@ -151,7 +151,7 @@ class NoOptimum(QuasistaticError):
     """
 
     status: ClassVar[str]
-    refuted: ClassVar[Callable[..., str]]
+    _refuted: ClassVar[Callable[..., str]]
     """What is wrong with the claims, which follow the :class:`Proof`."""
     problem: QuadraticProgram
     claims: Mapping[str, Any]
@@ -162,7 +162,7 @@ class NoOptimum(QuasistaticError):
 
     def verdict(self) -> Verdict:
         """Whether the proof holds, checked without a solver."""
-        reason = type(self).refuted(Proof(replace(self.problem)), *self.claims.values())
+        reason = type(self)._refuted(Proof(replace(self.problem)), *self.claims.values())
         return Verdict(not reason, reason)
 
 
@@ -193,7 +193,7 @@ class QPInfeasible(NoOptimum):
     """
 
     status = "infeasible"
-    refuted = Proof.infeasible
+    _refuted = Proof.infeasible
 
     def __init__(self, problem: QuadraticProgram, exact: Mapping[str, str]) -> None:
         self.problem = problem
@@ -266,7 +266,7 @@ class QPUnbounded(NoOptimum):
     """
 
     status = "unbounded"
-    refuted = Proof.unbounded
+    _refuted = Proof.unbounded
 
     def __init__(
         self, problem: QuadraticProgram, exact_x: Sequence[str], exact_direction: Sequence[str]
@@ -305,7 +305,7 @@ class QPNotConvex(NoOptimum):
     """
 
     status = "not convex"
-    refuted = Proof.not_convex
+    _refuted = Proof.not_convex
 
     def __init__(self, problem: QuadraticProgram, exact_direction: Sequence[str]) -> None:
         self.problem = problem
