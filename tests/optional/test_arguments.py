@@ -107,18 +107,3 @@ def test_an_argument_of_another_kind_is_refused_by_its_name(name, good, paramete
 def test_every_public_function_is_asked():
     functions = {name for name in qr.__all__ if inspect.isfunction(getattr(qr, name))}
     assert functions <= GOOD.keys() | ELSEWHERE
-
-
-@pytest.mark.parametrize("certify", ["full", "residual", "off"])
-@pytest.mark.parametrize("backend", ["daqp", "clarabel", "none"])
-def test_a_body_in_no_pair_whose_place_is_nan_is_refused(backend, certify):
-    if (backend, certify) in (("none", "residual"), ("none", "off")):
-        return
-    away = qr.Body.of_shape("away", qr.Sphere(0.01), 0.1, xyz=(1, 0, 0))
-    system = qr.System([BLOCK, away])
-    pair = qr.ContactPair("f", FLOOR, system.shapes[0], 0.3, 0.0, 4, 4)
-    simulator = qr.Simulator(system, [pair], h=0.01, K_q=[], backend=backend, certify=certify)
-    q = system.q_start
-    simulator.step(q, [])
-    with pytest.raises(qr.InputError, match="must be finite"):
-        simulator.step(np.where(np.arange(len(q)) == 9, np.nan, q), [])

@@ -33,15 +33,17 @@ def test_a_result_ends_at_a_state_from_which_the_next_step_starts(fast):
     assert again[0] == again[1]
 
 
+@pytest.mark.parametrize("certify", ["full", "residual", "off"])
 @pytest.mark.parametrize("backend", ["daqp", "clarabel", "none"])
-def test_a_place_that_is_no_number_is_refused_of_a_body_without_contacts_too(backend):
+def test_a_place_that_is_no_number_is_refused_of_a_body_without_contacts_too(backend, certify):
     ball = qr.Body.of_shape("ball", qr.Sphere(0.1), 1.0, xyz=(0, 0, 0.1))
     stone = qr.Body.of_shape("stone", qr.Sphere(0.1), 1.0)
     system = qr.System([ball, stone])
     cloud = on_link(system, "ball", qr.PointCloud([[0, 0, -0.1]]))
     floor = qr.PlacedShape.in_world("floor", qr.HalfSpace((0, 0, 1), 0.0))
-    pair = qr.ContactPair("p", floor, cloud, mu_v=0.5, mu_omega=0.0, rows=4)
-    simulator = qr.Simulator(system, [pair], h=0.01, backend=backend)
+    pairs = [qr.ContactPair(f.name, floor, f, 0.5, 0.0) for f in (cloud, system.shapes[0])]
+    certify = "full" if backend == "none" else certify
+    simulator = qr.Simulator(system, pairs, h=0.01, backend=backend, certify=certify)
     q = system.q_start.copy()
     simulator.step(q, [])
     q[7] = np.nan
