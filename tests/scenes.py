@@ -1,6 +1,6 @@
 """Scenes that several tests share: bodies that move in every way, and small scenario files."""
 
-from quasistatic_ref import Body, System
+from quasistatic_ref import Body, System, load_scenario
 from tests.files.urdf.urdf_texts import (
     BOX,
     CHAIN,
@@ -137,3 +137,18 @@ def written_scenario(folder, text=PUSH, name="scene.toml"):
     path = folder / name
     path.write_text(text)
     return path
+
+
+FLOOR = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}
+
+
+def scene(bodies, contacts, steps, h=0.01, shapes=None, fast=False, **more):
+    """A scenario with a floor; of each contact (alpha, beta, mu_v, k), and mu_omega if any."""
+    tables = {}
+    for name, (alpha, beta, mu_v, k, *mu_omega) in contacts.items():
+        tables[name] = {"alpha": alpha, "beta": beta, "mu_v": mu_v, "k": k, "rows": 4}
+        if any(mu_omega):
+            tables[name] |= {"mu_omega": mu_omega[0], "rows": 6}
+    shapes = {"floor": FLOOR} | (shapes or {})
+    scene = {"h": h, "steps": steps, "bodies": bodies, "shapes": shapes, "contacts": tables}
+    return load_scenario(scene | more, fast=fast)

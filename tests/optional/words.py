@@ -1,24 +1,11 @@
-"""Words that scenes are built with: bodies as tables of a scenario, and the scenario."""
+"""Words that scenes are built with: bodies as tables of a scenario."""
 
-from quasistatic_ref import Body, Box, load_scenario
+from quasistatic_ref import Body, Box
 from tests.files.urdf import urdf_texts
 from tests.files.urdf.urdf_texts import collision, link, robot
 
 AXES = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1", "s": "1 0 0"}
-FLOOR = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}
 TIP = '<sphere radius="0.01"/>'
-
-
-def scene(bodies, contacts, steps, h=0.01, shapes=None, fast=False, **more):
-    """A scenario with a floor; of each contact (alpha, beta, mu_v, k), and mu_omega if any."""
-    tables = {}
-    for name, (alpha, beta, mu_v, k, *mu_omega) in contacts.items():
-        tables[name] = {"alpha": alpha, "beta": beta, "mu_v": mu_v, "k": k, "rows": 4}
-        if any(mu_omega):
-            tables[name] |= {"mu_omega": mu_omega[0], "rows": 6}
-    shapes = {"floor": FLOOR} | (shapes or {})
-    scene = {"h": h, "steps": steps, "bodies": bodies, "shapes": shapes, "contacts": tables}
-    return load_scenario(scene | more, fast=fast)
 
 
 def solid(mass, shape):

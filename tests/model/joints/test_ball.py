@@ -11,12 +11,12 @@ from quasistatic_ref import (
     ModelError,
     ScenarioError,
     System,
-    load_scenario,
     verify_answer,
 )
 from quasistatic_ref.optional.doctor.measures import measures
 from tests.closeness import assert_within
 from tests.files.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
+from tests.scenes import scene
 from tests.tolerances import ROUNDING
 
 CENTRE = np.array([0.0, 0.05, -0.3])
@@ -58,31 +58,18 @@ def test_a_link_on_a_ball_turns_about_its_point_with_its_inertia_there(base):
     assert entries == ["qx [-]", "qy [-]", "qz [-]", "qw [-]"]
 
 
-def scene(base, **more):
+def leaning(base, **more):
     """The pendulum leans on the floor; actuated, it presses."""
     body = {"urdf": robot(BOB), "base": "ball"} if base else {"urdf": HANGING}
     body |= {"pose": {"xyz": [0, 0, 0.2475], "rpy": [0.9, 0, 0]}}
-    contact = {
-        "alpha": "floor",
-        "beta": "arm/bob",
-        "mu_v": 0.4,
-        "mu_omega": 0.01,
-        "rows": 6,
-        "k": 1,
-    }
-    return load_scenario(
-        {
-            "h": 0.01, "steps": 12, "bodies": {"arm": body | more}, "contacts": {"floor": contact},
-            "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
-            "record": "full",
-        }
-    )  # fmt: skip
+    touch = {"floor": ("floor", "arm/bob", 0.4, 1, 0.01)}
+    return scene({"arm": body | more}, touch, 12, record="full")
 
 
 @pytest.mark.parametrize("base", [True, False])
 def test_runs_are_exact_and_have_the_same_bits_at_both_speeds(base):
-    plain = scene(base).run()
-    fast = replace(scene(base), fast=True)
+    plain = leaning(base).run()
+    fast = replace(leaning(base), fast=True)
     simulator = fast.simulator()
     run = fast.run()
     assert (plain["certificate"] == "exact").all()
@@ -104,7 +91,7 @@ def test_a_target_turns_it_the_shorter_way(base, name):
     roll = 0.9 if base else 0.0
     goal = [roll, 0.3, 0.1]
     targets = [{"t": 0.0, name: {"rpy": [roll, 0, 0]}}, {"t": 0.1, name: {"rpy": goal}}]
-    held = scene(base, actuated=[name], K_q={name: [40, 50, 60]}, targets=targets)
+    held = leaning(base, actuated=[name], K_q={name: [40, 50, 60]}, targets=targets)
     q_bar = held.targets(1.0)
     expected = Rotation.from_euler("xyz", goal).as_quat()
     assert_within(q_bar, expected, 4 * ROUNDING)
@@ -118,7 +105,7 @@ def test_positions_and_targets_that_a_ball_lacks_are_refused():
         System([Body("arm", HANGING, positions={"ball": 0.1})])
     away = [{"t": 0.0, "base": {"xyz": [0, 0, 1], "rpy": [0, 0, 0]}}]
     with pytest.raises(ScenarioError, match="moves or turns by x, y, z"):
-        scene(True, actuated=["base"], K_q={"base": 40}, targets=away)
+        leaning(True, actuated=["base"], K_q={"base": 40}, targets=away)
     with pytest.raises(ModelError, match=r"arm\.xyz: is unknown"):
         pendulum(True).placed({"arm": {"xyz": [0, 0, 1]}})
 

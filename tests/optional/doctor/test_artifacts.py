@@ -5,7 +5,8 @@ import pytest
 
 from quasistatic_ref import Sphere, load_trajectory
 from tests.closeness import assert_relative
-from tests.optional.words import block, driven, free, scene, slides, solid
+from tests.optional.words import block, driven, free, slides, solid
+from tests.scenes import scene
 
 H = 0.01
 G = 9.81

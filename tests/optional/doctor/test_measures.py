@@ -18,7 +18,8 @@ from quasistatic_ref.optional.doctor.telling import (
     pair_rows,
 )
 from tests.closeness import assert_relative
-from tests.optional.words import block, driven, free, scene, slides
+from tests.optional.words import block, driven, free, slides
+from tests.scenes import scene
 
 PAD = '<box size="0.02 0.02 0.02"/>'
 HIGH, DOWN, ALONG = 5.5e-3, 1e-2, 5e-3

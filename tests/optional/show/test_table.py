@@ -13,6 +13,7 @@ from quasistatic_ref.files.trajectory import header_read, header_table
 from quasistatic_ref.optional.show.table import table_written
 from tests.closeness import assert_same
 from tests.scenes import BALL, written_scenario
+from tests.scenes import scene as scene_of
 
 
 @pytest.fixture(scope="module")
@@ -82,10 +83,7 @@ def test_a_name_is_no_formula_in_a_table(tmp_path):
     for k, begin in enumerate("=+-@"):
         name = f"{begin}1+1"
         ball = {"urdf": BALL, "base": "floating", "pose": {"xyz": [0, 0, 0.05]}}
-        floor = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}
-        touch = {"alpha": "floor", "beta": name, "mu_v": 0.5, "rows": 4, "k": 1}
-        scene = {"h": 0.01, "steps": 1, "bodies": {name: ball}, "shapes": {"floor": floor}}
-        run = load_scenario({**scene, "contacts": {name: touch}}, fast=True).run()
+        run = scene_of({name: ball}, {name: ("floor", name, 0.5, 1)}, 1, fast=True).run()
         for option in ("--table", "--contacts-table"):
             text = table_written(run, tmp_path / f"{k}.csv", option).read_text()
             cells = [cell for line in csv.reader(text.splitlines()) for cell in line]

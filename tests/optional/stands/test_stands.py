@@ -7,7 +7,8 @@ import pytest
 
 from quasistatic_ref import Box, Capsule, Extension, InputError, Sphere, load_scenario
 from tests.files.urdf.urdf_texts import collision, link, robot
-from tests.optional.words import FLOOR, driven, free, slides, solid
+from tests.optional.words import driven, free, slides, solid
+from tests.scenes import FLOOR
 
 G = 9.81
 NEAR = 0.01
