@@ -207,9 +207,10 @@ class StepProblem:
         self.step = step
         self._set_values(None)
 
-    def _set_values(self, units: Units | None) -> None:
+    def _set_values(self, scaled: ScaledStep | None) -> None:
+        placed = () if scaled is None else (scaled.units, scaled.ends)
         with np.errstate(over="ignore", invalid="ignore"):  # what overflows has no answer
-            set_values(self.page, self.step, units)
+            set_values(self.page, self.step, *placed)
 
     @keywords_named
     def solve(self, backend: str = "clarabel", accuracy: float = ACCURACY) -> Array:
@@ -255,16 +256,16 @@ class StepProblem:
         if not self.problem.is_qp():
             check_takes_cones(name, "this problem")
         attempts = entry.attempts(accuracy, not self.problem.is_qp())
-        units = ScaledStep(self.step).units if self._plain else None
-        self._set_values(units)
+        scaled = ScaledStep(self.step) if self._plain else None
+        self._set_values(scaled)
         try:
             status = self._status([options for _, options in attempts], name)
         finally:
             self._set_values(None)
         if status != cp.OPTIMAL:
             raise StepNotSolved(name, status, self.step, attempts[-1][0])
-        if units is not None:
-            self._unpack(page_units(units, self.step.h))
+        if scaled is not None:
+            self._unpack(page_units(scaled.units, self.step.h))
         return self.primal()
 
     def _status(self, option_sets: Sequence[Options], name: str) -> str:
@@ -417,7 +418,7 @@ class CvxpySolver(BackendSolver):
 
     def write(self, scaled: ScaledStep) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
-        set_values(self.problem.page, scaled.step, scaled.units)
+        set_values(self.problem.page, scaled.step, scaled.units, scaled.ends)
         return scaled.out_of_reach
 
     def reply(self, options: Options, scaled: ScaledStep) -> Reply:

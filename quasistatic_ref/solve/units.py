@@ -336,16 +336,15 @@ class ScaledStep:
 
     @cached_property
     def ends(self) -> tuple[Array, Array]:
-        """Gaps phi (n_c,) and ends b of the user's rows, within reach: natural units [-]."""
+        """Gaps phi (n_c,) [m] and ends b of the user's rows [m, rad], within reach."""
         return clipped_gaps(self.step, self.units)
 
     @cached_property
     def out_of_reach(self) -> Mask:
         """Which rows are out of reach, and nearer in what solvers get: shape (m,)."""
         phi, b = self.ends
-        unit = self.units.size * self.units.length
-        beyond = np.repeat(phi < self.step.contacts.phi / unit, self.step.counts)
-        return np.concatenate([beyond, b > self.step.extra.b / unit])
+        beyond = np.repeat(phi < self.step.contacts.phi, self.step.counts)
+        return np.concatenate([beyond, b > self.step.extra.b])
 
     @property
     def near(self) -> StandardForm:
@@ -353,7 +352,8 @@ class ScaledStep:
         phi, b_extra = self.ends
         contacts = self.step.contacts.with_fields(phi=phi)
         b = -row_constants(contacts, self.step.cone)[self.step.mask]
-        return self.natural._replace(b=np.concatenate([b, b_extra]))
+        unit = self.units.size * self.units.length
+        return self.natural._replace(b=np.concatenate([b, b_extra]) / unit)
 
     @property
     def row_ratio(self) -> float:

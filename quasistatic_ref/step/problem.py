@@ -8,7 +8,6 @@ Symbols are CVXPY objects here, except the numbers h, mu_v and mu_omega. Units a
 step, SI as a rule.
 """
 
-import math
 from dataclasses import dataclass
 
 import cvxpy as cp
@@ -18,9 +17,7 @@ import scipy.sparse as sp
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import (
-    OUT_OF_REACH,
     Units,
-    clipped_gaps,
     page_units,
     si_units,
 )
@@ -156,7 +153,10 @@ def paper_problem(step: StepData) -> Page:
 
 
 def set_values(
-    page: Page, step: StepData, units: Units | None = None, far: float = OUT_OF_REACH
+    page: Page,
+    step: StepData,
+    units: Units | None = None,
+    ends: tuple[Array, Array] | None = None,
 ) -> None:
     """Set the parameters of a page to those of a `step` of its kind.
 
@@ -172,16 +172,12 @@ def set_values(
     units : Units, optional
         Natural units in which the page is to be solved, up to those of accelerations and forces:
         see :func:`~quasistatic_ref.step.standard_form.page_units`. SI units by default.
-    far : float
-        How far the contacts, and ends of own rows, may be in natural units [-]: see
+    ends : tuple of ndarray, shapes (n_c,) and (e,), optional
+        Gaps [m] and ends of own rows [m, rad] in the place of the step's, such as those of
         :func:`~quasistatic_ref.step.standard_form.clipped_gaps`.
     """
-    if units is None:
-        S, ell, rho = si_units(step.n_v)
-        far = math.inf
-    else:
-        S, ell, rho = page_units(units, step.h)
-        far *= units.size * units.length / (rho * ell)
+    S, ell, rho = si_units(step.n_v) if units is None else page_units(units, step.h)
+    phi, b_extra = (step.contacts.phi, step.extra.b) if ends is None else ends
     S_a = S[: step.n_a]
     S_u = S[step.n_a :]
     contacts = step.contacts
@@ -194,21 +190,20 @@ def set_values(
         return part
 
     tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
-    phi, b_extra = clipped_gaps(step, Units(S, ell, rho), far)
     values = {
         "K_q": step.K_q * np.outer(S_a, S_a),
         "M_u": step.M_u * np.outer(S_u, S_u),
         "tau_k": tau_k * S_a / rho,
         "tau_a": step.tau_a * S_a / rho,
         "tau_u": step.tau_u * S_u / rho,
-        "phi": phi,
+        "phi": phi / (rho * ell),
         "J_n": along(contacts.n),
         "J_1": along(contacts.d1),
         "J_2": along(contacts.d2),
         "J_w": J_w,
     }
     if step.extra.names:
-        values |= {"A_extra": step.extra.A * (S / ell), "b_extra": b_extra}
+        values |= {"A_extra": step.extra.A * (S / ell), "b_extra": b_extra / (rho * ell)}
     if step.extra.cost is not None:
         H, g = step.extra.cost
         values |= {"H_extra": H * np.outer(S, S), "g_extra": g * S / rho}

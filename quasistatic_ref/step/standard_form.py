@@ -240,16 +240,15 @@ def clipped_gaps(step: StepData, units: Units, far: float = OUT_OF_REACH) -> tup
     Returns
     -------
     phi : ndarray, shape (n_c,)
-        In these units [-], as b.
+        [m]
     b : ndarray, shape (e,)
+        [m, rad]
     """
     S, ell, rho = units
-    phi = step.contacts.phi / (rho * ell)
-    b = step.extra.b / (rho * ell)
-    if far < math.inf:
-        unit = (np.append(S, 0.0) / ell)[step.contacts.column]
-        phi = np.minimum(phi, far * _lengths(step.contacts.own * unit[:, None]))
-        b = np.maximum(b, -far * _lengths(step.extra.A[:, None] * (S / ell)))
+    far *= rho * ell
+    unit = (np.append(S, 0.0) / ell)[step.contacts.column]
+    phi = np.minimum(step.contacts.phi, far * _lengths(step.contacts.own * unit[:, None]))
+    b = np.maximum(step.extra.b, -far * _lengths(step.extra.A[:, None] * (S / ell)))
     return phi, b
 
 

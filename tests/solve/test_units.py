@@ -124,7 +124,8 @@ def test_contacts_and_rows_out_of_reach_are_moved_nearer_and_the_others_are_not(
     step = sphere_on_floor(phi=1e9, wrench=(0, 0, -1.0, 0, 0, 0)).replace(extra=walls)
     scaled = ScaledStep(step)
     natural = step_in_units(step, scaled.units)
-    phi, b = clipped_gaps(step, scaled.units)
+    unit = scaled.units.size * scaled.units.length
+    phi, b = (ends / unit for ends in clipped_gaps(step, scaled.units))
     assert_relative(phi, [OUT_OF_REACH * max(1.0, np.linalg.norm(natural.contacts.J[0]))])
     own = OUT_OF_REACH * max(1.0, np.linalg.norm(natural.extra.A[1]))
     assert_relative(b, [natural.extra.b[0], -own])
@@ -132,4 +133,4 @@ def test_contacts_and_rows_out_of_reach_are_moved_nearer_and_the_others_are_not(
     form = scaled.near
     assert_same(form.A, scaled.natural.A)
     assert_same(form.b, [*-np.repeat(phi, step.m - 2), *b])
-    assert_same(clipped_gaps(step, scaled.units, np.inf)[0], natural.contacts.phi)
+    assert_same(clipped_gaps(step, scaled.units, np.inf)[0], step.contacts.phi)

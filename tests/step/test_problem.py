@@ -83,9 +83,9 @@ def test_the_data_of_the_filled_page_are_the_standard_form(name, large, rng, mon
     unit = si_units(13)
     for step in steps:
         scaled = ScaledStep(step)
-        natural = (scaled.units, scaled.near, page_units(unit, h))
-        for units, form, (S, ell, rho) in ((None, scaled.form, unit), natural):
-            set_values(page.page, step, units)
+        natural = ((scaled.units, scaled.ends), scaled.near, page_units(unit, h))
+        for placed, form, (S, ell, rho) in (((), scaled.form, unit), natural):
+            set_values(page.page, step, *placed)
             data = step_problem.problem_data(page.problem, "clarabel", {}).numbers
             assert_relative(data["P"].toarray(), form.H * np.outer(S, S) * h)
             assert_close(data["c"], -form.g * S / rho / h, ROUNDING)
@@ -103,7 +103,7 @@ def test_a_plain_step_is_the_page_filled_and_solved_in_public(name):
     solver = CvxpySolver(step)
     accuracy, options = solver.option_sets(1e-12)[0]
     page = StepProblem(step)
-    set_values(page.page, step, scaled.units)
+    set_values(page.page, step, scaled.units, scaled.ends)
     page.problem.solve(solver="CLARABEL", canon_backend=step_problem.CANON, **options)
     units = page_units(scaled.units, step.h)
     delta_q, lam = in_si(page.primal(), page.dual(), units)

@@ -25,9 +25,9 @@ def test_cvxpy_compiles_the_ellipsoid_to_one_second_order_cone_a_contact(rng):
 
 
 def test_a_row_out_of_reach_is_put_at_its_reach_in_the_units_that_are_asked_for():
-    """In units of 2, 4 and 8 m the row (3, 0, 4) is 0.5 (6, 0, 32) long, with ell = 2 m."""
+    """In units of 2, 4 and 8 m the row (3, 0, 4) is 0.5 (6, 0, 32) long, with rho ell = 8 m."""
     step = point_step(0.3, (0.0, 0.0, 0.0), 0.5, 0.0, 0.01)
     rows = [[3.0, 0.0, 4.0]] * 2
     step = step.replace(extra=Extra(("near", "far"), rows, [-8.0, -1e9]))
     _, b = clipped_gaps(step, Units(np.array([2.0, 4.0, 8.0]), 2.0, 4.0), 10.0)
-    assert b.tolist() == [-1.0, -10 * np.hypot(3.0, 16.0)]
+    assert b.tolist() == [-8.0, -80 * np.hypot(3.0, 16.0)]

@@ -1,6 +1,5 @@
 """An extension that is said with CVXPY: read as rows and a cost, or solved as a conic program."""
 
-import math
 import warnings
 from dataclasses import asdict
 from functools import partial
@@ -119,7 +118,7 @@ def extended_solution(
     of_page = page_units(units, step.h)
     problem = StepProblem(step, partial(_terms, extension, step, of_page))
     # An extension may move what no load moves: nothing is out of reach.
-    set_values(problem.page, step, units, far=math.inf)
+    set_values(problem.page, step, units)
     if extension.without_stiffness:  # nothing is left of Eq. (1)
         for parameter in (problem.parameters["K_q"], problem.parameters["tau_k"]):
             parameter.value = np.zeros(parameter.shape)
