@@ -192,8 +192,8 @@ class StepMaker(Settings):
         change = here.change_to(q_bar_a)  # q_bar_a(t + h) (-) q_a
         n_a = system.n_a
         loads: dict[str, Any] = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": change}
-        numbers = (masses, tau, change, contacts.phi, contacts.n, contacts.own)
-        if not all(all_finite(array.ravel()) for array in numbers):  # refused by their names
+        arrays = masses.ravel(), contacts.n.ravel(), contacts.own.ravel()
+        if not all(map(all_finite, (tau, change, contacts.phi, *arrays))):  # refused by their names
             loads |= {"contacts": replace(contacts), "cone": self.cone}
             return StepData(h=self.h, K_q=self.K_q, M_u=here.M_u, **loads)
         last = self._hessian

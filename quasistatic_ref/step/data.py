@@ -309,17 +309,17 @@ class StepData(Plain, HasPage):
         coupled[self.coupled_entries] = True
         return coupled
 
-    @cached_property
+    @property
     def n_a(self) -> int:
         """Number of actuated coordinates."""
         return int(self.tau_a.size)
 
-    @cached_property
+    @property
     def n_u(self) -> int:
         """Number of un-actuated coordinates."""
         return int(self.tau_u.size)
 
-    @cached_property
+    @property
     def n_v(self) -> int:
         """Number of coordinates of delta_q."""
         return self.n_a + self.n_u

@@ -37,8 +37,7 @@ def addresses(read: Iterable[NDArray[Any]], written: Iterable[NDArray[Any]] = ()
         Of numbers of 64 bits or truth values, of any shape and unit. Those that are read are copied
         where they are not contiguous.
     """
-    every = [_address(np.ascontiguousarray(array)) for array in read]
-    return every + [_address(array) for array in written]
+    return [*map(_address, map(np.ascontiguousarray, read)), *map(_address, written)]
 
 
 def missing() -> str | None:
