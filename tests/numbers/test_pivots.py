@@ -125,6 +125,7 @@ def test_a_cost_is_added_without_rounding_also_where_numbers_are_subnormal(
             step.replace(extra=cost)
 
 
+@pytest.mark.long
 def test_a_large_dense_matrix_that_is_indefinite_is_not_taken():
     S = np.eye(MANY_ROWS + 1) + 1e-3
     assert positive_pivots(S)

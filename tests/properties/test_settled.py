@@ -13,7 +13,7 @@ from validation import check_solution as checker
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("count", first(2, (3, 4, 5, 7, 9)))  # the judge takes its time
+@pytest.mark.parametrize("count", first(1, (3, 4, 5, 7, 9)))  # the judge takes its time
 def test_proofs_of_settled_scenes_hold_in_fractions(tmp_path, kind, count):
     step = settled_step(kind, count, count)
     paths = tmp_path / "step.json", tmp_path / "solution.json"
