@@ -22,7 +22,7 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.solution import Certificate, Kind, StepSolution
 from quasistatic_ref.step.text import step_sha256
-from quasistatic_ref.text.declared import Field, Tables
+from quasistatic_ref.text.declared import Field, Tables, head
 from quasistatic_ref.text.json_text import json_text
 from quasistatic_ref.text.table_reader import TableReader
 
@@ -35,8 +35,7 @@ CERTIFICATE = "certificate"
 _PAIR = {"type": "array", "items": {"type": "integer"}, "minItems": 2, "maxItems": 2}
 TABLES = Tables({
     TOP: {
-        "format": Field("text", "what the file is", choices=(SOLUTION_FORMAT,)),
-        "version": Field("version", "of the format", choices=(VERSION,)),
+        **head(SOLUTION_FORMAT, VERSION),
         "status": Field("text", "what is claimed", choices=("optimal", "infeasible")),
         "cone": Field("text", "that of the step"),
         "step_sha256": Field("text", "hash of the step, 64 hexadecimal digits in lower case"),

@@ -19,7 +19,7 @@ from quasistatic_ref.simulate.header import RECORDS, Header
 from quasistatic_ref.simulate.law import CONVEX, LAWS
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.text.declared import Field, Tables
+from quasistatic_ref.text.declared import Field, Tables, head
 from quasistatic_ref.text.table_reader import TableReader
 
 FORMAT = "quasistatic-ref/trajectory"
@@ -28,8 +28,7 @@ WHAT = "a trajectory written by this program"
 TOP = "the header of a trajectory"
 TABLES = Tables({
     TOP: {
-        "format": Field("text", "what the file is", choices=(FORMAT,)),
-        "version": Field("version", "of the format", choices=(VERSION,)),
+        **head(FORMAT, VERSION),
         "h": Field("number", "time step", "s", above=0.0),
         "backend": Field("text", "name of the solver"),
         "cone": Field("text", "friction cone of every contact"),

@@ -85,7 +85,7 @@ def _value(one: Field, number: Mapping[str, Any]) -> dict[str, Any]:
     kinds: dict[str, Mapping[str, Any]] = {
         "number": number,
         "integer": {**number, "type": "integer"},
-        "version": {"type": "integer"},
+        "version": {**number, "type": "integer"},
         "text": {"type": "string"},
         "boolean": {"type": "boolean"},
         "numbers": numbers,

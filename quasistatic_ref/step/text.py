@@ -9,7 +9,7 @@ from typing import Any
 
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.text.declared import Field, Tables
+from quasistatic_ref.text.declared import Field, Tables, head
 from quasistatic_ref.text.json_text import json_text
 
 STEP_FORMAT = "quasistatic-ref/step"
@@ -22,8 +22,7 @@ VELOCITIES = "n_a + n_u"
 
 TABLES = Tables({
     TOP: {
-        "format": Field("text", "what the file is", choices=(STEP_FORMAT,)),
-        "version": Field("version", "of the format", choices=(VERSION,)),
+        **head(STEP_FORMAT, VERSION),
         "cone": Field("text", "friction cone of its contacts", default=PYRAMID),
         "h": Field("number", "time step", "s", above=0.0),
         "n_a": Field("integer", "number of actuated coordinates", least=0),

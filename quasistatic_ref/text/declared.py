@@ -103,6 +103,14 @@ class Field:
         return items
 
 
+def head(name: str, version: int) -> dict[str, Field]:
+    """The first fields of a file: its format and version."""
+    return {
+        "format": Field("text", "what the file is", choices=(name,)),
+        "version": Field("version", "of the format", choices=(version,)),
+    }
+
+
 def _length(n: int | str, lengths: Mapping[str, int]) -> int:
     return n if isinstance(n, int) else sum(lengths[name] for name in n.split(" + "))
 

@@ -16,7 +16,7 @@ from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.simulator import GRAVITY
 from quasistatic_ref.solve.backends import CERTIFY
 from quasistatic_ref.step.cones import CONES
-from quasistatic_ref.text.declared import Field, Tables
+from quasistatic_ref.text.declared import Field, Tables, head
 from quasistatic_ref.text.table_reader import TableReader
 
 FORMAT = "quasistatic-ref/scenario"
@@ -52,8 +52,7 @@ TARGET = {"anyOf": [NUMBER, {"$ref": f"#/definitions/{POSE}"}]}
 
 TABLES = Tables({
     TOP: {
-        "format": Field("text", "what the file is", choices=(FORMAT,)),
-        "version": Field("integer", "of the format", choices=(VERSION,)),
+        **head(FORMAT, VERSION),
         "h": Field("number", "time step", "s", above=0.0),
         "steps": Field("integer", "how many", least=0, most=MOST_STEPS),
         "gravity": Field("three numbers", "free fall in the world frame", "m/s^2", GRAVITY),

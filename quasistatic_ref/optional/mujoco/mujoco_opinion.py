@@ -186,9 +186,7 @@ def _mover(state: MujocoState, b: int) -> Mover:
     centre = (
         model.body_mass[welded] @ state.data.xipos[welded] / mass if mass else state.data.xpos[b]
     )
-    linear = np.zeros((3, model.nv))
-    angular = np.zeros((3, model.nv))
-    state.mujoco.mj_jac(model, state.data, linear, angular, centre, b)
+    linear, angular = state.jacobian(centre, b)
     free = (
         kind_of(state, "jnt_type", model.body_jntadr[b]) == "FREE"
         and len(welded) == np.isin(model.body_rootid, b).sum()

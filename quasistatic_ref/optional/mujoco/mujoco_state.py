@@ -64,6 +64,12 @@ class MujocoState:
         self.mujoco.mj_fullM(self.model, self.data, M)
         return M
 
+    def jacobian(self, point: Array, body: int) -> Array:
+        """Motion of a body's point, (3,) [m], and rotation along all velocities, (2, 3, nv)."""
+        J = np.zeros((2, 3, self.model.nv))
+        self.mujoco.mj_jac(self.model, self.data, *J, point, body)
+        return J
+
     @property
     def moments(self) -> Array:
         """How the length of each actuator changes with the joints, shape (outputs, nv)."""

@@ -161,11 +161,8 @@ def jacobian(state: MujocoState, touch: MjContact) -> Array:
     n = touch.frame[:3]
     J = np.zeros((4, model.nv))
     for geom, side in zip(touch.geom, (-1.0, 1.0), strict=True):
-        linear = np.zeros((3, model.nv))
-        angular = np.zeros((3, model.nv))
         point = touch.pos + side * touch.dist / 2 * n
-        body = model.geom_bodyid[geom]
-        state.mujoco.mj_jac(model, state.data, linear, angular, point, body)
+        linear, angular = state.jacobian(point, model.geom_bodyid[geom])
         J[:3] += side * linear
         J[3] += side * (n @ angular)
     return J

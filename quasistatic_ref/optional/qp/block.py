@@ -125,13 +125,10 @@ class Block:
             whole[len(i) :],
         )
         self.P: list[Sparse] = [{} for _ in range(n)]
-        if self.is_float:
-            for (k, t), v in square.items():
-                self.P[k][t] = v
-            self.unit = unit
-        else:
-            for (k, t), v in square.items():
-                self.P[k][t] = v + square[t, k]
+        for (k, t), v in square.items():
+            self.P[k][t] = v if self.is_float else v + square[t, k]
+        self.unit = unit
+        if not self.is_float:
             self.q, self.unit = [2 * v for v in self.q], 2 * unit
         self._kept: dict[int, Row] = {}
         self._primes = primes()

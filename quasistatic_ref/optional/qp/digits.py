@@ -26,7 +26,7 @@ def correct_digits(problem: QuadraticProgram, optimum: Array, x: ArrayLike) -> f
     `optimum` is the exact answer.
     """
     off = _numbers(x, "x", len(optimum))
-    costs = [(block, convex_cost(block)) for block in blocks_of(problem)]
+    costs = _costs(problem)
     if all(convex.definite for _, convex in costs):
         return _definite_digits(
             costs, optimum, lambda block: _column(off, block) - _column(optimum, block)
@@ -55,7 +55,7 @@ def correct_digits(problem: QuadraticProgram, optimum: Array, x: ArrayLike) -> f
         _ratio(float(of_q), terms),
         *map(_ratio, np.maximum(-short, 0).tolist(), sizes.tolist()),
     ]
-    return digits_of_error(max(errors) if not np.isnan(errors).any() else math.nan)
+    return digits_of_error(float(np.max(errors)))  # NaN of one is NaN of all
 
 
 def multiplier_digits(
@@ -76,13 +76,13 @@ def multiplier_digits(
     every = np.concatenate([z, y, z_box, problem.q])
     with working_precision(EXACT):
         force = (matrix * _column(every)).entries()
-    costs = [(block, convex_cost(block)) for block in blocks_of(problem)]
+
+    def moved(block: Block) -> arb_mat:
+        pull = arb_mat([[force[int(i)]] for i in block.coordinates])
+        return block.form.H_inverse * pull + _column(optimum, block)
+
+    costs = _costs(problem)
     if all(convex.definite for _, convex in costs):
-
-        def moved(block: Block) -> arb_mat:
-            pull = arb_mat([[force[int(i)]] for i in block.coordinates])
-            return block.form.H_inverse * pull + _column(optimum, block)
-
         return _definite_digits(costs, optimum, moved)
     with working_precision(PRECISION):
         half = exact_matrix(problem.P) + exact_matrix(problem.P.T)
@@ -108,12 +108,16 @@ def multiplier_digits(
         _ratio(float((wrong @ np.abs(np.concatenate([problem.G, eye]))).max()), terms.max()),
         _ratio(float(np.abs(gaps).max(initial=0.0)), worth),
     ]
-    return digits_of_error(max(errors) if not np.isnan(errors).any() else math.nan)
+    return digits_of_error(float(np.max(errors)))  # NaN of one is NaN of all
 
 
 def empty(value: Any) -> bool:
     """Whether an answer leaves multipliers out, which are zero then."""
     return value is None or np.size(value) == 0
+
+
+def _costs(problem: QuadraticProgram) -> list[tuple[Block, Convex]]:
+    return [(block, convex_cost(block)) for block in blocks_of(problem)]
 
 
 def _ratio(off: float, size: float) -> float:
