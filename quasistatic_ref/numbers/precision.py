@@ -6,8 +6,7 @@ set them: many that are compiled with ``-ffast-math`` do when they are loaded. A
 become others before they are exact, and an answer after it was proved.
 """
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from threading import RLock
 from typing import Final
 
@@ -18,8 +17,7 @@ from quasistatic_ref.errors import InputError
 _TURN: Final = RLock()
 
 
-@contextmanager
-def working_precision(bits: int) -> Iterator[None]:
+class working_precision:
     """Compute with a number of bits, while other threads wait for their turn.
 
     FLINT has one precision for the whole process: a thread that changed it in the middle of
@@ -29,13 +27,20 @@ def working_precision(bits: int) -> Iterator[None]:
     ----------
     bits : int
     """
-    with _TURN:
-        before = ctx.prec
-        ctx.prec = bits
-        try:
-            yield
-        finally:
-            ctx.prec = before
+
+    __slots__ = ("_before", "_bits")
+
+    def __init__(self, bits: int) -> None:
+        self._bits = bits
+
+    def __enter__(self) -> None:
+        _TURN.acquire()
+        self._before = ctx.prec
+        ctx.prec = self._bits
+
+    def __exit__(self, *_: object) -> None:
+        ctx.prec = self._before
+        _TURN.release()
 
 
 ONE = 1.0
