@@ -13,7 +13,8 @@ that :mod:`~quasistatic_ref.optional.ellipsoid.enclosure` checks in balls.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import accumulate, pairwise
 from typing import Final, NamedTuple
 
 from flint import arb, arb_mat
@@ -62,6 +63,20 @@ class Blocks:
     b: arb_mat
     C: arb_mat
     rows: list[range]
+
+    def some(self, which: Sequence[bool]) -> "Blocks":
+        """The same program with some of its blocks alone."""
+        kept = [rows for rows, is_one in zip(self.rows, which, strict=True) if is_one]
+        every = [i for rows in kept for i in rows]
+        ends = list(accumulate(map(len, kept), initial=0))
+        A, b = self.A.tolist(), self.b.tolist()
+        return replace(
+            self,
+            A=arb_mat(len(every), self.A.ncols(), [v for i in every for v in A[i]]),
+            b=arb_mat(len(every), 1, [v for i in every for v in b[i]]),
+            C=diagonal([self.C[i, i] for i in every]),
+            rows=[range(*ends_of) for ends_of in pairwise(ends)],
+        )
 
     @property
     def give(self) -> list[arb]:

@@ -67,15 +67,17 @@ def newton_pair(problem: Blocks, near: Pair, states: list[int]) -> Pair | None:
     states : list of int
         Of :func:`contact_states`.
     """
+    closed = problem.some([state != OPEN for state in states])  # y of all others is zero
+    of_closed = [state for state in states if state != OPEN]
     x = near.x
     f = column(near.y[i, 0] for i in _bearing(problem, states))
     ones = column(arb(1) for _ in f.entries())
     for _ in range(ITERATIONS):
-        F, K = _linearised(problem, x, f, states)
+        F, K = _linearised(closed, x, f, of_closed)
         y = (F * f).mid()
-        N = (F.transpose() * problem.A).mid()
-        c = F.transpose() * problem.slacks(x, y)
-        give = F.transpose() * (problem.C * (F * ones))  # the diagonal of F'C F
+        N = (F.transpose() * closed.A).mid()
+        c = F.transpose() * closed.slacks(x, y)
+        give = F.transpose() * (closed.C * (F * ones))  # the diagonal of F'C F
         stiff = diagonal([1 / (v if v > 0 else EPSILON) for v in give.entries()]).mid()
         load = problem.g - problem.H * x + N.transpose() * (f - stiff * c)
         try:
