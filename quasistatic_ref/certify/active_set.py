@@ -24,7 +24,8 @@ It starts from the rows that a solver's answer shows to be active. An interior-p
 positive multipliers for all six rows of a sticking contact, whose rank is four. The exact method
 needs independent rows with multipliers >= 0. Such a choice exists (Caratheodory): moving lam along
 a dependence of the rows with positive multipliers changes neither A'lam nor the optimum, and each
-move makes one multiplier zero.
+move makes one multiplier zero. An active-set method returns such rows, but none that bears less
+than float64 shows.
 """
 
 from collections.abc import Sequence
@@ -34,17 +35,14 @@ from typing import Final
 import numpy as np
 from flint import arb, fmpq
 
-from quasistatic_ref.certify.form import (
-    ExactForm,
-    combination,
-    fraction,
-    independent_rows,
-)
+from quasistatic_ref.certify.form import ExactForm, combination, fraction, independent_rows
 from quasistatic_ref.certify.minimiser import LARGE, Line, Minimiser
 from quasistatic_ref.certify.refined import BearingRows, refined
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.modulo import independent_modulo
 from quasistatic_ref.numbers.precision import working_precision
+from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.data import StepData
 
 AGAIN: Final = 4
 """Walks after which a start is refined again; then twice as many, and so on, so that walks end."""
@@ -235,6 +233,8 @@ def _vanishes_before(minimiser: Minimiser, line: Line, j: int, k: int) -> bool:
     return bool(minimiser.end(k) * line.end(j) < minimiser.end(j) * line.end(k))
 
 
+PAIRS: Final = np.array([[0, 2], [1, 3], [4, 5]])
+"""Rows +d1 and -d1, +d2 and -d2, +spin and -spin of a contact in the pyramid."""
 ZERO_SHARE = 1e-9
 """Singular values, and entries of a dependence, below this share of the largest count as zero; a
 wrong start costs steps of the active-set method, not correctness."""
@@ -266,6 +266,38 @@ def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:
 def basic_rows(lam: Array) -> list[int]:
     """Rows with positive multipliers lam (m,) [-], the largest multiplier first."""
     return [int(i) for i in np.argsort(-lam, kind="stable")[: np.count_nonzero(lam > 0)]]
+
+
+def third_pair_rows(step: StepData, A: Array, x: Array, lam: Array) -> Indices:
+    """Rows that bear in the pyramid, however little, by the rows that bear in float64; (k,).
+
+    The rows of a pair add up to twice the gap. Where one pair of a contact bears and one row of
+    another pair, the gap and two of slip 1, slip 2 and spin are therefore zero, and the slacks of
+    the third pair are s and -s: one of them is violated unless s = 0, which is 1e-17 m or so. Here
+    the sign of s is that of float64.
+
+    Parameters
+    ----------
+    step : StepData
+    A : ndarray, shape (m_c, w)
+        The contacts' rows by their own columns [m].
+    x, lam : ndarray, shapes (n_v,) and (m,)
+        A solver's displacement and multipliers, each times any number.
+    """
+    if step.cone != PYRAMID:
+        return np.zeros(0, np.int64)
+    mask = step.mask
+    bears = np.zeros(mask.shape, dtype=bool)
+    bears[mask] = lam[: step.offsets[-1]] > 0
+    count = bears[:, PAIRS].sum(axis=2)
+    of_three = (count.sum(axis=1) == 3) & mask[:, -1]
+    contact, pair = np.nonzero((count == 0) & of_three[:, None])
+    if not contact.size:
+        return contact
+    rows = step.offsets[contact, None] + PAIRS[pair]
+    moved = np.append(x, 0.0)[step.contacts.column[contact]]
+    s = ((A[rows[:, 0]] - A[rows[:, 1]]) * moved).sum(axis=1)
+    return np.asarray(np.where(s < 0, rows[:, 0], rows[:, 1])[s != 0])
 
 
 def _basic(A: Array, lam: Array) -> Array:

@@ -23,9 +23,10 @@ import numpy as np
 from flint import arb, arb_mat, fmpz
 
 from quasistatic_ref.certify.active_set import dual_active_set
-from quasistatic_ref.certify.form import ExactForm, MatrixForm, StepForm, exact_matrix, implied
+from quasistatic_ref.certify.form import ExactForm, MatrixForm, exact_matrix, implied
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.step.data import StepData
 
 

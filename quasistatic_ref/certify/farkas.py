@@ -11,8 +11,9 @@ import numpy as np
 from flint import fmpq, fmpz
 
 from quasistatic_ref.certify.active_set import Combination
-from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
+from quasistatic_ref.certify.form import ExactForm, fraction
 from quasistatic_ref.certify.groups import row_owners
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.errors import check_kind
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.precision import nearest_fraction

@@ -1,4 +1,4 @@
-r"""A program in exact numbers: H, g and rows, those of a step formed where they are needed.
+r"""A program in exact numbers: H, g and rows.
 
 A ball without radius is an exact number. A float64 is one, and sums and products of such numbers
 are, at a precision (``EXACT``) that no number of a step exhausts; conversions to integers refuse
@@ -9,34 +9,26 @@ split the ties between the rows of a sticking contact.
 
 The first rows of a form may be equations, :math:`a_i^T x + c_i = 0`; a step has none.
 
-H is positive definite, as ``step/data.py`` has checked. It is block diagonal, or one block where a
-user's cost is in it. Eq. :eq:`eq-13` is taken times h, because M_u / h is a quotient. So its
-multipliers are y = h lam, and on a working set W, without a cost,
-
-- of the springs, :math:`h^2 K_q x_a = h^2 (\tau_k + \tau_a) + A_a^T y`;
-- of what moves freely, :math:`M_u x_u = h^2 \tau_u + A_u^T y`.
-
-Rows, of Eqs. :eq:`eq-4`-:eq:`eq-8`, are formed one by one: a solution needs those of W, and a slack
-that float64 shows to be positive needs none.
+Which rows are sums of others, each some times, is decided by elimination in whole numbers. What a
+prime refutes needs none, and it names the few rows of which a sum consists. A sum of halves is
+guessed in float64, and proved by multiplication.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
-from functools import cached_property, lru_cache
+from functools import cached_property
+from itertools import compress
 from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.groups import labels
-from quasistatic_ref.numbers.arrays import Array, Indices
-from quasistatic_ref.numbers.precision import check_arithmetic, working_precision
-from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import StepData, row_layout
-from quasistatic_ref.step.hessian import Hessian
-from quasistatic_ref.step.standard_form import inequalities
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.modulo import supports_modulo
+from quasistatic_ref.numbers.precision import working_precision
 
 EXACT: Final = 1 << 30
 """Bits at which no sum or product is rounded. What is short costs no more than at few bits."""
@@ -52,6 +44,9 @@ UNIT: Final = 2.0**-53
 """Largest relative error of one operation in float64."""
 UNDERFLOW: Final = 1e-290
 """So large that its product with UNIT is far above all that underflow takes from a sum."""
+
+ROUNDING: Final = 1e-9
+"""What float64 may leave of a sum that is zero, over the largest entry [-]: of a guess."""
 
 Row: TypeAlias = "list[arb]"
 """a and c of a x + c >= 0: n + 1 exact numbers."""
@@ -82,10 +77,10 @@ def scaled(numbers: Sequence[arb]) -> tuple[list[fmpz], int]:
     ValueError
         If a number is a ball with a radius.
     """
-    parts = [number.man_exp() for number in numbers]
-    exponents = [int(e) for _, e in parts]
-    least = min(exponents, default=0)
-    return [m << e - least for (m, _), e in zip(parts, exponents, strict=True)], least
+    parts = [None if v.is_zero() else v.man_exp() for v in numbers]
+    least = min((int(part[1]) for part in parts if part), default=0)
+    zero = fmpz(0)
+    return [part[0] << int(part[1]) - least if part else zero for part in parts], least
 
 
 def fraction(number: float | arb) -> fmpq:
@@ -316,195 +311,10 @@ class MatrixForm(ExactForm):
         return row_sizes(*self.inequalities, most)
 
 
-class StepForm(ExactForm):
-    """The program of a step.
-
-    Parameters
-    ----------
-    step : StepData
-
-    Raises
-    ------
-    InputError
-        If nothing can be proved in this thread.
-    """
-
-    def __init__(self, step: StepData) -> None:
-        check_arithmetic()
-        self._step = step
-        self._cone = cone(step.cone)
-        self._mu = self._cone.row_coefficients(step.contacts.mu)
-        n_c = step.contacts.n_c
-        self._contact, self._places = _places(step.cone, step.contacts.rows.tobytes())
-        if step.extra.names:
-            of_extra = [(n_c + k, 0) for k in range(len(step.extra.names))]
-            self._places = [*self._places, *of_extra]
-        self._factors: dict[int, tuple[arb_mat, arb_mat, arb_mat]] = {}
-        self._rows: dict[int, list[Row]] = {}
-        self.n = step.n_v
-        self.m = step.m
-        self.bits = PRECISION
-        self.h = arb(step.h)
-        if step.extra.cost is None:
-            pull = arb_mat(self.n, 1)
-            springs, self.H, self.H_inverse = step.hessian.once(exact_hessian)
-        else:
-            H, g = step.extra.cost
-            pull = exact_matrix(g[:, None])
-            springs, self.H, self.H_inverse = _with_cost(step.hessian, H.tobytes())
-        shift = arb_mat(self.n, 1, [*step.delta_q_bar_a.tolist(), *[0] * step.n_u])
-        force = arb_mat(self.n, 1, [*step.tau_a.tolist(), *step.tau_u.tolist()])
-        with working_precision(EXACT):
-            self.g = springs * shift + (force * self.h + pull) * self.h  # Eq. (1), times h^2
-
-    def with_rows_of(self, other: StepForm | None) -> StepForm:
-        """The form, with the rows that another one has formed if they are the same numbers."""
-        step = self._step
-        if other is not None and (
-            other._step.contacts is step.contacts and other._step.extra is step.extra
-        ):
-            self._factors = other._factors
-            self._rows = other._rows
-            self.inequalities = other.inequalities
-        return self
-
-    @cached_property
-    def inequalities(self) -> tuple[Array, Array]:
-        """A, (m, n) [m] per unit of x, and b, (m,) [m], of Eq. :eq:`eq-8` in float64."""
-        return inequalities(self._step)
-
-    def sizes(self, most: Array) -> Array:
-        """The bound `|phi|` + F R of a contact's rows, (m,) [m]; `most` (n,) bounds x [m, rad].
-
-        R is the largest entry of `|J|` `most`, and more than what underflows in it; F is more than
-        the sum of the sizes of the frame with friction. An entry of a row combines four products of
-        frame and J, with coefficients of at most one: it is off by 3 u of three products summed,
-        2 u of the friction, 4 u of combining them.
-        """
-        contacts = self._step.contacts
-        axes = np.concatenate([contacts.n, contacts.d1, contacts.d2], axis=1)
-        F = (1 + np.abs(axes).sum(axis=1)) * (1 + self._mu.sum(axis=1))
-        R = ((np.abs(contacts.J) + UNDERFLOW) @ most).max(axis=1, initial=0.0) + UNDERFLOW
-        of_rows: Array = (np.abs(contacts.phi) + F * R)[self._contact]
-        extra = self._step.extra
-        if not extra.names:
-            return of_rows
-        return np.concatenate([of_rows, row_sizes(extra.A, extra.b, most)])
-
-    def factors(self, c: int) -> tuple[arb_mat, arb_mat, arb_mat]:
-        """Three exact factors whose product is the rows [a, c] of contact c, or of a user's row.
-
-        The matrix of the cone, the frame with friction, and J with phi, of shapes (R, 4), (4, 5)
-        and (5, n + 1). Of 106 bits or more, the present precision makes the last two exact.
-        """
-        contacts = self._step.contacts
-        if c in self._factors:
-            return self._factors[c]
-        if c >= contacts.n_c:
-            one = arb_mat([[1]])
-            extra = self._step.extra
-            k = c - contacts.n_c
-            self._factors[c] = one, one, exact_matrix(np.append(extra.A[k], -extra.b[k])[None])
-        else:
-            n, d1, d2 = (axis[c].tolist() for axis in (contacts.n, contacts.d1, contacts.d2))
-            mu_1, mu_2, mu_w = map(arb, self._mu[c].tolist())
-            J = np.zeros((5, self.n + 1))
-            J[:4, :-1] = contacts.J[c]
-            J[4, -1] = contacts.phi[c]
-            d1, d2 = [mu_1 * v for v in d1], [mu_2 * v for v in d2]
-            turn = [*n, 0, 1, *d1, 0, 0, *d2, 0, 0, 0, 0, 0, mu_w, 0]
-            combined = _cone_matrix(self._cone.name)
-            self._factors[c] = combined, arb_mat(4, 5, turn), exact_matrix(J)
-        return self._factors[c]
-
-    def exact_rows(self, some: Iterable[int]) -> list[Row]:
-        """Some rows [a, c]: Eq. :eq:`eq-4` combines the four rows of a contact's motion."""
-        rows = []
-        with working_precision(EXACT):
-            for c, kind in (self._places[i] for i in some):
-                if c not in self._rows:
-                    combined, turn, J = self.factors(c)
-                    self._rows[c] = (combined * (turn * J)).tolist()
-                rows.append(self._rows[c][kind])
-        return rows
-
-    def values(self, some: Iterable[int], z: arb_mat) -> list[list[arb]]:
-        """Slacks of some rows at z, from the motion of each contact."""
-        of_contact: dict[int, list[list[arb]]] = {}
-        values = []
-        for c, kind in (self._places[i] for i in some):
-            if c not in of_contact:
-                combined, turn, J = self.factors(c)
-                of_contact[c] = (combined * (turn * (J * z))).tolist()
-            values.append(of_contact[c][kind])
-        return values
-
-    def implied_by_cone(self, working: Sequence[int], some: Iterable[int]) -> list[int]:
-        """Rows that follow from rows of the same contact in W: six rows have rank four."""
-        held: dict[int, tuple[int, ...]] = {}
-        for c, kind in sorted(self._places[i] for i in working):
-            held[c] = (*held.get(c, ()), kind)
-        n_c = self._step.contacts.n_c
-        kinds = {c: _implied_kinds(self._cone.name, of_c) for c, of_c in held.items() if c < n_c}
-        places = ((i, *self._places[i]) for i in some)
-        return [i for i, c, kind in places if c in kinds and kinds[c][kind]]
-
-
 def row_sizes(A: Array, b: Array, most: Array) -> Array:
     """`|a|` `most` + `|b|` of rows of A, (m, n), and b, (m,) [m]; `most` is (n,) [m, rad]."""
     sizes: Array = (np.abs(A) + UNDERFLOW) @ most + np.abs(b)
     return sizes
-
-
-def exact_hessian(hessian: Hessian, of_cost: Array | None = None) -> tuple[arb_mat, ...]:
-    """h^2 K_q; H = h^2 K_q + M_u + h H of a cost; and the inverse of H in balls.
-
-    `of_cost` is the exact H of a user's cost, (n_v, n_v) [N s/m], or None.
-
-    Parameters
-    ----------
-    hessian : Hessian
-    of_cost : ndarray, shape (n_v, n_v), optional [N s/m]
-        H of a user's cost.
-    """
-    n_a = hessian.n_a
-    n = n_a + len(hessian.M_u)
-    parts = np.zeros((3, n, n))
-    parts[0, :n_a, :n_a] = hessian.K_q
-    parts[1, n_a:, n_a:] = hessian.M_u
-    if of_cost is not None:
-        parts[2] = of_cost
-    K_q, M_u, H_cost = map(exact_matrix, parts)
-    with working_precision(EXACT):
-        springs = K_q * (arb(hessian.h) * hessian.h)
-        H = springs + M_u + H_cost * arb(hessian.h)
-    return springs, H, inverse(H)
-
-
-@lru_cache(maxsize=32)
-def _with_cost(hessian: Hessian, of_cost: bytes) -> tuple[arb_mat, ...]:
-    """:func:`exact_hessian` of a cost, cached, because most steps of a run have the same."""
-    n = hessian.n_a + len(hessian.M_u)
-    return exact_hessian(hessian, np.frombuffer(of_cost).reshape(n, n))
-
-
-@lru_cache(maxsize=64)
-def _places(cone_name: str, rows: bytes) -> tuple[Indices, list[tuple[int, int]]]:
-    """For each row its contact, (m,), and its number within the cone's rows."""
-    contact, kind = np.nonzero(row_layout(cone_name, rows).mask)
-    return contact, [*zip(contact.tolist(), kind.tolist(), strict=True)]
-
-
-@lru_cache(maxsize=32)
-def _cone_matrix(cone_name: str) -> arb_mat:
-    return exact_matrix(cone(cone_name).matrix)
-
-
-@lru_cache(maxsize=1024)
-def _implied_kinds(cone_name: str, held: tuple[int, ...]) -> list[bool]:
-    """Rows of any contact that follow from its independent rows `held`."""
-    numbers = [whole_numbers(row) for row in _cone_matrix(cone_name).tolist()]
-    return implied([numbers[kind] for kind in held], numbers)
 
 
 def inverse(H: arb_mat, bits: int = PRECISION) -> arb_mat:
@@ -606,3 +416,52 @@ def _eliminated(rows: Sequence[Sequence[fmpz]]) -> tuple[list[list[fmpz]], fmpz,
     matrix = fmpz_mat(len(rows), len(rows[0]), [v for row in rows for v in row])
     reduced, denominator, rank = matrix.transpose().rref()
     return reduced.transpose().tolist(), denominator, rank
+
+
+def sums(held: Sequence[Sequence[fmpz]], rows: Sequence[Sequence[fmpz]]) -> list[bool]:
+    """Which rows are exactly linear combinations of the independent rows `held`.
+
+    Most of the others are shown by a prime. It names few of those held as the terms of a sum, and
+    elimination of these in whole numbers proves it.
+    """
+    supports = supports_modulo(held, rows)
+    if supports is None:
+        return implied(held, rows)
+    answer = [False] * len(rows)
+    of_terms: dict[tuple[int, ...], list[int]] = {}
+    for place, support in enumerate(supports):
+        if support is not None:
+            of_terms.setdefault(tuple(support), []).append(place)
+    for terms, places in of_terms.items():
+        for some in ([held[j] for j in terms], held):
+            says = implied(some, [rows[place] for place in places])
+            if all(says):
+                break
+        for place, is_sum in zip(places, says, strict=True):
+            answer[place] = is_sum
+    return answer
+
+
+def sums_of_halves(form: ExactForm, held: Sequence[int], some: Sequence[int]) -> list[int]:
+    """Those of some rows [a, c] that are sums of rows `held`, each some halves of times: exactly.
+
+    Most rows of a face's fourth corner are. Float64 guesses how many halves, so that a row that is
+    not named may be such a sum, too.
+    """
+    A, _ = form.inequalities
+    A_W = A[[*held]]
+    with np.errstate(all="ignore"):
+        try:
+            halves = np.rint(2 * np.linalg.solve(A_W @ A_W.T, A_W @ A[some].T).T) / 2
+        except np.linalg.LinAlgError:
+            return []
+        off = np.abs(halves @ A_W - A[some]).max(axis=1)
+        near = off <= ROUNDING * np.abs(A_W).max()
+    guessed = [*compress(some, near.tolist())]
+    if not guessed:
+        return []
+    rows = columns(form.exact_rows([*held, *guessed]), slice(0, form.n + 1))
+    with working_precision(EXACT):
+        left = exact_matrix(np.hstack([halves[near], -np.eye(len(guessed))])) * rows
+    zero = (all(v.is_zero() for v in row) for row in left.tolist())
+    return [*compress(guessed, zero)]

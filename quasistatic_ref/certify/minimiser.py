@@ -29,8 +29,9 @@ from quasistatic_ref.certify.form import (
     ExactForm,
     combination,
     fraction,
-    implied,
     null_space,
+    sums,
+    sums_of_halves,
     whole_numbers,
 )
 from quasistatic_ref.certify.working_set import (
@@ -106,6 +107,8 @@ class Relation:
         return self.exact[j]
 
 
+SMALL: Final = 6
+"""Rows of a working set up to which all it implies takes less time than a guess."""
 LARGE: Final = 32
 """Rows of a working set above which finer balls and a prime come before whole numbers, whose cost
 grows by the fifth power."""
@@ -337,12 +340,14 @@ class Minimiser:
         if not some:
             return []
         if self.is_large:
-            implied_rows = self._sums(self.form.whole_rows(some))
-        else:
+            return [*compress(some, self._sums(self.form.whole_rows(some)))]
+        shown = sums_of_halves(self.form, self.working, some) if len(self.working) > SMALL else []
+        others = [i for i in some if i not in shown]
+        if others:
             with working_precision(EXACT):
-                values = self.form.values(some, arb_mat(self.null_space))
-            implied_rows = [all(v.is_zero() for v in row) for row in values]
-        return [*compress(some, implied_rows)]
+                values = self.form.values(others, arb_mat(self.null_space))
+            shown += compress(others, (all(v.is_zero() for v in row) for row in values))
+        return shown
 
     def _sums(self, rows: Sequence[Sequence[fmpz]]) -> list[bool]:
         """Which rows of whole numbers are sums of rows of W, by a prime: for many rows."""
@@ -490,27 +495,3 @@ def _chosen(where: Sequence[bool], here: Sequence[arb], elsewhere: Sequence[arb]
 def _sign(ball: arb) -> int:
     """The sign of the numbers in a ball, 0 if they differ in sign, or of an exact number."""
     return int(ball > 0) - int(ball < 0)
-
-
-def sums(held: Sequence[Sequence[fmpz]], rows: Sequence[Sequence[fmpz]]) -> list[bool]:
-    """Which rows are exactly linear combinations of the independent rows `held`.
-
-    Most of the others are shown by a prime. It names few of those held as the terms of a sum, and
-    elimination of these in whole numbers proves it.
-    """
-    supports = supports_modulo(held, rows)
-    if supports is None:
-        return implied(held, rows)
-    answer = [False] * len(rows)
-    of_terms: dict[tuple[int, ...], list[int]] = {}
-    for place, support in enumerate(supports):
-        if support is not None:
-            of_terms.setdefault(tuple(support), []).append(place)
-    for terms, places in of_terms.items():
-        for some in ([held[j] for j in terms], held):
-            says = implied(some, [rows[place] for place in places])
-            if all(says):
-                break
-        for place, is_sum in zip(places, says, strict=True):
-            answer[place] = is_sum
-    return answer

@@ -18,16 +18,18 @@ import numpy as np
 from quasistatic_ref.certify.active_set import Combination, dual_active_set
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
-from quasistatic_ref.certify.form import ExactForm, StepForm
+from quasistatic_ref.certify.form import ExactForm
 from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.certify.minimiser import LARGE
 from quasistatic_ref.certify.norm import Parts, check_length
 from quasistatic_ref.certify.refined import BearingRows
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
 from quasistatic_ref.parts import part as optional_part
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.standard_form import own_inequalities
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,6 +140,7 @@ def optimum_by_groups(
     parts: Parts,
     starts: Sequence[Sequence[int]],
     proofs: ProofCache | None = None,
+    own: tuple[Array, Array] | None = None,
 ) -> ExactOptimum:
     """The exact optimum of a step, computed group by group, without a limit on its length.
 
@@ -148,19 +151,23 @@ def optimum_by_groups(
         Its groups.
     starts : sequence of sequence of int
         Of each group, counted in it: rows that a solver found active.
-    proofs : Proofs, optional
+    proofs : ProofCache, optional
         Those of the step before; they become those of this step.
+    own : (ndarray, ndarray), optional
+        The step's ``own_inequalities``, where they are known.
 
     Raises
     ------
     StepInfeasible
     """
     proofs = ProofCache() if proofs is None else proofs
+    A, b = own_inequalities(step) if own is None else own
     optima: list[tuple[Group, ExactOptimum]] = []
     for i, ((group, part), start) in enumerate(zip(parts, starts, strict=True)):
         optimum = proofs.kept(i, part, start)
         if optimum is None:
-            form = proofs.form(i, part)
+            rows = group.rows
+            form = proofs.form(i, part, (A[rows[: part.offsets[-1]]], b[rows]))
             end = form_optimum(form, start)
             if isinstance(end, Combination):
                 raise StepInfeasible(step, farkas_vector(step, form, end, group.rows))
@@ -201,9 +208,9 @@ class ProofCache:
         self._last: dict[int, tuple[StepData, list[int], ExactOptimum]] = {}
         self._forms: dict[int, StepForm] = {}
 
-    def form(self, i: int, part: StepData) -> StepForm:
+    def form(self, i: int, part: StepData, own: tuple[Array, Array]) -> StepForm:
         """The exact program of group i: with the rows of the last step's, if they are the same."""
-        self._forms[i] = form = StepForm(part).with_rows_of(self._forms.get(i))
+        self._forms[i] = form = StepForm(part, own).with_rows_of(self._forms.get(i))
         return form
 
     def kept(self, i: int, part: StepData, start: Sequence[int]) -> ExactOptimum | None:

@@ -22,9 +22,10 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.curved_cone import curved_cone
 from quasistatic_ref.certify.degeneracy import Degeneracy, degeneracy, joined_degeneracy
-from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
+from quasistatic_ref.certify.form import EXACT, ExactForm
 from quasistatic_ref.certify.groups import flat_rows, group_steps, row_owners
 from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.certify.working_set import KktPoint, fraction_point
 from quasistatic_ref.errors import InputError, check_kind

@@ -18,14 +18,7 @@ from typing import NamedTuple, cast
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz, fmpz_mat, nmod_mat
 
-from quasistatic_ref.certify.form import (
-    EXACT,
-    UNIT,
-    ExactForm,
-    Row,
-    columns,
-    fraction,
-)
+from quasistatic_ref.certify.form import EXACT, UNIT, ExactForm, Row, columns, fraction
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.modulo import PRIME
 from quasistatic_ref.numbers.precision import working_precision

@@ -6,8 +6,8 @@ from fractions import Fraction
 from pathlib import Path
 
 from quasistatic_ref.certify.failures import StepInfeasible
-from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.groups import flat_rows
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.certify.working_set import fraction_point
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.active_set import basic_rows, warm_rows
+from quasistatic_ref.certify.active_set import basic_rows, third_pair_rows, warm_rows
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.degeneracy import Degeneracy, step_degeneracy
 from quasistatic_ref.certify.failures import StepNotSolved
@@ -46,6 +46,8 @@ ExtendedStep = Callable[
 ROWS_AT_ONCE = 100
 """Most rows of which a start is chosen from all groups at once, and not from each. Where lam is not
 unique, the start decides on it; that of small scenes is in committed runs."""
+LEAST = 2.0**-1022
+"""What bears less than float64 shows [-]."""
 WITHIN_RANGE = 1e100
 """Far below the square root of float64's largest number."""
 NOTHING_CLAIMED = Certificate("none")
@@ -246,7 +248,9 @@ def proved_solution(
     optimum: Enclosed | ExactOptimum | None
     if cone(step.cone).polyhedral:
         begins = starting_rows(scaled, solver, claimed, start)
-        optimum = optimum_by_groups(step, scaled.groups, begins, solver.proofs)
+        optimum = optimum_by_groups(
+            step, scaled.groups, begins, solver.proofs, scaled.own_inequalities
+        )
     else:
         check_arithmetic()  # a backend may have changed it
         optimum = curved_cone(step).optimum(step, None if claimed is None else answer)
@@ -293,6 +297,9 @@ def starting_rows(
         return [group.within(start) for group in groups]
     x, y = claimed.answer
     if solver.basic:
+        moved = scaled.units.coordinate * x
+        y = y.copy()
+        y[third_pair_rows(scaled.step, scaled.own_inequalities[0], moved, y)] = LEAST
         return [basic_rows(y[group.rows]) for group in groups]
     if len(groups) > 1 and scaled.step.m <= ROWS_AT_ONCE:
         form = scaled.natural

@@ -228,7 +228,7 @@ class ScaledStep:
         return standard_form(self.step)
 
     @cached_property
-    def _own_inequalities(self) -> tuple[Array, Array]:
+    def own_inequalities(self) -> tuple[Array, Array]:
         """A of the contacts by their own columns, (m_c, w), and b of all rows, (m,) [m]."""
         return own_inequalities(self.step)
 
@@ -241,7 +241,7 @@ class ScaledStep:
     def squared_lengths(self) -> Array:
         """Squared lengths of the rows of A S, shape (m,) [m^2/(N m s)]."""
         H = self.layout.natural_hessian_of(self.step)
-        squares = squared_lengths(self._own_inequalities[0], H.own_unit)
+        squares = squared_lengths(self.own_inequalities[0], H.own_unit)
         extra = self.step.extra
         return np.append(squares, squared_lengths(extra.A, H.unit)) if extra.names else squares
 
@@ -255,7 +255,7 @@ class ScaledStep:
             If products of its numbers leave the range of float64.
         """
         natural = self.layout.natural_hessian_of(self.step)
-        A, b = self._own_inequalities
+        A, b = self.own_inequalities
         if self.step.extra.names:
             free_length = float(natural.free_lengths(self._g))
             sizes = sizes_of(self.squared_lengths, b, free_length)
@@ -270,7 +270,7 @@ class ScaledStep:
         """A step from the same place under other targets or loads: it differs in g alone."""
         other = ScaledStep(step, layout=self.layout)
         other.__dict__.update(
-            _own_inequalities=self._own_inequalities, squared_lengths=self.squared_lengths,
+            own_inequalities=self.own_inequalities, squared_lengths=self.squared_lengths,
             _finer=self._finer, _place=self,
         )  # fmt: skip
         return other
@@ -283,7 +283,7 @@ class ScaledStep:
     @property
     def deepest(self) -> float:
         """The largest b of a row, and at least 0 [m]."""
-        return float(self._own_inequalities[1].max(initial=0.0))
+        return float(self.own_inequalities[1].max(initial=0.0))
 
     @cached_property
     def natural(self) -> StandardForm:
@@ -296,7 +296,7 @@ class ScaledStep:
         return self._programs(self.layout)
 
     def _programs(self, layout: GroupLayout) -> Programs:
-        return layout.programs(self.step, *self._own_inequalities, self._g, self.units)
+        return layout.programs(self.step, *self.own_inequalities, self._g, self.units)
 
     @cached_property
     def _finer(self) -> GroupLayout:
@@ -310,7 +310,10 @@ class ScaledStep:
         """The groups of the step, each as a step of its own in SI units."""
         step = self.step
         if self._place is None:
-            return [(group, group_step(step, group)) for group in self._finer.groups]
+            first, *others = self._finer.groups
+            if not others:
+                return [(first, step)]
+            return [(group, group_step(step, group)) for group in (first, *others)]
         parts = []
         for group, part in self._place.groups:
             a = group.coordinates[: part.n_a]

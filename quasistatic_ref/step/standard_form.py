@@ -84,9 +84,16 @@ def standard_form(step: StepData) -> StandardForm:
     return StandardForm(step.H, linear_term(step), A, b)
 
 
-def inequalities(step: StepData) -> tuple[Array, Array]:
-    """A, shape (m, n_v), and b, shape (m,), of Eq. :eq:`eq-8` and of the user's rows."""
-    own, b = own_inequalities(step)
+def inequalities(step: StepData, known: tuple[Array, Array] | None = None) -> tuple[Array, Array]:
+    """A, shape (m, n_v), and b, shape (m,), of Eq. :eq:`eq-8` and of the user's rows.
+
+    Parameters
+    ----------
+    step : StepData
+    known : (ndarray, ndarray), optional
+        Its :func:`own_inequalities`, where they are known.
+    """
+    own, b = own_inequalities(step) if known is None else known
     column = np.repeat(step.contacts.column, step.counts, axis=0)
     A = spread(own[:, None], column, step.n_v)[:, 0]
     return np.concatenate([A, step.extra.A]) if step.extra.names else A, b

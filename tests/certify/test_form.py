@@ -7,8 +7,9 @@ import pytest
 from flint import arb
 
 from quasistatic_ref import Extra
-from quasistatic_ref.certify.form import StepForm, exact_matrix, inverse, whole_numbers
+from quasistatic_ref.certify.form import exact_matrix, inverse, whole_numbers
 from quasistatic_ref.certify.form import fraction as exact
+from quasistatic_ref.certify.step_form import StepForm
 from tests.helpers import changed, random_step
 
 

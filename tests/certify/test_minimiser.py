@@ -5,8 +5,9 @@ import itertools
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.form import StepForm, implied, independent_rows
+from quasistatic_ref.certify.form import implied, independent_rows
 from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.certify.working_set import UpdatedInverse, ball_point
 from tests.helpers import resting_point
 from tests.oracles.forms import exact_form_of

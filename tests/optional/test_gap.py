@@ -9,7 +9,7 @@ import pytest
 from flint import arb, fmpq
 
 from quasistatic_ref import solve_step
-from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.tolerances import IMPULSES

@@ -4,8 +4,8 @@ from quasistatic_ref import StepIllPosed, StepInfeasible
 from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.degeneracy import form_degeneracy, step_degeneracy
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.optimum import form_optimum, step_optimum
+from quasistatic_ref.certify.step_form import StepForm
 from tests.made import bits
 
 SAME = ("delta_q", "net")

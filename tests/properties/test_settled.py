@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref import StepInfeasible, solve_step
 from quasistatic_ref.certify.active_set import dual_active_set
-from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.step_form import StepForm
 from tests.cases import first
 from tests.made import bits, infeasible_text, solution_text, step_text
 from tests.oracles.settled_scenes import KINDS, settled_step

@@ -12,11 +12,12 @@ import numpy as np
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.curved_cone import CurvedCone
-from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
+from quasistatic_ref.certify.form import ExactForm, fraction
 from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.minimiser import rounded_quotients
 from quasistatic_ref.certify.norm import error_length, norm_of, single_loads
 from quasistatic_ref.certify.residuals import largest
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.numbers.arrays import Array, Mask, without_warnings
 from quasistatic_ref.numbers.precision import nearest_fraction, working_precision

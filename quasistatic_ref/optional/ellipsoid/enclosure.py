@@ -16,9 +16,10 @@ from typing import Final, TypeAlias
 import numpy as np
 from flint import arb, arb_mat, fmpq
 
-from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm, exact_matrix, fraction
+from quasistatic_ref.certify.form import EXACT, ExactForm, exact_matrix, fraction
 from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.minimiser import rounded_quotients
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.apex import apex

@@ -17,7 +17,7 @@ import numpy as np
 from flint import arb
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.enclosure import (

@@ -14,8 +14,9 @@ from flint import arb, arb_mat
 from quasistatic_ref.certify.active_set import Combination, dual_active_set
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
-from quasistatic_ref.certify.form import EXACT, MatrixForm, Row, StepForm, columns
+from quasistatic_ref.certify.form import EXACT, MatrixForm, Row, columns
 from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.forces.faces import Rows, face, nearest_face
@@ -60,9 +61,7 @@ class EliminatedStep:
         self.step = step
         self.form = StepForm(step)
         self.compliance = arb(compliance)
-        factors = map(self.form.factors, range(step.contacts.n_c))
-        with working_precision(EXACT):
-            self.z = [turn * J for _, turn, J in factors]
+        self.z = [*map(self.form.motion, range(step.contacts.n_c))]
         self.extra_rows = self.form.exact_rows(range(int(step.offsets[-1]), step.m))
 
     def candidate(self, faces: Sequence[Rows]) -> Candidate:

@@ -39,11 +39,12 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.certify.active_set import dual_active_set
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.failures import StepInfeasible, StepNotSolved
-from quasistatic_ref.certify.form import EXACT, MatrixForm, StepForm, columns, exact_matrix
+from quasistatic_ref.certify.form import EXACT, MatrixForm, columns, exact_matrix
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.optimum import ExactOptimum, step_optimum
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, checked_numbers, without_warnings
 from quasistatic_ref.numbers.precision import working_precision

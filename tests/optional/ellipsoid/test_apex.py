@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.optional.ellipsoid.apex import apex
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 from tests.made import contacts_of, free_step

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from flint import arb_mat
 
-from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.optional.ellipsoid.enclosure import checked
 from quasistatic_ref.optional.ellipsoid.interior import Pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks

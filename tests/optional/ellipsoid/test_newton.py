@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Certificate, solve_step, verify, verify_answer
-from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.lab.made_steps.slider import push, push_step
 from quasistatic_ref.optional.ellipsoid.enclosure import GAP, RESERVE, checked_pair, enclosure
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks

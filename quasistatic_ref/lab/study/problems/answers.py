@@ -5,10 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.certify.failures import StepInfeasible
-from quasistatic_ref.certify.form import ExactForm, StepForm
+from quasistatic_ref.certify.form import ExactForm
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.optimum import optimum_by_groups
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.lab.made_steps.rigid import program_step
 from quasistatic_ref.lab.study.problems.problem import EXACT, Answer
 from quasistatic_ref.numbers.arrays import Array
