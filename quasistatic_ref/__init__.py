@@ -66,7 +66,7 @@ _HOMES = {
     "optional.show.figures.animation": "animate",
     "optional.show.figures.draw": "draw_scene draw_scenes",
     "optional.show.figures.viewer": "save_view",
-    "optional.doctor.motions": "relative_turn",
+    "simulate.motions": "relative_turn",
     # What can go wrong.
     "errors": "QuasistaticError InputError MissingKey StepDataError ModelError ContactError "
     "ScenarioError BackendError",
@@ -182,7 +182,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     )
     from quasistatic_ref.simulate.finding import Finding as Finding
     from quasistatic_ref.simulate.limits import Limits as Limits
-    from quasistatic_ref.optional.doctor.motions import relative_turn as relative_turn
+    from quasistatic_ref.simulate.motions import relative_turn as relative_turn
     from quasistatic_ref.simulate.observer import Observer as Observer
     from quasistatic_ref.simulate.recorder import Recorder as Recorder
     from quasistatic_ref.simulate.result import StepResult as StepResult

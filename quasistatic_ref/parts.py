@@ -63,7 +63,7 @@ PARTS: Final = {
     "stands_after": ("stands", "optional.stands.after:stands_after"),
     "doctor": ("strict", "optional.doctor.observer:Doctor"),
     "scene_findings": ("findings", "optional.doctor.checks:scene_findings"),
-    "finding_names": ("findings", "optional.doctor.names:NAMES"),
+    "finding_names": ("findings", "optional.doctor.texts:NAMES"),
     # Of pages and tables.
     "page_text": ("a page", "optional.show.pages:text"),
     "page_html": ("a page", "optional.show.pages:html"),

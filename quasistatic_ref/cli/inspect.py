@@ -108,7 +108,7 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
     record |= {"findings": [], "not_looked_at": ""}
     if is_there("doctor"):
         from quasistatic_ref.optional.doctor import checks
-        from quasistatic_ref.optional.doctor.start import Start
+        from quasistatic_ref.optional.doctor.frame.start import Start
 
         q = scenario.system.q_start
         force = None if scenario.force is None else scenario.force(0.0, q)

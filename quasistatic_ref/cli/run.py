@@ -123,19 +123,20 @@ def run(options: argparse.Namespace) -> int:
         written.append(view)
     numbers: Mapping[str, Any] = {}
     if is_there("doctor"):
-        from quasistatic_ref.optional.doctor import telling
+        from quasistatic_ref.optional.doctor.did import lines
+        from quasistatic_ref.optional.doctor.did import numbers as did
 
-        numbers = telling.numbers_of(trajectory, scenario)
+        numbers = did.numbers_of(trajectory, scenario)
     if options.json:
         shared.print_json(summary | {"numbers": numbers})
     else:
         _print(summary)
         if numbers:
-            print(_artifacts(trajectory.header, telling.least_artifacts(trajectory, scenario)))
-            for line in telling.lines(numbers, options.numbers):
+            print(_artifacts(trajectory.header, did.least_artifacts(trajectory, scenario)))
+            for line in lines.lines(numbers, options.numbers):
                 shared.print_wrapped(line, "    ")
             if options.numbers:
-                shared.print_rows(telling.pair_rows(numbers))
+                shared.print_rows(lines.pair_rows(numbers))
         times = summary["milliseconds_per_step"].items()
         if times:
             print(f"ms per step: {', '.join(f'{stage} {ms:.2f}' for stage, ms in times)}")
@@ -281,4 +282,5 @@ def _artifacts(header: Header, least: tuple[float, float]) -> str:
     layer = header.largest_boundary_layer or 0.0
     layer = 1e6 * layer if layer > least[1] else 0.0
     drag = f"largest quasi-dynamic number (drag over friction): {number}"
+    drag += getattr(header, "drag", "") if known else ""  # of a run that is at hand
     return f"{drag}; largest boundary layer: {layer:.3g} um"

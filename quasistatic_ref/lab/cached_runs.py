@@ -4,7 +4,7 @@ from functools import cache
 
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.lab.grasp import CASES, lift_motion
-from quasistatic_ref.optional.doctor.motions import LinkMotion
+from quasistatic_ref.simulate.motions import LinkMotion
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 

@@ -23,7 +23,7 @@ from quasistatic_ref.files.trajectory import load_trajectory, save_trajectory
 from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.parallel import workers as workers_here
-from quasistatic_ref.optional.doctor.telling import by_name, numbers_of
+from quasistatic_ref.optional.doctor.did.numbers import by_name, numbers_of
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -285,7 +285,7 @@ def outcomes(trajectory: Trajectory, scenario: Scenario) -> dict[str, float | No
     Returns
     -------
     dict
-        Numbers of its bodies, joints and pairs, :func:`.telling.by_name`, ``boundary_layer_um``,
+        Numbers of its bodies, joints and pairs, :func:`.numbers.by_name`, ``boundary_layer_um``,
         ``quasi_dynamic_number``, ``steps`` and ``exact`` (share of steps certified exactly).
     """
     Pi = trajectory.header.quasi_dynamic_number

@@ -40,7 +40,7 @@ class Header(Plain):
         Why the run ended early.
     quasi_dynamic_number, largest_boundary_layer : float or None
         The largest Pi of a step [-] and boundary layer [m], see
-        :mod:`~quasistatic_ref.optional.doctor.artifacts`; None without that part.
+        :mod:`~quasistatic_ref.optional.doctor.did.artifacts`; None without that part.
     contacts : tuple of tuple of str
         Names of the contacts in each step of a full record.
     findings : tuple of Finding

@@ -26,11 +26,18 @@ def text(name):
     return (ROOT / name).read_text("utf-8")
 
 
+CALLS = {"Finding", "_finding", "finding"}
+
+
 def names_of_findings(folder):
     """The names that code gives to findings: words in the first argument, or of a helper."""
     for path in (PACKAGE / "optional" / folder).rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            if isinstance(node, ast.Call) and ast.unparse(node.func) in {"Finding", "_finding"}:
+            if isinstance(node, ast.Call) and ast.unparse(node.func) in {
+                "Finding",
+                "_finding",
+                "finding",
+            }:
                 words = (n.value for n in ast.walk(node.args[0]) if isinstance(n, ast.Constant))
                 yield from filter(lambda word: isinstance(word, str), words)
 

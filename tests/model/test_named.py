@@ -7,7 +7,7 @@ import quasistatic_ref as qr
 from quasistatic_ref import ModelError
 from quasistatic_ref.lab.made_steps.systems import RAIL
 from quasistatic_ref.model.rotation import quaternion, rotation
-from quasistatic_ref.optional.doctor.measures import measures
+from quasistatic_ref.optional.doctor.did.numbers import numbers_of
 from tests.closeness import assert_same, assert_within
 
 BLOCK = qr.Body.of_shape("block", qr.Box((0.1, 0.2, 0.3)), 2.0, xyz=(0.5, 0, 0.3))
@@ -140,15 +140,12 @@ def test_a_name_with_a_space_moves_its_own_joint():
     run = qr.rollout(simulator, system.q_start, {"arm/left": 0.5}, 3)
     assert_within(run.q[-1], [0.5, 0.2], 1e-15)
     assert [system.of(system.q_start, name) for name in stiffness] == [0.1, 0.2]
-    assert [drive.of.name for drive in measures(run, simulator).drives] == [
-        "arm/left",
-        "arm/left knee",
-    ]
+    assert [*numbers_of(run, simulator)["joints"]] == ["arm/left", "arm/left knee"]
     wheel = qr.System([qr.Body("arm", arm("left [knee]", kind="continuous"), actuated="all")])
     assert wheel.of(wheel.q_start, "arm/left [knee].cos") == 1.0
     turned = qr.Simulator(wheel, [], h=0.01, K_q=100.0)
     run = qr.rollout(turned, wheel.q_start, {"arm/left [knee]": 0.5}, 2)
-    assert measures(run, turned).drives[0].of.name == "arm/left [knee]"
+    assert [*numbers_of(run, turned)["joints"]] == ["arm/left [knee]"]
 
 
 MUG = {"xyz": (0, 0, 0.3)}

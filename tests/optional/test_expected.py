@@ -21,7 +21,7 @@ from quasistatic_ref.optional.compiled import leaves
 from quasistatic_ref.optional.coulomb import fixed_point
 from quasistatic_ref.optional.curved import by_coal, clouds_by_coal, rims, ways_out
 from quasistatic_ref.optional.daqp import bearing_rows, default, solver
-from quasistatic_ref.optional.doctor import checks, names, observer
+from quasistatic_ref.optional.doctor import checks, observer, texts
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 from quasistatic_ref.optional.extensions import by_function, extended, of_scenario
 from quasistatic_ref.optional.forces import forces
@@ -80,7 +80,7 @@ class Expected:
     stands_after: StandsAfter = after.stands_after
     doctor: WatchingDoctor = observer.Doctor
     scene_findings: SceneFindings = checks.scene_findings
-    finding_names: frozenset[str] = names.NAMES
+    finding_names: frozenset[str] = texts.NAMES
     page_text: Page = pages.text
     page_html: Page = pages.html
     step_table: Table = table.data_frame

@@ -7,7 +7,7 @@ from quasistatic_ref.lab.cached_runs import grasp, lift
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, comparison, within
 from quasistatic_ref.lab.figures.clouds import is_held, margin, rows
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, rotations
-from quasistatic_ref.optional.doctor.tolerances import BEARS
+from quasistatic_ref.optional.doctor.frame.tolerances import BEARS
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.tolerances import CLOSED_FORM
 

@@ -2,25 +2,30 @@
 
 import sys
 from collections.abc import Sequence
-from dataclasses import fields, replace
-from functools import cached_property
+from contextlib import suppress
+from dataclasses import replace
+from functools import cached_property, partial
 from typing import Any, Self
 
 import numpy as np
 
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.optional.doctor.artifacts import boundary_layer, gives, quasi_dynamic_number
+from quasistatic_ref.optional.doctor.added import largest_drag
 from quasistatic_ref.optional.doctor.checks import (
     NO_STEPS,
     OF_RUN,
     OF_SCENE,
-    Check,
     looked,
 )
-from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Start
-from quasistatic_ref.optional.doctor.undecided import failure
+from quasistatic_ref.optional.doctor.did.artifacts import (
+    boundary_layer,
+    gives,
+    quasi_dynamic_number,
+)
+from quasistatic_ref.optional.doctor.frame.run import Run
+from quasistatic_ref.optional.doctor.frame.start import Start
+from quasistatic_ref.optional.doctor.frame.undecided import failure
 from quasistatic_ref.simulate.finding import Finding, told
 from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.observer import Observer, Recording
@@ -86,13 +91,12 @@ class Doctor(Observer):
         if not lost:
             del known["findings"], known["not_looked_at"]
             header = LateHeader.unchecked(**known, at=at)
-        if not self.printed:
-            return replace(trajectory, header=header)
-        trajectory = replace(trajectory, header=Header(**field_values(header)))
-        for line in told(trajectory.findings, trajectory.ignored_findings):
-            print(f"quasistatic-ref: {line}", file=sys.stderr)
-        if header.not_looked_at:
-            print(f"quasistatic-ref: not looked at: {header.not_looked_at}", file=sys.stderr)
+        trajectory = replace(trajectory, header=header)
+        if self.printed:
+            lines = [*told(trajectory.findings, trajectory.ignored_findings)]
+            lines += [f"not looked at: {header.not_looked_at}"] * bool(header.not_looked_at)
+            for line in lines:
+                print(f"quasistatic-ref: {line}", file=sys.stderr)
         return trajectory
 
 
@@ -118,6 +122,7 @@ class LateHeader(Header):
     """
 
     at: Start
+    __qualname__ = "Header"  # as which it is shown
 
     @classmethod
     def compared_as(cls) -> type:
@@ -125,44 +130,31 @@ class LateHeader(Header):
         return Header
 
     def with_fields(self, **changes: Any) -> Self:
-        """A copy with some fields replaced, whose findings are as late."""
-        late = {"findings", "not_looked_at"}
-        kept = {
-            field.name: getattr(self, field.name)
-            for field in fields(Header)
-            if field.name not in late
-        }
-        return self.unchecked(**kept | changes, at=self.at)
+        """A copy with some fields replaced, which looks no second time."""
+        return self.unchecked(**vars(self) | changes)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _header, (field_values(self),)
+        return partial(Header, **field_values(self)), ()
 
     @cached_property
-    def _diagnosis(self) -> tuple[tuple[Finding, ...], str]:
+    def _looked(self) -> tuple[list[Finding], str]:
         """The findings, and the checks that were not made."""
-        return _looked_for(self.at, self.failed is not None)
+        of_run = NO_STEPS if self.failed is None else ()
+        return looked(OF_SCENE + (OF_RUN if isinstance(self.at, Run) else of_run), self.at)
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
         """The field of :class:`Header` of this name, computed when it is first read."""
-        return self._diagnosis[0]
+        return tuple(self._looked[0])
 
     @cached_property
     def not_looked_at(self) -> str:
         """The field of :class:`Header` of this name, computed when it is first read."""
-        return self._diagnosis[1]
+        return self._looked[1]
 
-
-def _header(values: dict[str, Any]) -> Header:
-    return Header(**values)
-
-
-def _looked_for(at: Start, failed: bool) -> tuple[tuple[Finding, ...], str]:
-    """The findings at the end of a run, and the checks that were not made."""
-    checks: tuple[Check, ...] = OF_SCENE
-    if isinstance(at, Run):
-        checks += OF_RUN
-    elif not failed:
-        checks += NO_STEPS
-    found, skipped = looked(checks, at)
-    return tuple(found), skipped
+    @property
+    def drag(self) -> str:
+        """The drag of the pair in which it is most: ``; drag about 0.5 of 2.46 N at push``."""
+        with suppress(Exception):  # it costs the words, and not the run
+            return largest_drag(self.at) if isinstance(self.at, Run) else ""
+        return ""

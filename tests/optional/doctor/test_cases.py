@@ -4,6 +4,7 @@ import copy
 import tomllib
 from pathlib import Path
 
+import mujoco
 import pytest
 
 from quasistatic_ref import (
@@ -14,6 +15,7 @@ from quasistatic_ref import (
     RunFailed,
     Sphere,
     load_scenario,
+    mujoco_scenario,
 )
 from tests.optional.doctor.mistake_scenes import GRAVE
 
@@ -39,15 +41,18 @@ def in_the_folder(monkeypatch):
     monkeypatch.chdir(HERE)
 
 
-def scene_of(scene, changes=(), **more):
-    """The scenario of a case, whose simple bodies are made here."""
-    tables = {"fast": True, "solver": UNPROVED} | copy.deepcopy(scene) | more
+def made(case, changes=(), **more):
+    """The scenario of a case, whose simple bodies are made here, or of a scene of MuJoCo."""
+    tables = {"fast": True, "solver": UNPROVED} | copy.deepcopy(case.get("scene", case)) | more
     for key, value in dict(changes).items():
         *path, last = key.split(".")
         inner = tables
         for part in path:
             inner = inner[part]
         inner[last] = value
+    if "mjcf" in tables:
+        model = mujoco.MjModel.from_xml_string(tables["mjcf"])
+        return mujoco_scenario(model, **{"h": 0.01, "steps": 1} | tables.get("with", {}))
     for body in tables["bodies"].values():
         kind, *sizes = body["urdf"].split()
         if sizes:
@@ -67,7 +72,7 @@ def found(scenario):
 @pytest.mark.parametrize("case", CASES)
 def test_what_is_said_is_right_by_hand(case):
     """A remedy that is applied ends what asked for it."""
-    scenario, hand = scene_of(case["scene"]), case["hand"]
+    scenario, hand = made(case), case["hand"]
     findings = scenario.findings() if "before" in case else found(scenario)
     said = {one.name: one for one in findings}
     assert said.keys() == hand.keys()
@@ -76,7 +81,11 @@ def test_what_is_said_is_right_by_hand(case):
         assert one.sentence.startswith(one.cause)
     for name, numbers in hand.items():
         for key, value in numbers.items():
-            if isinstance(value, str):  # words of the cause, or of the remedy
+            if key == "each":  # words of each sentence
+                sentences = [one.sentence for one in findings if one.name == name]
+                assert len(sentences) == len(value)
+                assert all(any(word in each for each in sentences) for word in value)
+            elif isinstance(value, str):  # words of the cause, or of the remedy
                 texts = [getattr(one, key) for one in findings if one.name == name]
                 assert [text for text in texts if value in text], f"not in the {key} of {texts}"
             else:
@@ -86,13 +95,15 @@ def test_what_is_said_is_right_by_hand(case):
     for remedy, changes in case.get("after", {}).items():
         mended = {one.name for one in findings if one.remedy == remedy}
         assert mended
-        assert mended.isdisjoint(one.name for one in found(scene_of(case["scene"], changes)))
+        assert mended.isdisjoint(one.name for one in found(made(case, changes)))
 
 
-@pytest.mark.parametrize("case", [one for one in CASES if "before" not in one.values[0]])
+@pytest.mark.parametrize(
+    "case", [one for one in CASES if {"before", "mjcf"}.isdisjoint(one.values[0])]
+)
 def test_what_does_not_stand_lacks_what_is_right_by_hand(case):
     """Bodies that are named do not stand after a step; where none is, all do after the last one."""
-    scenario = scene_of(case["scene"])
+    scenario = made(case)
     try:
         run = scenario.run(progress=False, findings=False)
     except RunFailed as failure:
@@ -109,9 +120,9 @@ def test_what_does_not_stand_lacks_what_is_right_by_hand(case):
 def test_findings_do_not_depend_on_the_backend(what):
     """Contacts share loads in many ways, and backends differ in theirs."""
     (case,) = [case for case in ROWS if case["what"].startswith(what)]
-    run = scene_of(case["scene"]).run(progress=False)
+    run = made(case).run(progress=False)
     for backend in ("clarabel", "osqp", "none"):
-        proved = scene_of(case["scene"], fast=False, solver={"backend": backend})
+        proved = made(case, fast=False, solver={"backend": backend})
         other = proved.run(progress=False)
         assert other.header.not_looked_at == run.header.not_looked_at == ""
         said = {one.name: one for one in other.findings}

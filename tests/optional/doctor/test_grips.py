@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.optional.doctor.start import least_mean
+from quasistatic_ref.optional.doctor.frame.start import least_mean
 from tests.tolerances import CLOSED_FORM
 
 

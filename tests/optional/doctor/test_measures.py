@@ -9,14 +9,8 @@ from quasistatic_ref import (
     load_trajectory,
     relative_turn,
 )
-from quasistatic_ref.optional.doctor.measures import rounding_of
-from quasistatic_ref.optional.doctor.telling import (
-    by_name,
-    in_words,
-    lines,
-    numbers_of,
-    pair_rows,
-)
+from quasistatic_ref.optional.doctor.did.lines import in_words, lines, pair_rows
+from quasistatic_ref.optional.doctor.did.numbers import by_name, numbers_of, resolved, rounding_of
 from tests.closeness import assert_relative
 from tests.optional.words import block, driven, free, slides
 from tests.scenes import scene
@@ -120,7 +114,7 @@ def test_what_float64_does_not_resolve_in_its_scene_is_zero(tmp_path, cli):
     assert pair["least_distance_m"] == 0.0
     limits = rounding_of(made.run(progress=False, findings=False), made.system.joints)
     least = np.array([0.5, -0.5, 2.0, -2.0])
-    assert_relative(limits.length(limits.m * least), [0.0, 0.0, 2 * limits.m, -2 * limits.m])
+    assert_relative(resolved(limits.m * least, limits.m), [0.0, 0.0, 2 * limits.m, -2 * limits.m])
     assert 1e-13 < limits.m < 1e-11
     assert 1e-15 < limits.rad < 1e-14
 

@@ -10,12 +10,12 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.numbers.ordered import norm
-from quasistatic_ref.optional.doctor.measures import pressing
+from quasistatic_ref.optional.doctor.frame.contacts import pressing
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
     from quasistatic_ref.model.joints.joint import Joint
-    from quasistatic_ref.optional.doctor.run import Run
+    from quasistatic_ref.optional.doctor.frame.run import Run
 
 LIGHT = 1e-3
 """Force that is none, over the weight of a scene's bodies or its largest load [-]."""

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from quasistatic_ref.numbers.arrays import Mask
-from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import SHORT
+from quasistatic_ref.optional.doctor.frame.run import Run
+from quasistatic_ref.optional.doctor.frame.start import SHORT
+from quasistatic_ref.optional.doctor.texts import finding
 from quasistatic_ref.simulate.finding import Finding
 
 STEPS = 10
@@ -19,16 +19,13 @@ NEARER = 0.5
 
 def ringing(run: Run) -> dict[int, float]:
     """Actuated coordinates that jump to and fro at the end, and their last jumps [m, rad]."""
-    n_a = run.system.n_a
-    jumps = run["delta_q"][-STEPS - 1 :, :n_a]
+    jumps = run["delta_q"][-STEPS - 1 :, : run.system.n_a]
     if len(jumps) <= STEPS or run.targets_move[-STEPS:].any():
         return {}
     turns = (jumps[1:] * jumps[:-1] < 0).sum(axis=0) >= TURNS
     first, last = (np.abs(of).max(axis=0) for of in (jumps[:3], jumps[-3:]))
-    rings: Mask = turns & (last > NEARER * first) & (last > SHORT)
-    if not rings.any() or _loads_move(run):
-        return {}
-    return {int(i): float(last[i]) for i in np.flatnonzero(rings)}
+    rings = np.flatnonzero(turns & (last > NEARER * first) & (last > SHORT)).tolist()
+    return {} if rings and _loads_move(run) else {i: float(last[i]) for i in rings}
 
 
 def _loads_move(run: Run) -> bool:
@@ -44,14 +41,13 @@ def rings(run: Run) -> Iterator[Finding]:
     every = ringing(run)
     if not every:
         return
-    i = max(every, key=lambda i: every[i])
+    i = max(every, key=every.__getitem__)
     coordinate = run.system.coordinates[i]
     joint = run.system.joint(coordinate.joint)
-    K = float(run.simulator.K_q[i, i])
+    at = run["q"][-2:, joint.q][:, i - joint.v.start]
     unit = "N/m" if coordinate.unit == "m" else "N m/rad"
-    at = [float(run["q"][k, joint.q][i - joint.v.start]) for k in (-2, -1)]
-    where = f"{max(at):.4g} and {min(at):.4g} {coordinate.unit}"
-    cause = f"{coordinate.name} goes to and fro between {where}: its spring, {K:.3g} {unit}, is "
-    cause += "softer than its load's slope"
-    remedy = f"raise K_q of {coordinate.joint}, or set gravity_compensated, or do not actuate it"
-    yield Finding("rings", True, remedy, cause, {"jump": every[i], "K_q": K}, coordinate.joint)
+    K = run.simulator.K_q[i, i]
+    cause = f"{coordinate.name} goes to and fro between {at.max():.4g} and {at.min():.4g} "
+    cause += f"{coordinate.unit}: its spring, {K:.3g} {unit}, is softer than its load's slope"
+    remedy = f"raise K_q of {joint.name}, or set gravity_compensated, or do not actuate it"
+    yield finding("rings", cause, remedy, joint.name, jump=every[i], K_q=K)

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
+from itertools import accumulate, pairwise, starmap
 
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import ContactError, ModelError
+from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Extra, no_extra
 from quasistatic_ref.step.extension import StepExtension
 
@@ -26,7 +27,6 @@ FARTHEST = 1.0
 """Size that stands for that of a half-space [m]."""
 SHORT = 1e-6
 """Motion that is none, over the size of the smaller shape of a pair [-]."""
-HULL = "hull of its points"
 SAMPLED = 50_000
 """Points of a cloud, every so manyth, of which its hull is formed for findings, at most."""
 SEARCHED = 200_000
@@ -54,6 +54,7 @@ class Start:
         self.h = simulator.h
         self.gravity = np.array(simulator.gravity)
         self.g = float(np.linalg.norm(self.gravity))  # 0 where its square vanishes
+        self.down = self.gravity / (self.g or 1.0)
 
     @property
     def load_at_start(self) -> Array:
@@ -66,18 +67,9 @@ class Start:
         return self.system.kinematics(self.q_start)
 
     @cached_property
-    def points(self) -> ClosestPoints | None:
-        """The contacts; None where a pair has no normal, which the first step then says."""
-        try:
-            return self.simulator.closest_points(self.kinematics)
-        except ContactError:
-            return None
-
-    @cached_property
-    def contacts_at_start(self) -> Contacts:
-        """The contacts at the start, with their Jacobians."""
-        assert self.points is not None
-        return self.simulator.geometry.contacts(self.points, self.kinematics)
+    def points(self) -> ClosestPoints:
+        """The contacts."""
+        return self.simulator.closest_points(self.kinematics)
 
     @cached_property
     def extension(self) -> StepExtension | None:
@@ -90,17 +82,6 @@ class Start:
         """Rows of the extension that are numbers, such as stops of joints."""
         rows = None if self.extension is None else self.extension.rows
         return no_extra(self.system.n_v) if rows is None else rows
-
-    @property
-    def raised(self) -> Indices:
-        """Numbers of the contacts whose gap a private rise opens, shape (n,)."""
-        none = np.zeros(0, dtype=np.int64)
-        return none if self.extension is None else self.extension.rises.contacts
-
-    @cached_property
-    def bounded(self) -> Indices:
-        """Entries of delta_q that rows of an extension bound, such as stops of joints."""
-        return np.flatnonzero(self.rows.A.any(axis=0))
 
     @cached_property
     def moves(self) -> Mask:
@@ -125,31 +106,40 @@ class Start:
         What is known by a cloud alone has the cloud's hull, if that has a volume.
         """
         system = self.system
-        free = np.flatnonzero(system.column_map.owner >= system.n_a)
-        moved = np.any(system.column_map.moves[:, 0][:, free], axis=1)
-        links = []
-        for link in np.flatnonzero(moved & (system.masses > 0)).tolist():
-            shapes = [placed for placed in system.shapes if placed.link == link]
-            shapes = shapes or [*self._hulls(link)]
-            if shapes:
-                links.append((link, system.links[link], shapes))
-        return links
+        moved = self.moves[:, system.n_a : system.n_v].any(axis=1) & (system.masses > 0)
+        shapes = {link: [*self._hulls(link)] for link in np.flatnonzero(moved).tolist()}
+        return [(link, system.links[link], each) for link, each in shapes.items() if each]
 
     def _hulls(self, link: int) -> Iterator[PlacedShape]:
-        """Convex hulls of the clouds of a link."""
+        """The solids of a link, or else the convex hulls of its clouds."""
+        solids = [placed for placed in self.system.shapes if placed.link == link]
+        if solids:
+            yield from solids
+            return
         clouds = {id(p.shape): p for p in self.sides if p.link == link}
         for placed in clouds.values():
             if isinstance(placed.shape, PointCloud):
                 points = placed.shape.points
                 some = points[:: 1 + len(points) // SAMPLED]
                 with suppress(ModelError):  # all of them in a plane
-                    yield replace(placed, name=HULL, shape=convex_hull(some))
+                    yield replace(placed, name="hull of its points", shape=convex_hull(some))
+
+    @property
+    def actuated(self) -> list[Joint]:
+        """The joints and bases that are actuated."""
+        return [joint for joint in self.system.joints if joint.actuated]
 
     @cached_property
     def free_bases(self) -> dict[str, Joint]:
         """The floating bases that nothing actuates, by the names of their bodies."""
         bases = [j for j in self.system.joints if j.free and not j.actuated]
         return {base.name.removesuffix("/base"): base for base in bases}
+
+    @cached_property
+    def slices(self) -> list[tuple[ContactPair, slice]]:
+        """Each pair with the slice of its contacts."""
+        ends = [*accumulate((pair.n_c for pair in self.pairs), initial=0)]
+        return list(zip(self.pairs, starmap(slice, pairwise(ends)), strict=True))
 
     @cached_property
     def pair_of(self) -> Indices:
@@ -162,34 +152,22 @@ class Start:
         """Size of the smaller shape of each contact, shape (n_c,) [m]."""
         return np.array([least(pair) for pair in self.pairs])[self.pair_of]
 
-    def touching(self, phi: Array) -> Mask:
-        """Mask of the contacts with a gap below 1e-6 of the smaller shape, from phi (n_c,) [m]."""
-        return np.asarray(phi <= SHORT * self.sizes)
+    def body(self, link: int) -> str:
+        """The body of a link; ``"world"`` of link 0."""
+        return self.system.links[link].partition("/")[0]
 
     def bodies(self, pair: ContactPair) -> set[str]:
         """The bodies of a pair."""
         return {self.body(side.link) for side in (pair.alpha, pair.beta)}
 
-    def body(self, link: int) -> str:
-        """The body of a link; ``"world"`` of link 0."""
-        return self.system.links[link].partition("/")[0]
-
     @cached_property
     def pairs_of(self) -> dict[str, list[tuple[ContactPair, slice]]]:
         """The pairs of each body, with the slices of their contacts."""
         of_bodies: dict[str, list[tuple[ContactPair, slice]]] = {}
-        for pair, at in slices(self.pairs):
+        for pair, at in self.slices:
             for name in self.bodies(pair):
                 of_bodies.setdefault(name, []).append((pair, at))
         return of_bodies
-
-    def centre(self, name: str) -> Array:
-        """Centre of mass of a body at the start, shape (3,) [m]."""
-        system = self.system
-        R, t = self.kinematics.R, self.kinematics.t
-        mass = np.where([link.startswith(f"{name}/") for link in system.links], system.masses, 0.0)
-        places = t + np.einsum("lij,lj->li", R, system.centres)
-        return np.asarray(mass @ places / mass.sum())
 
     def of_body(self, name: str) -> Mask:
         """Which contacts are of a body, shape (n_c,)."""
@@ -197,6 +175,13 @@ class Start:
         for _, at in self.pairs_of.get(name, ()):
             of[at] = True
         return of
+
+    def signs(self, name: str) -> Array:
+        """1 of the contacts whose beta is of a body, else -1, shape (n_c,): n points to it."""
+        signs = np.full(len(self.pair_of), -1.0)
+        for pair, at in self.pairs_of.get(name, ()):
+            signs[at] = 1.0 if self.body(pair.beta.link) == name else -1.0
+        return signs
 
     @property
     def sides(self) -> list[PlacedShape]:
@@ -207,15 +192,6 @@ class Start:
     def small(self) -> bool:
         """Whether all of J may be formed, and a step solved once more."""
         return 4 * len(self.simulator.layout.rows) * self.system.n_v <= SEARCHED
-
-
-def slices(pairs: Iterable[ContactPair]) -> Iterator[tuple[ContactPair, slice]]:
-    """Each pair with the slice of its contacts."""
-    end = 0
-    for pair in pairs:
-        start = end
-        end = end + pair.n_c
-        yield pair, slice(start, end)
 
 
 def table(start: Start, pair: ContactPair) -> str:
@@ -236,10 +212,8 @@ def friction_of(start: Start, coefficient: str, names: str) -> str:
 def joining(start: Start, names: str) -> str:
     """Words of a remedy: what to add to a scene so that some bodies touch."""
     if start.system.of_mjcf:
-        return (
-            f"let geoms of {names} touch (contype, conaffinity, and no contact/exclude), or add "
-            "some"
-        )
+        geoms = f"let geoms of {names} touch (contype, conaffinity, and no contact/exclude)"
+        return f"{geoms}, or add some"
     return f"add a table [contacts.NAME] of {names}"
 
 
@@ -248,6 +222,15 @@ def more_points(start: Start, pair: ContactPair, count: int | None = None) -> st
     if start.system.of_mjcf:
         return f"split the geoms of {pair.name}, of which each pair has {pair.k} places at most"
     return f"raise k of {table(start, pair)}" + ("" if count is None else f" to {count}")
+
+
+def side(system: System, placed: PlacedShape) -> str:
+    """The name of the link that carries a shape, or of its body, or of the world's shape."""
+    link = system.links[placed.link]
+    body, _, link_name = link.partition("/")
+    if not placed.link:
+        return placed.name
+    return body if link_name == body else link
 
 
 def least(pair: ContactPair) -> float:

@@ -1,0 +1,1 @@
+"""What pairs, bodies and joints did in a run, as numbers and lines."""

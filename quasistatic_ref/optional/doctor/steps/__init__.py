@@ -1,0 +1,1 @@
+"""Findings on the steps of a run."""

@@ -1,0 +1,87 @@
+"""Bodies that come to be in each other, since no table lets them touch."""
+
+from collections.abc import Iterator
+from contextlib import suppress
+from itertools import combinations, islice
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import in_world, pair_closest_points
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.optional.doctor.frame.run import Run
+from quasistatic_ref.optional.doctor.frame.start import joining, least, side
+from quasistatic_ref.optional.doctor.frame.tolerances import SUNK
+from quasistatic_ref.optional.doctor.frame.undecided import Undecided
+from quasistatic_ref.optional.doctor.texts import finding, length
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Shape
+from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.text.quoting import listed
+
+LOOKED = 8
+"""Steps, spread over a run, in which bodies are looked for that pass through each other."""
+MOST = 300
+"""Pairs of shapes that are looked at."""
+
+
+def through(run: Run) -> Iterator[Finding | Undecided]:
+    """Bodies that come to be in each other and share no table: of each two the deepest."""
+    apart = [*islice(_apart(run), MOST + 1)] if run.complete else []
+    if len(apart) > MOST:
+        yield Undecided("bodies that share no table", f"more than {MOST} pairs of shapes")
+        return
+    steps = np.unique(np.linspace(0, run.steps, 1 + LOOKED).round().astype(int)).tolist()
+    reaches = [_radius(pair.alpha.shape) + _radius(pair.beta.shape) for pair in apart]
+    depths = np.array([_depths(run, k, apart, reaches) for k in steps])
+    deep = (depths[0] <= 0) & (depths > SUNK * np.array([least(pair) for pair in apart]))
+    found: dict[frozenset[str], Finding] = {}
+    for i, j in sorted(np.argwhere(deep).tolist(), key=lambda at: -depths[at[0], at[1]]):
+        depth = float(depths[i, j])
+        names = [side(run.system, shape) for shape in (apart[j].alpha, apart[j].beta)]
+        cause = f"nothing lets {listed(names)} touch, and they pass through each other, "
+        cause += f"{length(depth)} deep at {steps[i] * run.h:.2f} s"
+        remedy = f"{joining(run, listed(names))}, or keep them apart"
+        numbers = {"depth_mm": 1e3 * depth, "step": steps[i] - 1}
+        one = finding("passes-through", cause, remedy, **numbers)
+        found.setdefault(frozenset(name.partition("/")[0] for name in names), one)
+    yield from found.values()
+
+
+def _apart(run: Run) -> Iterator[ContactPair]:
+    """Pairs of shapes of two bodies, one of which moves, that no table joins."""
+    shapes = {shape.name: shape for shape in (*run.system.shapes, *run.sides)}
+    joined = {frozenset((_who(pair.alpha), _who(pair.beta))) for pair in run.pairs}
+    moves = run.driven | run.free
+    for a, b in combinations(shapes.values(), 2):
+        same = run.body(a.link) == run.body(b.link)
+        if not same and moves[[a.link, b.link]].any() and {_who(a), _who(b)} not in joined:
+            with suppress(ContactError):  # two clouds, or two half-spaces
+                yield ContactPair(f"{a.name}, {b.name}", a, b, 0.0, 0.0, 4, 1, hull=True)
+
+
+def _who(placed: PlacedShape) -> str | int:
+    """What a table joins: a link, or a shape of the world."""
+    return placed.link or placed.name
+
+
+def _depths(run: Run, k: int, pairs: list[ContactPair], reaches: list[float]) -> list[float]:
+    """How deep each of some pairs is where step k starts [m]; NaN where that is not known."""
+    at = run.system.kinematics(run["q"][k])
+    depths = [-np.inf] * len(pairs)
+    for i, (pair, reach) in enumerate(zip(pairs, reaches, strict=True)):
+        alpha, beta = in_world(pair, at.R, at.t)
+        if np.linalg.norm(alpha.t - beta.t) <= reach:
+            depths[i] = np.nan
+            with suppress(ContactError):  # of bodies so deep that no normal is known
+                depths[i] = -float(pair_closest_points(pair, at.R, at.t).phi[0])
+    return depths
+
+
+def _radius(shape: Shape | PointCloud) -> float:
+    """Radius of a ball about the shape's origin that contains the shape [m]."""
+    if isinstance(shape, PointCloud):
+        return float(np.linalg.norm(shape.points, axis=1).max())
+    if not np.isfinite(shape.extent):
+        return np.inf
+    axes = np.vstack([np.eye(3), -np.eye(3)])
+    return float(np.linalg.norm(shape.support_value(axes).reshape(2, 3).max(axis=0)))

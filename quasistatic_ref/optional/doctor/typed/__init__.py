@@ -1,0 +1,1 @@
+"""Findings on numbers as they are typed."""
