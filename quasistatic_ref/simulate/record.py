@@ -150,7 +150,7 @@ class Reading:
     @cached_property
     def _forces(self) -> tuple[Array, float]:
         try:
-            return self.solution.forces, self.solution.imbalance
+            return self.solution.compliant.wrench, self.solution.imbalance
         except (StepNotSolved, ArithmeticError):  # the run goes on
             return np.full((self.step.contacts.n_c, 4), np.nan), np.nan
 

@@ -18,7 +18,7 @@ from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.standing import Standings
 from quasistatic_ref.step.data import Contacts, Extra, StepData, no_extra
-from quasistatic_ref.step.solution import UNKNOWN, ContactForces, ForcesOfStep
+from quasistatic_ref.step.solution import UNKNOWN, ContactForces, ForcesOfStep, warn_of_imbalance
 from quasistatic_ref.text.plain import Plain
 from quasistatic_ref.text.quoting import nearest_name
 from quasistatic_ref.text.shown import HasPage
@@ -239,7 +239,7 @@ class Trajectory(RecordArrays, Plain, HasPage):
 
         They are those of :attr:`~quasistatic_ref.step.solution.StepSolution.forces`. A record of
         forces holds them. Of a full record they are formed when they are first read, in some
-        milliseconds a step.
+        milliseconds a step. A warning says so where they leave more than 1e-4 of the load.
 
         Raises
         ------
@@ -247,6 +247,8 @@ class Trajectory(RecordArrays, Plain, HasPage):
             If the record is light, the steps are not all that was solved, or there is no
             ``optional/forces``.
         """
+        known = self.imbalance[np.isfinite(self.imbalance)]
+        warn_of_imbalance(float(known.max(initial=0.0)))
         if "forces" in self.arrays:
             return self.arrays["forces"]
         shape = (self.steps, len(self.header.slots), 4)

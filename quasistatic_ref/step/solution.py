@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -21,6 +22,8 @@ ForcesOfStep = Callable[[StepData, None, tuple[Array, Array] | None], "ContactFo
 begin from -> the forces of its contacts."""
 Kind = Literal["exact", "enclosure", "residual", "none"]
 """What is proved of an answer."""
+BORNE = 1e-4
+"""Share of the load [-] that forces of single contacts may leave without a warning."""
 UNKNOWN = "are not known: a step holds no costs or nonlinear constraints"
 
 
@@ -120,13 +123,15 @@ class StepSolution(Plain, Shown):
 
         They are those of the step in which each contact gives way a little, and therefore unique;
         see :mod:`~quasistatic_ref.optional.forces.forces`. They are formed from the step when
-        they are read, however it was solved.
+        they are read, however it was solved. A warning says so where they leave more than 1e-4 of
+        the load.
 
         Raises
         ------
         InputError
             If the step is not all that was solved, or there is no ``optional/forces``.
         """
+        warn_of_imbalance(self.imbalance)
         return self.compliant.wrench
 
     @property
@@ -283,3 +288,10 @@ class ContactForces(Shown):
     def __post_init__(self) -> None:
         for array in (self.wrench, self.delta_q, self.compliance):
             read_only(array)
+
+
+def warn_of_imbalance(imbalance: float) -> None:
+    """Warn whoever reads forces that leave a share of the load [-]; of no load there is none."""
+    if BORNE < imbalance < float("inf"):
+        words = f"forces of single contacts leave {imbalance:.1e} of the load: read wrench in "
+        warnings.warn(f"{words}their place, or raise mu_v or mu_omega", stacklevel=3)

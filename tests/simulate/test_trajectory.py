@@ -122,6 +122,16 @@ def test_the_attributes_of_a_trajectory_have_the_types_of_its_arrays():
     assert get_type_hints(RecordArrays) == table
 
 
+@pytest.mark.parametrize("share", [0.99e-4, 1.01e-4])
+def test_forces_that_leave_a_ten_thousandth_of_the_load_are_doubted(share, recwarn):
+    run = load_scenario("sphere_spin", steps=2, record="forces").run(progress=False)
+    one = replace(run, arrays={**run.arrays, "imbalance": np.array([np.inf, share])})
+    assert_same(one.forces, run["forces"])
+    said = [str(each.message) for each in recwarn]
+    words = "forces of single contacts leave 1.0e-04 of the load: read wrench in their place, or "
+    assert said == [f"{words}raise mu_v or mu_omega"] * (share > 1e-4)
+
+
 def test_the_header_says_what_the_run_was(run):
     header = header_table(run.header)
     assert header.pop("quasi_dynamic_number") > 0  # their values: test_artifacts.py
