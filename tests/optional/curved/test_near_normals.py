@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Cone, Cylinder, convex_hull
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.optional.curved.faces import face
+from quasistatic_ref.optional.curved.faces import face, placed_kinks
 from tests.closeness import assert_within
 from tests.contact.still import in_world
 from tests.processes import printed_text
@@ -90,3 +90,10 @@ def test_answers_for_a_box_do_not_depend_on_what_coal_was_asked_before():
     first, turned = (printed_text(f"turned = {turned}", ASKED) for turned in (False, True))
     assert len(first.splitlines()) == 12
     assert first == turned
+
+
+def test_a_slant_has_a_kink_at_its_own_normals_alone():
+    """Those of a cone of 30 mm and a height of 40 mm rise by 3/5."""
+    for rise, count in ((0.6, 1), (-0.6, 0), (0.61, 0)):
+        n = np.array([np.sqrt(1 - rise**2), 0.0, rise])
+        assert len(placed_kinks(in_world(Cone(0.03, 0.02)), n, 1e-3).axes) == count
