@@ -40,13 +40,13 @@ class Origins:
         self.of_user = of_user
         self.changes: list[tuple[tuple[str, ...], str]] = []
 
-    def said(self, keys: tuple[str, ...]) -> bool:
+    def is_of_user(self, keys: tuple[str, ...]) -> bool:
         """Whether the value to which keys lead is the user's own."""
         return self.of_user or any(keys[: len(path)] == path for path, _ in self.changes)
 
     def reader(self, tables: dict[str, Any]) -> TableReader:
         """A reader of the tables, which knows what is the user's own."""
-        return TableReader(tables, error=ScenarioError, of_user=self.said)
+        return TableReader(tables, error=ScenarioError, of_user=self.is_of_user)
 
     def change(self, field: str) -> str | None:
         """The last change that wrote a field, as its user wrote it; None if no change did.

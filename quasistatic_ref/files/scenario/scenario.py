@@ -242,7 +242,7 @@ def load_scenario(
     backend, certify, accuracy : optional
         In place of those of the table ``[solver]``; `accuracy` in natural units [-].
     of_others : bool
-        Whether a mapping was written by somebody whom you do not trust.
+        Whether a mapping was written by someone whom you do not trust.
         It then may do what a file in the working folder may: its paths stay in that folder, and
         its backend is no function. A file always is of others; `settings` and `fields` are yours.
     fields : object

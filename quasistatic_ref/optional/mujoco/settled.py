@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from mujoco import MjData, MjModel
 
 UNSTABLE = ("mjWARN_BADQPOS", "mjWARN_BADQVEL", "mjWARN_BADQACC")
-"""Warnings after which MuJoCo begins anew, from the model's first state."""
+"""Warnings after which MuJoCo begins again, from the model's first state."""
 
 
 def settled(
@@ -165,12 +165,12 @@ def run(model: MjModel, data: MjData, seconds: float) -> None:
     for _ in range(round(seconds / model.opt.timestep)):
         mujoco.mj_step(model, data)
     if _resets(data) > before:
-        problem = "is too large: MuJoCo's simulation is unstable, and began anew; lower it"
+        problem = "is too large: MuJoCo's simulation is unstable, and began again; lower it"
         raise ModelError(problem, field="option.timestep", value=model.opt.timestep)
 
 
 def _resets(data: MjData) -> int:
-    """How often MuJoCo began anew."""
+    """How often MuJoCo began again."""
     import mujoco
 
     return sum(data.warning[getattr(mujoco.mjtWarning, name)].number for name in UNSTABLE)

@@ -26,7 +26,7 @@ from quasistatic_ref.optional.qp.search import (
     feasible_point,
     optimum,
 )
-from quasistatic_ref.optional.qp.verdict import joined
+from quasistatic_ref.optional.qp.verdict import answer_fields
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -244,7 +244,7 @@ def _answer(program: QuadraticProgram, initvals: Any) -> ExactQP:
             endless = block, end
     if endless is not None:
         raise _unbounded(program, blocks, *endless)
-    fields = joined(program, blocks, optima)
+    fields = answer_fields(program, blocks, optima)
     for name in ("x", "obj", "z", "y", "z_box"):
         if not np.isfinite(fields[name]).all():
             problem = f"{name} of the optimum is beyond the range of float64; choose other units"

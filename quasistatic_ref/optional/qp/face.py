@@ -185,7 +185,7 @@ class Face:
         self.balanced = not any(pull[j] for j in self.free)
         self.Y |= {i: pull[j] * self.block.row(i).entries[j] for j, (i, _) in self.fixed.items()}
 
-    def moved(self, X: Sequence[fmpz], factor: fmpz) -> Face:
+    def at(self, X: Sequence[fmpz], factor: fmpz) -> Face:
         """The face at another of its points, whose d is that of this one times a factor."""
         Y = {i: v * factor for i, v in self.Y.items()}
         return self._with(X=[*X], d=self.d * factor, Y=Y)

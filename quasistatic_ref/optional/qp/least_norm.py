@@ -61,7 +61,7 @@ class LeastNorm:
     def _bits(direction: Sequence[fmpz]) -> int:
         return max(int(abs(v)).bit_length() for v in direction)
 
-    def found(
+    def optimum(
         self, strict: Callable[[MatrixForm], Minimiser | Combination]
     ) -> tuple[Face, list[int]] | None:
         """The face at its least point, and the rows that hold it; None if rows forbid it."""
@@ -83,9 +83,9 @@ class LeastNorm:
         X = [v * D for v in face.X]
         for k, n in zip(w, face.N, strict=True):
             X = [u + k * v for u, v in zip(X, n, strict=True)]
-        return face.moved(X, D)
+        return face.at(X, D)
 
-    def judged(self, rows: Sequence[int]) -> tuple[Face, str]:
+    def on_rows(self, rows: Sequence[int]) -> tuple[Face, str]:
         """The face at its least point on some rows, and what is wrong with them."""
         place = {i: t for t, i in enumerate(self.rows)}
         if not self.possible or not {*rows} <= {*place}:

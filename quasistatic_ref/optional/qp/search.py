@@ -77,7 +77,7 @@ class BlockOptimum:
     direction: list[fmpz] | None
 
 
-def read(face: Face, least: Sequence[int] = ()) -> BlockOptimum:
+def optimum_at(face: Face, least: Sequence[int] = ()) -> BlockOptimum:
     """The optimum of a block, read from a face whose point is proved to be it."""
     tight = face.tight
     return BlockOptimum(
@@ -112,7 +112,7 @@ def optimum(block: Block, convex: Convex, of_guesses: Guesses) -> BlockOptimum:
     for k, (some, x) in enumerate(of_guesses):
         if not k:
             rows, centre = some, x
-        found = proved(block, convex, some)
+        found = optimum_on(block, convex, some)
         if found is not None:
             return found
         if convex.definite:
@@ -124,17 +124,17 @@ def optimum(block: Block, convex: Convex, of_guesses: Guesses) -> BlockOptimum:
     end = dual_active_set(block.form, rows)
     if isinstance(end, Combination):
         raise _contradiction(block, end.y)
-    found = proved(block, convex, end.working)
+    found = optimum_on(block, convex, end.working)
     assert found is not None  # the dual method ends at the optimum
     return found
 
 
-def proved(block: Block, convex: Convex, rows: Sequence[int]) -> BlockOptimum | None:
+def optimum_on(block: Block, convex: Convex, rows: Sequence[int]) -> BlockOptimum | None:
     """The optimum, if no other rows bear at it than equations and some of `rows`; else None."""
-    return decided(block, convex, lambda balls: _proved(block, convex, rows, balls=balls))
+    return decided(block, convex, lambda balls: _optimum_on(block, convex, rows, balls=balls))
 
 
-def _proved(
+def _optimum_on(
     block: Block, convex: Convex, rows: Sequence[int], *, balls: bool
 ) -> BlockOptimum | None:
     e = block.equations
@@ -150,9 +150,9 @@ def _proved(
         if len(W) == len(face.W):
             break
     if not face.N:
-        return None if face.violated else read(face)
-    least = LeastNorm(face).found(strict)
-    return None if least is None else read(*least)
+        return None if face.violated else optimum_at(face)
+    least = LeastNorm(face).optimum(strict)
+    return None if least is None else optimum_at(*least)
 
 
 def strict(form: MatrixForm, warm: Sequence[int] | None = None) -> Minimiser | Combination:
@@ -260,4 +260,4 @@ def _nearer(
         end = strict(form, [at[i] for i in rows if i in at])
         assert isinstance(end, Minimiser)  # there is a feasible point
         rows, centre = [some[t] for t in end.working], end.balls.floats[0]
-        yield proved(block, convex, rows)
+        yield optimum_on(block, convex, rows)

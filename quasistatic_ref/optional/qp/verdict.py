@@ -18,10 +18,10 @@ from quasistatic_ref.optional.qp.convexity import Indefinite, convex_cost
 from quasistatic_ref.optional.qp.face import Face, along, decided, sign
 from quasistatic_ref.optional.qp.least_norm import LeastNorm
 from quasistatic_ref.optional.qp.program import QuadraticProgram
-from quasistatic_ref.optional.qp.search import BlockOptimum, read
+from quasistatic_ref.optional.qp.search import BlockOptimum, optimum_at
 
 
-def joined(
+def answer_fields(
     problem: QuadraticProgram, blocks: Sequence[Block], optima: Sequence[BlockOptimum]
 ) -> dict[str, Any]:
     """The fields of an answer, but its problem, from the optima of its blocks."""
@@ -73,7 +73,7 @@ def optimum_verdict(problem: QuadraticProgram, claims: Mapping[str, Any]) -> Ver
         if isinstance(found, str):
             return Verdict(False, found)
         optima.append(found)
-    for name, right in joined(problem, blocks, optima).items():
+    for name, right in answer_fields(problem, blocks, optima).items():
         fault = wrong_bits if isinstance(right, np.ndarray) else wrong_claim
         if reason := fault(name, claims[name], right):
             return Verdict(False, reason)
@@ -90,10 +90,12 @@ def _of_block(block: Block, names: Sequence[str], claims: Mapping[str, Any]) -> 
         [i for i, name in enumerate(names) if name in claims[field]]
         for field in ("active", "least_norm")
     )
-    return decided(block, convex, lambda balls: _judged(block, convex, W, least, names, balls))
+    return decided(
+        block, convex, lambda balls: _on_claimed_rows(block, convex, W, least, names, balls)
+    )
 
 
-def _judged(
+def _on_claimed_rows(
     block: Block,
     convex: Convex,
     W: Sequence[int],
@@ -117,12 +119,12 @@ def _judged(
             return f"the multiplier of {names[i]} is {'negative' if s else 'zero'}"
     reason = "the rows of least norm are not needed" if least else ""
     if face.N:
-        face, reason = LeastNorm(face).judged(least)
+        face, reason = LeastNorm(face).on_rows(least)
     if reason:
         return reason
     if face.violated:
         return f"{names[face.violated[0]]} is violated by the minimiser on the active rows"
-    return read(face, least)
+    return optimum_at(face, least)
 
 
 def row_factors(names: Sequence[str], exact: Mapping[str, str]) -> dict[int, fmpq]:
