@@ -196,8 +196,7 @@ class ContactLayout(Plain):
 @lru_cache(maxsize=8)  # points mostly stay from step to step
 def _numbered(names: tuple[str, ...], point: bytes) -> tuple[str, ...]:
     """Names with a number each, from the bytes of these."""
-    numbered = zip(names, np.frombuffer(point, np.int64).tolist(), strict=True)
-    return tuple([f"{pair}/{i}" for pair, i in numbered])
+    return tuple(map("{}/{}".format, names, np.frombuffer(point, np.int64).tolist()))
 
 
 def checked_pairs(pairs: object) -> tuple[ContactPair, ...]:

@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import InputError, keywords_named
+from quasistatic_ref.contact.pairs import ContactPair, checked_pairs
+from quasistatic_ref.errors import InputError, StepDataError, check_kind, keywords_named
 from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.state import State
 from quasistatic_ref.model.system import System
-from quasistatic_ref.numbers.arrays import Array, without_warnings
+from quasistatic_ref.numbers.arrays import Array, Mask, checked_array, without_warnings
 from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.distances import Distances
 from quasistatic_ref.simulate.finding import Finding
@@ -31,10 +31,13 @@ from quasistatic_ref.simulate.standing import Standings
 from quasistatic_ref.simulate.step_maker import checked_force
 from quasistatic_ref.simulate.step_solver import StepSolver
 from quasistatic_ref.simulate.steps import Steps, Ways, targets_and_loads
-from quasistatic_ref.solve.backends import DAQP, Certify
+from quasistatic_ref.simulate.stiffness import stiffness_matrix
+from quasistatic_ref.solve.backends import DAQP, DEFAULT, Certify
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.many import KnownAnswers, ManyLoads
+from quasistatic_ref.step.data import seconds
 from quasistatic_ref.step.extension import ExtensionOfQ
+from quasistatic_ref.step.hessian import hessian
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.text.quoting import counted
 from quasistatic_ref.text.shown import Shown
@@ -54,8 +57,10 @@ def by_one_thread(system: Mechanism) -> Iterator[None]:
     InputError
     """
     if not system.lock.acquire(blocking=False):
-        problem = "another thread is using the same system; "
-        problem += "give each thread its own copy, copy.deepcopy(simulator)"
+        problem = (
+            "another thread is using the same system; "
+            "give each thread its own copy, copy.deepcopy(simulator)"
+        )
         raise InputError(problem, field="simulator")
     try:
         yield
@@ -74,6 +79,16 @@ def stopwatch(times: dict[str, float]) -> Callable[[str], None]:
         last = now
 
     return lap
+
+
+def _checked_acts(acts: ArrayLike, n_a: int) -> Mask:
+    """Whether gravity acts on each actuated coordinate, shape (n_a,); StepDataError if unclear."""
+    entries = np.array(acts, dtype=object)
+    if not all(entry in (0, 1) for entry in entries.ravel().tolist()):
+        problem = "must be true or false for each actuated coordinate"
+        raise StepDataError(problem, field="gravity_acts", value=acts)
+    checked: Mask = checked_array(entries.astype(np.float64), "gravity_acts", (n_a,)) != 0
+    return checked
 
 
 def _remade(kind: type[Simulator], settings: dict[str, Any]) -> Simulator:
@@ -167,22 +182,31 @@ class Simulator(StepSolver, Shown):
         extension: ExtensionOfQ | None = None,
         limits: Limits | None = None,
     ) -> None:
+        check_kind(system, Mechanism, "system", "a System, as System([body]) makes it")
+        acts = np.zeros(system.n_a) if gravity_acts is None else gravity_acts
         super().__init__(
             system=system,
-            pairs=pairs,
-            h=h,
-            K_q=K_q,
-            gravity=gravity,
-            gravity_acts=gravity_acts,
-            backend=backend,
+            pairs=checked_pairs(pairs),
+            h=seconds(h),
+            K_q=stiffness_matrix(system, K_q),
+            gravity=checked_array(gravity, "gravity", (3,)),
+            gravity_acts=_checked_acts(acts, system.n_a),
+            backend=DEFAULT if backend is None else backend,
             accuracy=accuracy,
             certify=certify,
             cone=cone,
             law=law,
             distances=distances,
-            extension=extension,
-            limits=limits,
+            limits=Limits() if limits is None else limits,
         )
+        self.extension = extension
+        self.named_backend = backend
+        # H of Eq. (13): refused where it leaves float64's range
+        if system.constant_mass_matrix:
+            largest = np.abs(system.mass_blocks).max(axis=0, initial=0.0)
+        else:
+            largest = system.M_u(system.q_start)
+        hessian(self.h, self.K_q, largest)
 
     def __setattr__(self, name: str, value: object) -> None:
         try:
@@ -289,9 +313,8 @@ class Simulator(StepSolver, Shown):
             contacts = self.geometry.contacts(points, here.kinematics)
             tau = self.generalised_force(here, None) + loads
             changes = here.changes_to(q_bar_a) + 0.0
-            bad = np.flatnonzero(~np.isfinite(np.hstack([changes, tau])).all(axis=1)).tolist()
             if len(tau):
-                k = bad[0] if bad else 0
+                k = np.isfinite(np.hstack([changes, tau])).all(axis=1).argmin()
                 first = self.step_under(here, q_bar_a[k], tau[k], contacts)  # or its refusal
             else:
                 q_a = here.q[: system.n_q_a]
@@ -327,11 +350,10 @@ class Simulator(StepSolver, Shown):
             self.start_cold()
             return self.extended(step, here.q)
 
-        unproved = known is not None and self.certify == "off"
         delta_q = known.delta_q if known is not None else np.zeros((len(many), first.n_v))
         lam = known.lam if known is not None else np.zeros((len(many), first.m))
         n_v = self.system.n_v
-        for k in known.failed if unproved and known is not None else range(len(many)):
+        for k in known.failed if known is not None and self.certify == "off" else range(len(many)):
             found[k] = one = solution(k)
             delta_q[k] = one.delta_q[:n_v]
             if lam.shape[1] != len(one.lam):  # with rows of an extension

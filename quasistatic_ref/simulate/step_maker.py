@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -14,43 +14,28 @@ from quasistatic_ref.certify.groups import coupled_groups
 from quasistatic_ref.contact.all_pairs import AllPairs
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
-from quasistatic_ref.contact.pairs import ContactPair, checked_pairs, contact_layout
-from quasistatic_ref.errors import StepDataError, check_kind
+from quasistatic_ref.contact.pairs import ContactLayout, contact_layout
+from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.state import State
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import (
     Array,
-    Mask,
     all_finite,
-    checked_array,
     checked_numbers,
     read_only,
 )
 from quasistatic_ref.numbers.pivots import positive_definite
 from quasistatic_ref.simulate.distances import measured_pairs
-from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.settings import Settings
-from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.solve.by_group import GroupLayout
 from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import StepData, no_extra, row_layout, seconds
-from quasistatic_ref.step.hessian import Hessian, hessian
+from quasistatic_ref.step.data import StepData, no_extra, row_layout
+from quasistatic_ref.step.hessian import Hessian
 
 FROM_LOADS = 'system.load(q, "BODY", force=(1, 0, 0)) makes it from a force in world axes'
 NO_FORCE = read_only(np.zeros(()))
-
-
-def _checked_acts(acts: ArrayLike, n_a: int) -> Mask:
-    """Whether gravity acts on each actuated coordinate, shape (n_a,); StepDataError if unclear."""
-    entries = np.array(acts, dtype=object)
-    if not all(entry in (0, 1) for entry in entries.ravel().tolist()):
-        problem = "must be true or false for each actuated coordinate"
-        raise StepDataError(problem, field="gravity_acts", value=acts)
-    checked: Mask = checked_array(entries.astype(np.float64), "gravity_acts", (n_a,)) != 0
-    return checked
 
 
 def checked_force(system: System, force: ArrayLike | None) -> Array:
@@ -71,49 +56,15 @@ def checked_force(system: System, force: ArrayLike | None) -> Array:
 
 
 class StepMaker(Settings):
-    """Makes the problems of steps of a system; what they have in common is formed once.
+    """Makes the problems of steps of a system; what they have in common is formed once."""
 
-    Its parameters are those of :class:`~quasistatic_ref.simulate.simulator.Simulator`.
+    _hessian: Hessian | None = None
+    """That of the last step."""
 
-    Attributes
-    ----------
-    layout : ContactLayout
-        The constant fields of the contacts.
-    """
-
-    def __init__(
-        self,
-        *,
-        system: System,
-        pairs: Sequence[ContactPair],
-        h: float,
-        K_q: ArrayLike | Mapping[str, ArrayLike],
-        gravity: Sequence[float],
-        gravity_acts: ArrayLike | None,
-        limits: Limits | None,
-        **others: Any,
-    ) -> None:
-        check_kind(system, Mechanism, "system", "a System, as System([body]) makes it")
-        pairs = checked_pairs(pairs)
-        acts = np.zeros(system.n_a) if gravity_acts is None else gravity_acts
-        super().__init__(
-            system=system,
-            pairs=pairs,
-            h=seconds(h),
-            K_q=stiffness_matrix(system, K_q),
-            gravity=checked_array(gravity, "gravity", (3,)),
-            gravity_acts=_checked_acts(acts, system.n_a),
-            limits=Limits() if limits is None else limits,
-            **others,
-        )
-        self.layout = contact_layout(pairs)
-        # H of Eq. (13): refused where it leaves float64's range
-        if system.constant_mass_matrix:
-            largest = np.abs(system.mass_blocks).max(axis=0, initial=0.0)
-        else:
-            largest = system.M_u(system.q_start)
-        hessian(self.h, self.K_q, largest)
-        self._hessian: Hessian | None = None
+    @cached_property
+    def layout(self) -> ContactLayout:
+        """The constant fields of the contacts."""
+        return contact_layout(self.pairs)
 
     @cached_property
     def all_pairs(self) -> AllPairs:

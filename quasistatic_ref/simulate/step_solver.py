@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, ClassVar
+from functools import cached_property
+from typing import ClassVar
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.groups import flat_rows
@@ -28,22 +29,19 @@ ExtendedSolution = Callable[["StepSolver", StepData, StepExtension], StepSolutio
 
 
 class StepSolver(StepMaker):
-    """Makes the problems of steps, and solves them by a solver that serves many.
-
-    Its parameters are those of :class:`~quasistatic_ref.simulate.simulator.Simulator`.
-    """
+    """Makes the problems of steps, and solves them by a solver that serves many."""
 
     replaceable: ClassVar[tuple[str, ...]] = (DEFAULT, DAQP)
 
-    def __init__(
-        self, *, backend: str | None, extension: ExtensionOfQ | None, **others: Any
-    ) -> None:
-        super().__init__(backend=DEFAULT if backend is None else backend, **others)
-        self.extension = extension
-        self.named_backend = backend
-        self.solver: Solver | None = None
-        self.spares: dict[str, Solver] = {}
-        self.working_set: tuple[int, ...] = ()
+    extension: ExtensionOfQ | None
+    named_backend: str | None
+    solver: Solver | None = None
+    working_set: tuple[int, ...] = ()
+
+    @cached_property
+    def spares(self) -> dict[str, Solver]:
+        """Solvers that have replaced one that failed, by the names of their backends."""
+        return {}
 
     def start_cold(self) -> None:
         """Forget all that answers of later steps could depend on."""
