@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Box, Capsule, Extension, InputError, Sphere, load_scenario
+from quasistatic_ref.lab.commands.stands import asked_steps, over_steps
 from tests.files.urdf.urdf_texts import collision, link, robot
 from tests.optional.words import driven, free, slides, solid
 from tests.scenes import FLOOR
@@ -161,7 +162,7 @@ def seesaw(friction, at=0.1):
 
 def ball_on_a_box():
     """The box slides away below the ball, whose clamp bears its friction."""
-    ball = free(solid(0.3, Sphere(0.05)), (0, 0, 0.15))
+    ball = free(solid(0.353, Sphere(0.05)), (0, 0, 0.15))
     box = block(2.0, (0.2, 0.2, 0.1), (0, 0, 0.05), force=(20, 0, 0))
     return {"box": box, "ball": ball}, {
         "f": on("floor", "box", 0.2),
@@ -169,11 +170,21 @@ def ball_on_a_box():
     }
 
 
-def pressed(load):
+def pressed(load, normal):
     """A body that fingers hold hard, and which is pulled out of them all the same."""
     bodies = {"b": block(0.02, (0.04,) * 3, (0, 0, 0), force=(0, 0, -load))}
-    bodies |= {name: finger(side, 0.02, 300.0) for name, side in (("l", -1), ("r", 1))}
+    bodies |= {name: finger(side, 0.02, normal) for name, side in (("l", -1), ("r", 1))}
     return bodies, {"g": on(["l", "r"], "b", 0.5, 1, 0.01)}, {}
+
+
+STICKS = (8 - 0.2 * 3 * G) / (3 * G)
+"""Friction from which on the rider of a sled that 8 N pull sticks to it."""
+
+
+def pulled(over):
+    """A clamp on the sled bears all that is missing, one on the rider what friction leads to it."""
+    bodies, contacts = rider(0.2 * 3 * G / 8)
+    return bodies, {**contacts, "on": on("low", "up", STICKS * over)}
 
 
 PALM = slides("z", '<box size="0.4 0.4 0.02"/>')
@@ -186,8 +197,12 @@ LACKS = [
     (two(0.5, 0.6), {"A": (5.791, "N"), "B": (5.791, "N")}),
     (two(0.6, 0.5), {"A": (5.791, "N"), "B": (4.905, "N")}),
     (rider(0.75), {"low": (1.962, "N"), "up": (1.962, "N")}),
-    (ball_on_a_box(), {"ball": (0.3 * 0.3 * G, "N")}),
-    (pressed(302.0), {"b": (2 + 0.02 * G, "N")}),
+    (ball_on_a_box(), {"ball": (0.3 * 0.353 * G, "N")}),  # 1.04 N
+    (pulled(1 + NEAR), {"low": (2.11, "N"), "up": (STICKS * (1 + NEAR) * G, "N")}),
+    (pulled(1 - NEAR), {"low": (2.11, "N"), "up": (STICKS * (1 - NEAR) * G, "N")}),
+    (pressed(302.0, 300.0), {"b": (2 + 0.02 * G, "N")}),
+    (pressed(50.2, 50.0), {"b": (0.2 + 0.02 * G, "N")}),
+    (pressed(0.9, 1.0), {"b": (0.02 * G - 0.1, "N")}),
 ]
 
 
@@ -228,6 +243,79 @@ def test_what_gives_way_first_is_not_decided():
     assert row.stands is None
     assert row.reason.startswith("gives way by 1")
     assert row.reason.endswith("N at once")
+
+
+def test_a_plank_that_rocks_to_rest_lacks_a_moment_at_first():
+    """0.2 kg at x = 50 mm on 4 kg on a drum, R = 0.3 m: rest at m x / ((M + m) R') = 8.25 mrad.
+
+    A step turns it by h^2 m g x / I; what is left of m g x is missing, I / (I + M r^2) of it about
+    the plank's middle, which is r = 10 mm above the drum.
+    """
+    bodies = {
+        "p": block(4.0, (0.8, 0.1, 0.02), (0, 0, 0.31)),
+        "b": block(0.2, (0.04,) * 3, (0.05, 0, 0.34)),
+    }
+    drum = {"cylinder": {"radius": 0.3, "length": 0.3}, "pose": {"rpy": [math.pi / 2, 0, 0]}}
+    contacts = {"d": on("d", "p", 0.6, 2), "c": on("p", "b", 0.6)}
+    scene = {"h": 0.02, "steps": 1, "bodies": bodies, "contacts": contacts, "shapes": {"d": drum}}
+    scenario = load_scenario(scene)
+    row = scenario.run(progress=False, findings=False).stands(0, scenario)["p"]
+    moment, inertia = 0.2 * G * 0.05, 4.0 * (0.8**2 + 0.02**2) / 12
+    turn = 0.02**2 * moment / (inertia + 4.0 * 0.01**2 + 0.2 * (0.05**2 + 0.04**2))
+    left = moment * (1 - turn / 8.25e-3) * inertia / (inertia + 4.0 * 0.01**2)
+    assert row.stands is False
+    assert row.missing_Nm == pytest.approx(left, rel=1e-3)
+    assert row.missing_Nm == pytest.approx(0.0957, abs=1e-4)
+
+
+@pytest.mark.parametrize(("mass", "normal"), [(0.005, 1.0), (0.005, 50.0), (0.02, 300.0)])
+def test_what_falls_lacks_its_weight_however_hard_it_was_held(mass, normal):
+    """0.0491 and 0.1962 N: 1e-3 of the load of this step, and not of the run's largest force."""
+    bodies = {"b": block(mass, (0.02,) * 3, (0, 0, 0.3))}
+    for name, side in (("l", -1), ("r", 1)):
+        bodies[name] = finger(side, 0.01, normal, K=500 * normal, z=0.3)
+        ways = ((0.0, 0.018), (0.02, 0.018), (0.05, 0.04))
+        bodies[name]["targets"] = [{"t": t, "base": {"xyz": [side * x, 0, 0.3]}} for t, x in ways]
+    contacts = {"g": on(["l", "r"], "b", 0.5, 1, 0.003), "f": on("floor", "b", 0.5)}
+    scene = {"h": 0.01, "steps": 10, "bodies": bodies, "contacts": contacts}
+    scenario = load_scenario(scene | {"shapes": {"floor": FLOOR}})
+    run = scenario.run(progress=False, findings=False)
+    assert run.stands(1, scenario)["b"].stands is True
+    assert run.stands(9, scenario)["b"].missing_N == pytest.approx(mass * G, rel=1e-3)
+
+
+@pytest.mark.parametrize("pressed", [20.0, 2000.0])
+def test_what_was_pressed_hard_once_lacks_what_friction_does_not_bear(pressed):
+    """6.4 N on 1 kg, mu = 0.5: 1.495 N."""
+    loads = ((0.0, 0.0, pressed), (0.02, 0.0, pressed), (0.03, 6.4, 0.0))
+    body = block(1.0, (0.1, 0.1, 0.04), (0, 0, 0.02))
+    body["wrenches"] = [{"t": t, "force": [x, 0, -z]} for t, x, z in loads]
+    scene = {"h": 0.01, "steps": 6, "bodies": {"b": body}, "contacts": {"f": on("floor", "b", 0.5)}}
+    scenario = load_scenario(scene | {"shapes": {"floor": FLOOR}})
+    run = scenario.run(progress=False, findings=False)
+    assert run.stands(1, scenario)["b"].stands is True
+    assert run.stands(5, scenario)["b"].missing_N == pytest.approx(6.4 - 0.5 * G, rel=1e-3)
+
+
+def test_every_step_is_asked_however_many_bodies_lack_something_at_times_of_their_own():
+    """Each of 14 boxes is pushed for two steps: it lacks F - mu m g, 2.55 to 5.15 N."""
+    bodies, contacts = {}, {}
+    for i in range(14):
+        body = block(0.5, (0.06, 0.06, 0.04), (i % 5 * 0.2, i // 5 * 0.2, 0.02))
+        at, F = 0.01 * (1 + i), 5 + 0.2 * i
+        loads = ((0.0, 0.0), (at, 0.0), (at + 0.001, F), (at + 0.019, F), (at + 0.02, 0.0))
+        body["wrenches"] = [{"t": t, "force": [x, 0, 0]} for t, x in loads]
+        bodies[f"b{i}"] = body
+        contacts[f"c{i}"] = on("floor", f"b{i}", 0.5)
+    scene = {"h": 0.01, "steps": 16, "bodies": bodies, "contacts": contacts}
+    scenario = load_scenario(scene | {"shapes": {"floor": FLOOR}}, backend="daqp", certify="off")
+    run = scenario.run(progress=False, findings=False)
+    steps = asked_steps(run, None, 1)
+    asked = [run.stands(k, scenario) for k in steps]
+    for i in range(14):
+        row = over_steps([(k, rows[f"b{i}"]) for k, rows in zip(steps, asked, strict=True)])
+        assert row["missing_N"] == pytest.approx(5 + 0.2 * i - 0.25 * G, rel=1e-3)
+        assert row["lacks"] in (1, 2)
 
 
 def test_a_verdict_does_not_depend_on_the_time_that_is_asked():
