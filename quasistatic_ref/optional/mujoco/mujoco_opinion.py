@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 
 SHORT = 0.01
 """Time step for forces of what slides, over MuJoCo's [-]: springs give way by 1e-4 as much."""
+OWN = 1e-9
+"""Difference of s from its own slip's norm, over the longest motion [-], of a fixed point."""
 FELL_BACK = "no solution of Coulomb's law was found: forces are those of the convex step"
 DRAG = "dampers: their forces at the present velocity are loads"
 
@@ -141,11 +143,10 @@ def _sliding(step: StepData) -> tuple[StepSolution, bool]:
     of: Callable[..., Any] = part("coulomb_from")
     polyhedral = cone(step.cone).polyhedral
     solver = solver_for(step, DAQP if polyhedral and is_there("daqp_solver") else None)
+    start = np.zeros(step.contacts.n_c)
     with suppress(QuasistaticError):
-        s = np.zeros(step.contacts.n_c)
-        if polyhedral:
-            s = of(step, s, solver, ACCURACY, "off").s
-        end = of(step, s, solver, ACCURACY)
+        way = of(step, start, solver, ACCURACY, "off", OWN)
+        end = of(step, way.s if way.converged else start, solver, ACCURACY, "full", OWN)
         if end.converged:
             return end, False
     return solve_step(step), True

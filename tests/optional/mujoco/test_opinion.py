@@ -9,6 +9,7 @@ from jsonschema import Draft4Validator
 
 import quasistatic_ref as qr
 from quasistatic_ref.lab.commands.schema import opinion_schema
+from quasistatic_ref.optional.mujoco.mujoco_opinion import FELL_BACK
 from quasistatic_ref.optional.mujoco.settled import settled
 from tests.helpers import one_sentence
 from tests.optional.mujoco.models import GRAVITY, mjcf, model_of, posed
@@ -396,6 +397,38 @@ def test_a_ball_that_spins_and_hops_has_the_friction_that_would_hold_it():
     (turns,) = opinion(scene, control={"m": 0.25}).findings
     assert "25.5 mm or more would hold it" in turns.cause
     assert turns.remedy.startswith("raise the second number of friction")
+
+
+SOLIDS = {"box": 3, "sphere": 1, "capsule": 2, "cylinder": 2, "ellipsoid": 3}
+
+
+def drawn(seed, n):
+    """Solids of five kinds, some of which slide as they fall on each other."""
+    rng = np.random.default_rng(seed)
+    bodies = ""
+    for i in range(n):
+        kind = [*SOLIDS][rng.integers(len(SOLIDS))]
+        numbers = rng.uniform(0.03, 0.07, SOLIDS[kind]), rng.normal(size=4)
+        size, quat = (" ".join(map(str, of.tolist())) for of in numbers)
+        x, y = rng.uniform(-0.12, 0.12, 2)
+        rough = f'friction="{rng.uniform(0.2, 0.8)} .01" condim="4"'
+        geom = f'type="{kind}" size="{size}" quat="{quat}" {rough}'
+        bodies += free(f"b{i}", geom, f"{x} {y} {0.1 + 0.6 * i / n}")
+    return mjcf(FLOOR + bodies, options='<option cone="elliptic"/>')
+
+
+def test_forces_of_solids_that_slide_are_those_of_iterates_that_are_all_proved():
+    """Only the end of Coulomb's iteration is proved; 16 convex steps lead to it."""
+    model = model_of(drawn(7, 4))
+    data = settled(model, 0.24)
+    answer = qr.mujoco_opinion(model, data)
+    assert FELL_BACK not in answer.left_out
+    step, _ = qr.mujoco_step(model, data, 0.01 * model.opt.timestep)
+    proved = qr.coulomb_step(step)
+    assert proved.converged
+    assert proved.s_iterations > 5
+    forces = [one.exact.normal for one in answer.contacts]
+    assert sorted(forces) == pytest.approx(sorted(proved.wrench[:, 2]), rel=1e-6, abs=1e-6)
 
 
 def test_a_body_that_falls_beside_the_scene_is_found():
