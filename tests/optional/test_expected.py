@@ -62,7 +62,7 @@ class Expected:
     pairs_by_coal: ChangedPairs = clouds_by_coal.pairs_by_coal
     ellipsoid: FrictionCone = ELLIPSOID_CONE
     coulomb: CoulombSolution = fixed_point.simulated_solution
-    coulomb_from: slow.FixedPoint = fixed_point.fixed_point_from
+    coulomb_from: Callable[..., fixed_point.CoulombSolution] = fixed_point.fixed_point_from
     posed: Posed = extended.posed
     extended_step: ExtendedStep = extended.extended_step
     extended_solution: ExtendedSolution = extended.simulated_solution

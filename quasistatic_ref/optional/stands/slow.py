@@ -15,17 +15,19 @@ import math
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
-from typing import NamedTuple, Protocol
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.certify.groups import Group, labels
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.numbers.arrays import Array, Indices, read_only
-from quasistatic_ref.optional.stands.bodies import Body, Missing
+from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
+from quasistatic_ref.optional.stands.bodies import Body
 from quasistatic_ref.parts import is_there
 from quasistatic_ref.parts import part as part_of
-from quasistatic_ref.solve.backends import DAQP, Certify
+from quasistatic_ref.simulate.standing import Standing
+from quasistatic_ref.solve.backends import DAQP
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import cone
@@ -56,36 +58,15 @@ OWN = 1e-9
 """Difference of s from its own slip's norm, over the longest motion [-], of a fixed point."""
 STICKS = 1e-3
 """Slip over the longest motion of a contact that sticks [-]."""
+TINY = 1e-300
+"""In the place of a force of zero, by which nothing is divided [N]."""
 STILL = 1e-6
 """Acceleration over the largest of a group [-] of a body that stays."""
 FACETS = "facets-32"
-"""A round cone as a polygon: with torsion, as the product of two."""
-HEAVY = (2.0**14, 2.0**10, 2.0**7)
-"""Mass of a body that a clamp holds, over the largest of its group [-]: the first that has an
-answer."""
-
-
-class CoulombStep(Protocol):
-    """The end of an iteration of ``optional/coulomb``."""
-
-    @property
-    def converged(self) -> bool:
-        """Whether it is a fixed point."""
-
-    @property
-    def s(self) -> Array:
-        """By how much phi was raised, shape (n_c,) [m]."""
-
-    @property
-    def delta_q(self) -> Array:
-        """Its motion, shape (n_v,) [m, rad]."""
-
-    @property
-    def wrench(self) -> Array:
-        """Forces of contacts, shape (n_c, 4) [N, N m]."""
-
-
-FixedPoint = Callable[[StepData, Array, Solver, float, Certify, float, float], CoulombStep]
+"""A round cone as a polygon; with torsion the sum of both shares, of 0.7 of it at least."""
+HEAVY = 2.0**14
+"""Mass of a body that a clamp holds, over the largest of its group [-]. What is read is short by
+m / (m + HEAVY) where a mass m leans on it; by a wedge that nearly jams, of 200 times that mass."""
 
 
 def as_polygon(name: str) -> str:
@@ -155,33 +136,13 @@ def slow_step(
         solver = solver_for(step, DAQP if is_there("daqp_solver") else None)
         solvers.append(solver)
     s = np.zeros(step.contacts.n_c) if s is None else s
-    of: FixedPoint = part_of("coulomb_from")
+    of: Callable[..., Any] = part_of("coulomb_from")
     end = of(step, s, solver, ACCURACY, "off", OWN, least)
     if certify == "full" and end.converged:
         end = of(step, end.s, solver, ACCURACY, "full", OWN, least)
     if not end.converged:
         raise NoFixedPoint("no solution of Coulomb's law was found")
     return Slow(T, end.delta_q, end.wrench, end.s)
-
-
-class Answer(NamedTuple):
-    """Whether a body stands, what it lacks, or why that is not known.
-
-    Parameters
-    ----------
-    stands : bool or None
-    lacks : Missing or None
-        What it lacks, where that is known.
-    with_it : tuple of str
-        Others of one verdict with it.
-    reason : str
-        Why something is not known.
-    """
-
-    stands: bool | None
-    lacks: Missing | None = None
-    with_it: tuple[str, ...] = ()
-    reason: str = ""
 
 
 class SlowGroup:
@@ -192,9 +153,7 @@ class SlowGroup:
     group : Group
     part : StepData
         As a step of its own, with the h of the scene.
-    bodies : sequence of Body
-    pair_of : ndarray of int, shape (n_c,)
-        The pair of each contact of the group.
+    bodies : list of Body
     g : float
         [m/s^2]
     solvers : list of Solver
@@ -208,141 +167,114 @@ class SlowGroup:
         group: Group,
         part: StepData,
         bodies: list[Body],
-        pair_of: Indices,
         g: float,
         solvers: list[Solver],
         certify: str,
     ) -> None:
         self.part = part
-        self.pair_of = pair_of
+        self.bodies = bodies
         self.solvers = solvers
         self.certify = certify
-        at = group.coordinates
-        self.bodies = {body: np.searchsorted(at, body.coordinates) for body in bodies}
-        self.g = g
-        self.rounding = ROUNDING * g * np.array([body.mass for body in bodies])
-        self.fall = float(np.max([self._own_load(body) / body.mass for body in bodies]))  # [m/s^2]
+        u = group.coordinates[part.n_a :]
+        self.masses = np.array([body.mass for body in bodies])
+        self.sizes = np.array([body.size for body in bodies])
+        self.own: Mask = np.array([np.isin(u, body.coordinates) for body in bodies])
+        moved = part.contacts.J[:, :, part.n_a :].any(axis=1)
+        self.touches: Mask = np.asarray(moved @ self.own.T)  # contacts, of bodies
+        self.none = ROUNDING * g * self.masses  # [N]
+        self.loads = self._amounts(np.asarray(np.linalg.solve(part.M_u, part.tau_u), np.float64))
 
     def _slow(self, T: float, s: Array, part: StepData | None = None) -> Slow:
         """The step of a part, by default the group, at T from s."""
-        step = self.part if part is None else part
-        least = self.fall * T**2
-        return slow_step(step, T, s, self.solvers, self.certify, least)
+        least = float((self.loads / self.masses).max()) * T**2  # as far as it might fall
+        return slow_step(part or self.part, T, s, self.solvers, self.certify, least)
 
     def _starts(self, first: Slow, last: Slow) -> Array:
-        """What goes with T^2, over T^2, turned round, (n_v,) [m/s^2, rad/s^2]."""
-        return (first.delta_q - last.delta_q) / (last.T**2 - first.T**2)
+        """What goes with T^2, over T^2, turned round, (n_u,) [m/s^2, rad/s^2]."""
+        return (first.delta_q - last.delta_q)[self.part.n_a :] / (last.T**2 - first.T**2)
 
-    def _inertia(self, body: Body) -> Array:
-        """The block of M_u of a body."""
-        at = self.bodies[body] - self.part.n_a
-        return self.part.M_u[np.ix_(at, at)]
+    def _ways(self, x: Array) -> Array:
+        """Root mean squares of points of each body in a motion x, (n_u,) [x's unit of length]."""
+        twice_energy = self.own @ (x * (self.part.M_u @ x))
+        return np.asarray(np.sqrt(np.maximum(twice_energy, 0.0) / self.masses))
 
     def _amounts(self, starts: Array) -> Array:
-        """Sizes of M_u starts on each body [N]."""
-        return np.array([self._size(body, starts) * body.mass for body in self.bodies])
+        """Sizes of M_u starts on each body [N]: of no frame, and for comparing alone."""
+        return self.masses * self._ways(starts)
 
-    def _size(self, body: Body, x: Array) -> float:
-        """Root mean square of a body's points in a motion x, (n_v,) [of x's unit of length]."""
-        own = x[self.bodies[body]]
-        return float(np.sqrt(max(float(own @ self._inertia(body) @ own), 0.0) / body.mass))
+    def _least(self, slow: Slow) -> Array:
+        """What is little on each body [N]: of its own load, or if it has none of what presses."""
+        pressed = slow.wrench[:, 2] @ self.touches
+        loads = np.where(self.loads > self.none, self.loads, pressed)
+        return np.maximum(LITTLE * loads, self.none)
 
-    def _ways(self, slow: Slow) -> Array:
-        """How far each body moves [m], a root mean square over its points."""
-        return np.array([self._size(body, slow.delta_q) for body in self.bodies])
-
-    def _loads(self, slow: Slow) -> Array:
-        """The load of each body: gravity and others, or if none the largest force of a pair [N]."""
-        part = self.part
-        normal = slow.wrench[:, 2]
-        loads = []
-        for body, at in self.bodies.items():
-            on = part.contacts.J[:, :, at].any(axis=(1, 2))
-            pairs = np.bincount(self.pair_of[on], normal[on])
-            own = self._own_load(body)
-            least = ROUNDING * self.g * body.mass
-            loads.append(own if own > least else float(pairs.max(initial=0.0)))
-        return np.array(loads)
-
-    def _own_load(self, body: Body) -> float:
-        """What gravity and other loads are on a body [N]."""
-        tau = self.part.tau_u[self.bodies[body] - self.part.n_a]
-        return float(body.amount(self._inertia(body), tau))
-
-    def answers(self, T: float | None) -> dict[Body, Answer]:
+    def rows(self, T: float | None) -> list[Standing]:
         """What each body lacks, or why that is not known; T is asked first [s], None: at once."""
         try:
-            return self._soon() if T is None else self._answers(T)
+            return self._at_once() if T is None else self._in_the_end(T)
         except QuasistaticError as error:
-            return dict.fromkeys(self.bodies, Answer(None, reason=one_line(str(error))))
+            why = one_line(str(error))
+            return [Standing(body.name, None, reason=why) for body in self.bodies]
 
-    def _answers(self, T: float) -> dict[Body, Answer]:
-        sizes = np.array([body.size for body in self.bodies])
-        steps = self._first(T / FACTOR**2)
+    def _in_the_end(self, T: float) -> list[Standing]:
+        steps = [self._first(T / FACTOR**2)]
+        steps.append(self._longer(steps[0]))
+        steps.append(self._longer(steps[1]))
         while True:
             last = steps[-1]
-            if len(steps) > 2:
-                first, here = self._starts(*steps[-3:-1]), self._starts(*steps[-2:])
-                least = np.maximum(LITTLE * self._loads(last), self.rounding)
-                before, amounts = self._amounts(first), self._amounts(here)
-                off = self._amounts(here - first)
-                same = off <= SAME * np.maximum(amounts, least)
-                little = amounts <= least
-                far = self._ways(last) > STRAIGHT * sizes
-                settled = same | little | far
-                if last.T >= T and (settled.all() or last.T > LONGEST * T):
-                    break
+            first, here = self._starts(*steps[-3:-1]), self._starts(*steps[-2:])
+            before, amounts = self._amounts(first), self._amounts(here)
+            least = self._least(last)
+            same = self._amounts(here - first) <= SAME * np.maximum(amounts, least)
+            little = amounts <= least
+            ways = self._ways(last.delta_q[self.part.n_a :])
+            far = ways > STRAIGHT * self.sizes
+            done = (same | little | far).all() or last.T > LONGEST * T
+            if done and last.T >= T:
+                break
             try:
                 steps.append(self._longer(last))
             except NoFixedPoint:
-                if len(steps) < 3:
-                    raise
                 break
-        grows = (amounts > before) & (before > least)
-        lacks = ~little & (same | grows)
+        lacks = ~little & (same | (amounts > before) & (before > least))
+        gives_way = np.where(lacks, ~same, far)
+        early = self._early(steps[0]) if gives_way.any() else steps[:2]
+        once = self._amounts(self._starts(*early)) > least
         joined = self._one_verdict(last, here)
-        early = steps[:2]
-        if (grows & ~same & ~little).any() or (far & ~lacks).any():
-            early = self._at_once(steps[0])
-        once = self._amounts(self._starts(*early))
-        answers: dict[Body, Answer] = {}
+        rows = []
         for i, body in enumerate(self.bodies):
-            of_one = joined == joined[i]
-            if lacks[of_one].any():
-                names = (
-                    one.name for one, with_it in zip(self.bodies, of_one, strict=True) if with_it
-                )
-                lack = self._clamped(body, steps[-2:] if same[i] else early)
-                open_part = "" if lack else "what a clamp would bear is not known"
-                others = tuple(name for name in names if name != body.name)
-                answers[body] = Answer(False, lack, others, open_part)
-            elif far[i] and once[i] > least[i]:
-                way = f"gives way by {1e3 * self._ways(last)[i]:.3g} mm first"
-                answers[body] = Answer(None, reason=f"{way}; {once[i]:.4g} N at once")
-            elif little[i] or far[i]:
-                answers[body] = Answer(True)
-            else:
-                answers[body] = Answer(None, reason=f"still gives way after {last.T:.3g} s")
-        return answers
+            if lacks[joined == joined[i]].any():
+                row = self._clamped(i, steps[-2:] if same[i] else early)
+                names = [self.bodies[k].name for k in np.flatnonzero(joined == joined[i]) if k != i]
+                rows.append(replace(row, held_with=tuple(names)))
+                continue
+            why = ""
+            if far[i] and once[i]:
+                lack = self._clamped(i, early).words
+                why = f"gives way by {1e3 * ways[i]:.3g} mm first; {lack} at once"
+            elif not (little[i] or far[i]):
+                why = f"still gives way after {last.T:.3g} s"
+            rows.append(Standing(body.name, None if why else True, reason=why))
+        return rows
 
-    def _soon(self) -> dict[Body, Answer]:
+    def _at_once(self) -> list[Standing]:
         """What each body lacks at once, before springs and landings bear it."""
-        T = math.sqrt(FIRST * min([body.size for body in self.bodies]) / FALLS)
+        T = math.sqrt(FIRST * self.sizes.min() / FALLS)
         first = self._slow(T, np.zeros(self.part.contacts.n_c))
         steps = [first, self._longer(first)]
-        lacks = self._amounts(self._starts(*steps)) > LITTLE * self._loads(steps[1])
-        clamps = {one: self._clamped(one, steps) if off else None
-                  for one, off in zip(self.bodies, lacks.tolist(), strict=True)}  # fmt: skip
-        return {body: Answer(lack is None, lack) for body, lack in clamps.items()}
+        lacks = self._amounts(self._starts(*steps)) > self._least(steps[1])
+        return [
+            self._clamped(i, steps) if lacks[i] else Standing(body.name, True)
+            for i, body in enumerate(self.bodies)
+        ]
 
-    def _first(self, T: float) -> list[Slow]:
+    def _first(self, T: float) -> Slow:
         """The step at T from s = 0, or at the first shorter T for which there is one."""
         s = np.zeros(self.part.contacts.n_c)
-        for _ in range(SHORTER):
+        for shorter in range(SHORTER):
             with suppress(NoFixedPoint):
-                return [self._slow(T, s)]
-            T /= FACTOR
-        return [self._slow(T, s)]
+                return self._slow(T / FACTOR**shorter, s)
+        return self._slow(T / FACTOR**SHORTER, s)
 
     def _longer(self, slow: Slow) -> Slow:
         """The step at the next T, from the s of the last one, or from s = 0."""
@@ -350,67 +282,53 @@ class SlowGroup:
             return self._slow(FACTOR * slow.T, FACTOR**2 * slow.s)
         return self._slow(FACTOR * slow.T, 0.0 * slow.s)
 
-    def _at_once(self, slow: Slow) -> list[Slow]:
-        """Two steps before bodies have moved far: from them on, what is missing stays the same."""
-        last = slow
-        amounts = np.zeros(len(self.bodies))
+    def _early(self, slow: Slow) -> list[Slow]:
+        """Two steps before bodies have moved far, from which on what is missing stays the same."""
+        steps = [slow]
         for _ in range(SHORTER):
-            first = self._slow(last.T / FACTOR, last.s / FACTOR**2)
-            pair = [first, last]
-            before, amounts = amounts, self._amounts(self._starts(*pair))
-            if (np.abs(amounts - before) <= SAME * amounts).all():
-                break
-            last = first
-        return pair
+            steps.append(self._slow(steps[-1].T / FACTOR, steps[-1].s / FACTOR**2))
+        pairs = [[first, last] for last, first in pairwise(steps)]
+        amounts = np.array([self._amounts(self._starts(*pair)) for pair in pairs])
+        off = np.abs(np.diff(amounts, axis=0)).max(axis=1)
+        return pairs[1 + int((off / np.maximum(amounts[1:].max(axis=1), TINY)).argmin())]
 
     def _one_verdict(self, slow: Slow, starts: Array) -> Indices:
         """A label of each body, (bodies,): one of those that press without slipping, and move."""
         contacts = self.part.contacts
-        J = contacts.J
-        J_1, J_2 = frame_jacobian(contacts, J)[1:3]
+        _, J_1, J_2, *_ = frame_jacobian(contacts, contacts.J)
         slips = np.maximum(np.abs(J_1 @ slow.delta_q), np.abs(J_2 @ slow.delta_q))
-        longest = (np.abs(J) @ np.abs(slow.delta_q)).max(initial=0.0)
+        longest = (np.abs(contacts.J) @ np.abs(slow.delta_q)).max(initial=0.0)
         sticks = (slow.wrench[:, 2] > 0) & (slips <= STICKS * longest)
-        amounts = np.array([self._size(body, starts) for body in self.bodies])
-        moves = amounts > STILL * amounts.max(initial=0.0)
-        on = [J[sticks][:, :, at].any(axis=(1, 2)) for at in self.bodies.values()]
-        joins = np.array(on).reshape(len(self.bodies), int(sticks.sum())) & moves[:, None]
-        return labels(joins.T)[0]
+        ways = self._ways(starts)
+        return labels(self.touches[sticks] & (ways > STILL * ways.max()))[0]
 
-    def _clamped(self, body: Body, steps: list[Slow]) -> Missing | None:
-        """What a clamp on a body alone would bear: its inertia is made large; None if not known."""
-        if len(self.bodies) == 1:  # its own first motion says the same
-            return body.missing(self._starts(*steps)[self.bodies[body]], self._inertia(body))
-        largest = max([one.mass for one in self.bodies]) / body.mass
-        for heavy in HEAVY:
-            with suppress(NoFixedPoint):
-                return self._held(body, steps, heavy * largest)
-        return None
-
-    def _held(self, body: Body, steps: list[Slow], inertia: float) -> Missing:
-        """What bears a body whose inertia is so many times its own.
+    def _clamped(self, i: int, steps: list[Slow]) -> Standing:
+        """What a clamp on a body alone would bear: its inertia is made large.
 
         It begins where all has landed and given way, by the motion that does not go with T^2.
         """
-        part = self.part
-        last = steps[-1]
-        way = last.delta_q + self._starts(*steps) * last.T**2
-        n_a = part.n_a
-        contacts = part.contacts
-        extra = part.extra
-        if extra.cost is not None:
-            H, g = extra.cost
-            extra = replace(extra, g=g - H @ way)
-        at = self.bodies[body] - n_a
-        M_u = np.array(part.M_u)
-        M_u[np.ix_(at, at)] *= inertia
-        J_n = frame_jacobian(contacts, contacts.J)[0]
-        heavy = part.with_fields(
-            M_u=read_only(M_u),
-            delta_q_bar_a=part.delta_q_bar_a - way[:n_a],
-            contacts=contacts.raised(J_n @ way),
-            extra=replace(extra, b=extra.b - extra.A @ way),
-        )
-        first, last = (self._slow(step.T, 0.0 * step.s, heavy) for step in steps)
-        starts = self._starts(first, last)[self.bodies[body]]
-        return body.missing(starts, M_u[np.ix_(at, at)])
+        body, own, part = self.bodies[i], self.own[i], self.part
+        starts, M_u = self._starts(*steps), part.M_u
+        if len(self.bodies) > 1:  # else its own first motion says the same
+            M_u = np.where(own[:, None], HEAVY * self.masses.max() / body.mass, 1.0) * M_u
+            way = np.array(steps[1].delta_q)
+            way[part.n_a :] += starts * steps[1].T ** 2
+            heavy = part.with_fields(M_u=read_only(M_u), **moved(part, way))
+            try:
+                starts = self._starts(*(self._slow(step.T, 0.0 * step.s, heavy) for step in steps))
+            except NoFixedPoint:
+                return Standing(body.name, False, reason="what a clamp would bear is not known")
+        return body.missing(starts[own], M_u[np.ix_(own, own)])
+
+
+def moved(step: StepData, way: Array) -> dict[str, Any]:
+    """The fields of a step that change where a motion, (n_v,) [m, rad], was done before."""
+    extra, contacts = step.extra, step.contacts
+    if extra.cost is not None:
+        H, g = extra.cost
+        extra = replace(extra, g=g - H @ way)
+    return {
+        "delta_q_bar_a": step.delta_q_bar_a - way[: step.n_a],
+        "contacts": contacts.raised(frame_jacobian(contacts, contacts.J)[0] @ way),
+        "extra": replace(extra, b=extra.b - extra.A @ way),
+    }

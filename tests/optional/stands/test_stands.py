@@ -1,6 +1,7 @@
 """What stands and what is missing, by hand: just inside of a threshold and just outside of it."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from quasistatic_ref import Box, Capsule, Extension, InputError, Sphere, load_scenario
 from quasistatic_ref.lab.commands.stands import asked_steps, over_steps
 from tests.files.urdf.urdf_texts import collision, link, robot
-from tests.optional.words import driven, free, slides, solid
+from tests.optional.words import driven, free, placed, slides, solid
 from tests.scenes import FLOOR
 
 G = 9.81
@@ -422,3 +423,25 @@ def test_r49_what_is_missing_of_drawn_scenes(scene, seed):
     row = stands(bodies, contacts, shapes)[body]
     assert row.stands is (lacks <= 0)
     assert getattr(row, f"missing_{unit}") == pytest.approx(max(lacks, 0.0), rel=0.01)
+
+
+def test_a_bar_in_fingers_that_twist_gives_way_first():
+    """Its middle is d = 8 mm off: at once m d a and m k^2 a, a = g d / (k^2 + d^2).
+
+    k is its radius of gyration. Once the fingers have twisted by m g d / K they bear it.
+    """
+    m, d = 1.15, 0.008
+    k = math.sqrt((0.08**2 + 0.02**2) / 12)
+    K = m * G * d * math.hypot(k, d) / 0.012
+    bodies = {"bar": block(m, (0.08, 0.02, 0.02), (-d, 0, 0))}
+    for name, side in (("l", -1), ("r", 1)):
+        targets = [{"t": 0, "base": {"xyz": [0, 0.019 * side, 0]}}]
+        one = placed(solid(0.1, Sphere(0.01)), (0, 0.02 * side, 0), base="floating")
+        K_q = {"base": [1e9, 1e4, 1e9, 1e5, K / 2, 1e5]}
+        bodies[name] = one | {"actuated": ["base"], "K_q": K_q, "targets": targets}
+    row = stands(bodies, {"g": on(["l", "r"], "bar", 0.9, 1, 0.02)}, {})["bar"]
+    a = G * d / (k**2 + d**2)
+    assert row.stands is None
+    words = re.fullmatch(r"gives way by 12 mm first; (\S+) N and (\S+) N m at once", row.reason)
+    assert [*map(float, words.groups())] == pytest.approx([m * d * a, m * k**2 * a], rel=0.01)
+    assert m * d * a == pytest.approx(1.145, rel=1e-3)
