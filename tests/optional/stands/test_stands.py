@@ -59,7 +59,7 @@ def finger(side, x, force, K=1e4, z=0.0):
     }
 
 
-def stands(bodies, contacts, shapes=None, backwards=False, **more):
+def stands(bodies, contacts, shapes=None, backwards=False, certify="off", **more):
     """What is said of a scene where it starts."""
     if backwards:
         bodies = dict(reversed(bodies.items()))
@@ -71,7 +71,7 @@ def stands(bodies, contacts, shapes=None, backwards=False, **more):
     scenario = load_scenario(scene | {"shapes": shapes or {"floor": FLOOR}} | more)
     q = scenario.system.q_start
     force = scenario.force(0.0, q) if scenario.force else None
-    return scenario.simulator().stands(q, scenario.targets(0.0), force)
+    return scenario.simulator().stands(q, scenario.targets(0.0), force, certify=certify)
 
 
 def ladder(over):
@@ -339,6 +339,27 @@ def test_proved_ends_say_the_same_and_bad_words_are_refused():
         run.stands(2)
     with pytest.raises(InputError, match="is no body"):
         off["blok"]
+
+
+@pytest.mark.parametrize("mass", [0.05, 5.0])
+def test_a_pile_of_mixed_solids_is_decided_and_its_ends_are_proved(mass):
+    """A ball presses two others apart, against boxes: 50 g bear 0.25 N of some 1.7 N, 5 kg all."""
+    bodies = {
+        name: free(solid(1.0, Sphere(0.05)), (x, 0, z))
+        for name, x, z in (("l", -0.05, 0.05), ("r", 0.05, 0.05), ("t", 0, 0.05 + 0.05 * 3**0.5))
+    }
+    bodies |= {f"b{x}": block(mass, (0.1,) * 3, (0.15 * x, 0, 0.05)) for x in (-1, 1)}
+    contacts = {
+        "floor": on("floor", [*bodies], 0.5),
+        "top": on(["l", "r"], "t", 0.1, 1),
+        "side": on(["l", "r"], ["b-1", "b1"], 0.1, 1),
+    }
+    off, full = (stands(bodies, contacts, certify=word) for word in ("off", "full"))
+    assert {row.stands for row in off} == {mass > 1}
+    for row in off:
+        same = full[row.body]
+        assert (same.stands, same.held_with) == (row.stands, row.held_with)
+        assert same.missing_N == pytest.approx(row.missing_N, rel=1e-6)
 
 
 def test_a_light_record_needs_the_scenario_and_a_scene_of_no_free_body_says_so():
