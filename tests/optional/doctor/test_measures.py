@@ -1,5 +1,8 @@
 """What happened in a run: its numbers by hand."""
 
+import tomllib
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -12,9 +15,11 @@ from quasistatic_ref import (
 from quasistatic_ref.optional.doctor.did.lines import in_words, lines, pair_rows
 from quasistatic_ref.optional.doctor.did.numbers import by_name, numbers_of, resolved, rounding_of
 from tests.closeness import assert_relative
-from tests.optional.words import block, driven, free, slides
+from tests.optional.doctor.test_cases import made as made_of_case
+from tests.optional.words import driven, slides
 from tests.scenes import scene
 
+ROWS = tomllib.loads(Path(__file__).with_name("numbers.toml").read_text("utf-8"))["row"]
 PAD = '<box size="0.02 0.02 0.02"/>'
 HIGH, DOWN, ALONG = 5.5e-3, 1e-2, 5e-3
 """Of a pad above the floor; how far its targets then go down, and along it [m]."""
@@ -79,43 +84,26 @@ def test_a_shape_that_is_not_of_a_pair_is_answered_by_the_pairs(made):
         run.pair_forces()["nothing"]
 
 
-def test_a_body_rises_against_gravity():
-    """1 kg, which 10 N push along -x, against 4 N of gravity: 6 N h^2 / m = 0.6 mm a step."""
-    box = {"box": free(block(1.0, (0.1, 0.1, 0.1)), (0, 0, 1), (-10, 0, 0))}
-    made = scene(box, {"floor": ("floor", "box", 0.5, 4)}, 5, gravity=[4, 0, 0])
-    numbers = numbers_of(made.run(progress=False), made)["bodies"]["box"]
-    assert numbers["largest_rise_mm"] == pytest.approx(3.0)
-    assert numbers["ends_from_start_m"] == pytest.approx(3e-3)
-
-
-def test_a_body_that_turns_on_has_turned_by_more_than_half_a_turn():
-    """I = m a^2 / 6, so that a torque of 40 I / h^2 degrees turns it by 40 degrees a step."""
-    torque = np.radians(40) * 0.1**2 / 6 / 0.01**2
-    box = {"box": free(block(1.0, (0.1, 0.1, 0.1)), (0, 0, 1), torque=(0, torque, 0))}
-    made = scene(box, {"floor": ("floor", "box", 0.5, 4)}, 10, gravity=[0, 0, 0])
-    numbers = numbers_of(made.run(progress=False), made)["bodies"]["box"]
-    assert numbers["largest_rotation_deg"] == pytest.approx(400)
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row["what"])
+def test_numbers_are_those_by_hand(row):
+    scenario = made_of_case(row)
+    said = by_name(numbers_of(scenario.run(progress=False, findings=False), scenario))
+    for name, (value, off) in row["numbers"].items():
+        assert said[name] == pytest.approx(value, rel=off, abs=off)
+    assert said.keys().isdisjoint(row.get("unknown", ()))
 
 
 def test_what_float64_does_not_resolve_in_its_scene_is_zero(tmp_path, cli):
-    """Three boxes rest, in a scene of 0.1 m: their gaps of 1e-17 m and turns of 1e-14 deg are 0.
-
-    So they are 90 m away, where a place is rounded to 1e-14 m.
-    """
+    """Three boxes rest, in a scene of 0.1 m: their gaps of 1e-17 m and turns of 1e-14 deg are 0."""
     words = ["--fast", "--set", "steps=5", "--out", tmp_path, "--numbers"]
     printed = cli("run", "stack", *words).out.partition("natural units)")[2]
     assert "least distance" in printed
     assert "e-" not in printed
-    far = free(block(1.0, (0.1, 0.1, 0.1)), (90, 0, 0.05), (3.0, 0, 0))
-    made = scene({"box": far}, {"floor": ("floor", "box", 0.5, 4)}, 5)
-    numbers = numbers_of(made.run(progress=False, findings=False), made)
-    assert set(numbers["bodies"]["box"].values()) == {0.0}
-    (pair,) = numbers["pairs"].values()
-    assert pair["least_distance_m"] == 0.0
+    made = load_scenario("stack", steps=5, fast=True)
     limits = rounding_of(made.run(progress=False, findings=False), made.system.joints)
     least = np.array([0.5, -0.5, 2.0, -2.0])
     assert_relative(resolved(limits.m * least, limits.m), [0.0, 0.0, 2 * limits.m, -2 * limits.m])
-    assert 1e-13 < limits.m < 1e-11
+    assert 1e-16 < limits.m < 1e-14
     assert 1e-15 < limits.rad < 1e-14
 
 
