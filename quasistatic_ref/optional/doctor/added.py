@@ -82,6 +82,8 @@ def added(run: Run) -> Iterator[Added]:
 
     A layer of what slips because it falls comes of the fall.
     """
+    if not run.pairs:
+        return
     f = run["wrench"]
     normal = f[..., 2:3] * run["n"]
     every = normal + f[..., :1] * run["d1"] + f[..., 1:2] * run["d2"]

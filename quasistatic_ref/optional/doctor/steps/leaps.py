@@ -45,9 +45,10 @@ def leaps(run: Run) -> Iterator[Finding]:
         shares = np.maximum(way / (size or np.inf), angle)
         start = run.q_start[joint.q][0]
         jump = abs(float(tracks.get(joint.name, start) - start)) if shares[0] > JUMP else 0.0
-        k = int((shares > (JUMP if jump > BEYOND else LEAP)).argmax())
+        limit = JUMP if jump > BEYOND else LEAP
+        k = int((shares > limit).argmax())
         share = float(shares[k])
-        if share <= (JUMP if jump > BEYOND else LEAP):
+        if share <= limit:
             continue
         how = f"turns by {np.degrees(angle[k]):.3g} degrees"
         if share > angle[k]:
