@@ -106,7 +106,8 @@ def locked(run: Run) -> Iterator[Finding | Undecided]:
     pressed = run["wrench"][k, :, 2]
     force = np.abs(step.tau_u + pressed @ J_n)  # all but friction
     slow: Callable[..., Any] = part("slow_step")
-    smooth = slow(step.with_fields(cone="frictionless"), run.h).wrench[:, 2]
+    frictionless = slow(step.with_fields(cone="frictionless"), run.h)
+    smooth = frictionless.wrench[:, 2]
     noise = TINY * np.abs(step.tau_u).max(initial=0.0)
 
     def could(normal: Array) -> Array:
@@ -115,14 +116,16 @@ def locked(run: Run) -> Iterator[Finding | Undecided]:
         return sums
 
     of_system = slice(n_a, run.system.n_v)
-    suspect = (force > np.maximum(2 * could(smooth), noise))[: run.system.n_u]
+    moved = np.abs(run["delta_q"][k, of_system])
+    suspect = (force > np.maximum(2 * could(smooth), noise))[: len(moved)]
+    suspect &= moved < LOCKED * np.abs(frictionless.delta_q[of_system])
     if not suspect.any():
         return
     try:
         by_coulomb = slow(step, run.h, np.full(contacts.n_c, CRAWL * run.h))
     except QuasistaticError:  # nothing is claimed where Coulomb's law has no solution
         return
-    moved, way = np.abs(run["delta_q"][k, of_system]), np.abs(by_coulomb.delta_q[of_system])
+    way = np.abs(by_coulomb.delta_q[of_system])
     suspect &= (moved < LOCKED * way) & (way > TINY * way.max(initial=0.0))
     if not suspect.any():
         return
