@@ -238,6 +238,8 @@ PAIRS: Final = np.array([[0, 2], [1, 3], [4, 5]])
 ZERO_SHARE = 1e-9
 """Singular values, and entries of a dependence, below this share of the largest count as zero; a
 wrong start costs steps of the active-set method, not correctness."""
+ROUNDED: Final = 2.0**-54
+"""What is less than this share of the largest multiplier is rounding [-], but for a third pair."""
 BLOCK = 256
 """Most rows whose dependences are formed at once: the time for that is cubic in their number."""
 
@@ -264,8 +266,9 @@ def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:
 
 
 def basic_rows(lam: Array) -> list[int]:
-    """Rows with positive multipliers lam (m,) [-], the largest multiplier first."""
-    return [int(i) for i in np.argsort(-lam, kind="stable")[: np.count_nonzero(lam > 0)]]
+    """Rows that bear more than rounding by their multipliers lam (m,) [-], the largest first."""
+    bears = (lam > 0) & (lam >= ROUNDED * lam.max(initial=0.0))
+    return [int(i) for i in np.argsort(-lam, kind="stable")[: np.count_nonzero(bears)]]
 
 
 def third_pair_rows(step: StepData, A: Array, x: Array, lam: Array) -> Indices:

@@ -190,15 +190,17 @@ def exact_hessian(hessian: Hessian, of_cost: Array | None = None) -> tuple[arb_m
     """
     n_a = hessian.n_a
     n = n_a + len(hessian.M_u)
-    parts = np.zeros((3, n, n))
-    parts[0, :n_a, :n_a] = hessian.K_q
-    parts[1, n_a:, n_a:] = hessian.M_u
-    if of_cost is not None:
-        parts[2] = of_cost
-    K_q, M_u, H_cost = map(exact_matrix, parts)
+    springs = arb_mat(n, n)
+    M_u = np.zeros((n, n))
+    M_u[n_a:, n_a:] = hessian.M_u
     with working_precision(EXACT):
-        springs = K_q * (arb(hessian.h) * hessian.h)
-        H = springs + M_u + H_cost * arb(hessian.h)
+        if n_a:
+            K_q = np.zeros((n, n))
+            K_q[:n_a, :n_a] = hessian.K_q
+            springs = exact_matrix(K_q) * (arb(hessian.h) * hessian.h)
+        H = springs + exact_matrix(M_u)
+        if of_cost is not None:
+            H += exact_matrix(of_cost) * arb(hessian.h)
     return springs, H, inverse(H)
 
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.active_set import basic_rows, third_pair_rows, warm_rows
+from quasistatic_ref.certify.active_set import ROUNDED, basic_rows, third_pair_rows, warm_rows
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.degeneracy import Degeneracy, step_degeneracy
 from quasistatic_ref.certify.failures import StepNotSolved
@@ -46,8 +46,6 @@ ExtendedStep = Callable[
 ROWS_AT_ONCE = 100
 """Most rows of which a start is chosen from all groups at once, and not from each. Where lam is not
 unique, the start decides on it; that of small scenes is in committed runs."""
-LEAST = 2.0**-1022
-"""What bears less than float64 shows [-]."""
 WITHIN_RANGE = 1e100
 """Far below the square root of float64's largest number."""
 NOTHING_CLAIMED = Certificate("none")
@@ -299,7 +297,7 @@ def starting_rows(
     if solver.basic:
         moved = scaled.units.coordinate * x
         y = y.copy()
-        y[third_pair_rows(scaled.step, scaled.own_inequalities[0], moved, y)] = LEAST
+        y[third_pair_rows(scaled.step, scaled.own_inequalities[0], moved, y)] = ROUNDED * y.max()
         return [basic_rows(y[group.rows]) for group in groups]
     if len(groups) > 1 and scaled.step.m <= ROWS_AT_ONCE:
         form = scaled.natural

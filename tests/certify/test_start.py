@@ -16,7 +16,8 @@ def test_open_rows_are_left_out_and_the_most_pressed_comes_first():
     lam = np.array([1e-9, 2.0, 1.0, 1e-12])
     slack = np.array([1.0, 1e-9, 1e-12, 3.0])
     assert warm_rows(np.eye(4), lam, slack) == [1, 2]
-    assert basic_rows(np.array([0.0, 1.0, 1.0, 3.0, -2.0])) == [3, 1, 2]
+    assert basic_rows(np.array([0.0, 1.0, 1.0, 3.0, -2.0, 1e-17])) == [3, 1, 2]
+    assert basic_rows(np.zeros(2)) == []
     for m in (0, 3):  # a row without coefficients depends on none
         assert warm_rows(np.zeros((m, 4)), np.ones(m), np.zeros(m)) == []
 
