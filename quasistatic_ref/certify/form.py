@@ -25,7 +25,7 @@ from typing import Final, NamedTuple, TypeAlias
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpz, fmpz_mat
 
-from quasistatic_ref.certify.groups import labels
+from quasistatic_ref.certify.groups import components
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.modulo import supports_modulo
 from quasistatic_ref.numbers.precision import working_precision
@@ -341,7 +341,7 @@ def _blocks(H: arb_mat) -> list[tuple[list[int], arb_mat]]:
     n = H.nrows()
     entries = H.entries()
     coupled = np.array([not v.is_zero() for v in entries], dtype=bool).reshape(n, n)
-    block_of, _ = labels(coupled)
+    block_of, _ = components(coupled)
     firsts = np.flatnonzero(block_of == np.arange(n))
     every = [np.flatnonzero(block_of == first).tolist() for first in firsts]
     return [

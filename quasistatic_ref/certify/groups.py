@@ -145,7 +145,7 @@ def groups_of(
     )
 
 
-def labels(couplings: Mask) -> tuple[Indices, Indices]:
+def components(couplings: Mask) -> tuple[Indices, Indices]:
     """The group of each coordinate and of each coupling, from a mask, shape (couplings, n)."""
     coupling, coordinate = np.nonzero(couplings)
     return connected_components(coupling, coordinate, couplings.shape)

@@ -127,7 +127,7 @@ class Minimiser:
     form : ExactForm
     working : tuple of int
         W: independent rows.
-    near : NearSets, optional
+    near : UpdatedInverse, optional
         Of a working set that may differ by few rows.
     bits : int, optional
         Of balls; by default those of the form.
@@ -252,7 +252,7 @@ class Minimiser:
         """Multiplier j of this minimiser as a fraction, up to a positive factor common to all."""
         return fraction(self.fractions.y[j])
 
-    def positive(self) -> tuple[int, ...]:
+    def rows_that_bear(self) -> tuple[int, ...]:
         """The rows of the working set that are equations, or whose multipliers are positive."""
         equations = self.form.equations
         return tuple(
@@ -309,7 +309,7 @@ class Minimiser:
         return np.flatnonzero(is_open).tolist()
 
     @property
-    def lowest_shown(self) -> list[int]:
+    def perhaps_most_violated(self) -> list[int]:
         """Rows outside of W that are violated in float64 and may be the most violated ones."""
         slack, error = self.float_slacks
         violated = slack < -error
@@ -333,9 +333,9 @@ class Minimiser:
     def implied(self, some: Sequence[int]) -> list[int]:
         """The given rows [a, c] that are linear combinations of rows of W, in ascending order."""
         beyond = self.beyond_cones(some)
-        return sorted({*some} - {*beyond} | {*self.combined(beyond)})
+        return sorted({*some} - {*beyond} | {*self.in_row_space(beyond)})
 
-    def combined(self, some: list[int]) -> list[int]:
+    def in_row_space(self, some: list[int]) -> list[int]:
         """Those of the given rows that W implies, whatever the cones of its contacts imply."""
         if not some:
             return []
@@ -366,7 +366,7 @@ class Minimiser:
         balls = self.slack_balls
         by_cone = [i for i in self.open_rows if i not in balls]
         near_zero = [i for i, ball in balls.items() if ball.contains(0)]
-        return sorted([*by_cone, *self.combined(near_zero)])
+        return sorted([*by_cone, *self.in_row_space(near_zero)])
 
     @cached_property
     def slack_signs(self) -> dict[int, int]:
@@ -383,22 +383,22 @@ class Minimiser:
         near = self.near_sets
         working = self.working
         try:
-            loads = near.loads(working, p)
-            c = near.solved(working, loads)
+            delassus = near.delassus_column(working, p)
+            c = near.solved(working, delassus)
         except ZeroDivisionError:
             c = [arb(0, 1)] * len(working)  # nothing is shown
         else:
-            a, moved, *_ = near.pull(p)
+            a, displacement, *_ = near.response(p)
             with working_precision(self.bits):
-                of_others = sum((v * load for v, load in zip(c, loads, strict=True)), arb(0))
-                if (a * moved)[0, 0] - of_others > 0:
+                of_others = sum((v * s for v, s in zip(c, delassus, strict=True)), arb(0))
+                if (a * displacement)[0, 0] - of_others > 0:
                     return self.on((*working, p))
         relation = Relation(self.form, working, p, [-v for v in c])
         if len(working) == self.form.n or relation.exact is not None:
             return relation
         return self.on((*working, p))
 
-    def below(self, i: int, j: int) -> bool:
+    def slack_is_less(self, i: int, j: int) -> bool:
         """Whether the slack of row i is smaller than that of row j, decided exactly."""
 
         def difference(point: KktPoint) -> arb:
@@ -465,8 +465,8 @@ class Minimiser:
                 return np.array(values, dtype=np.float64)
         exact = self.fractions
         with working_precision(EXACT):
-            below = exact.denominator if unit is None else exact.denominator * unit
-            return rounded_quotients(numbers(exact), below)
+            denominator = exact.denominator if unit is None else exact.denominator * unit
+            return rounded_quotients(numbers(exact), denominator)
 
     def smallest_slack(self) -> float | None:
         """The smallest slack that is not zero, rounded [m]; None if there is none.

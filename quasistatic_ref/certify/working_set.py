@@ -87,15 +87,15 @@ class RowResponse(NamedTuple):
 
     Parameters
     ----------
-    a, moved : arb_mat
+    a, displacement : arb_mat
         The row, shape (1, n), and H^-1 a', shape (n, 1).
-    loads, changes : list of arb
+    delassus, changes : list of arb
         A H^-1 a' and G A H^-1 a' of the rows A of the base.
     """
 
     a: arb_mat
-    moved: arb_mat
-    loads: list[arb]
+    displacement: arb_mat
+    delassus: list[arb]
     changes: list[arb]
 
 
@@ -126,31 +126,33 @@ class UpdatedInverse:
         k = len(rows)
         with working_precision(bits):
             one = arb_mat(k, k, [int(i == j) for i in range(k) for j in range(k)])
-            self._G = responses(form, rows, self._A, bits).solve(one, algorithm="lu")
+            self._G = delassus_matrix(form, rows, self._A, bits).solve(one, algorithm="lu")
         self._G_rows = self._G.tolist()
-        self._pulls: dict[int, RowResponse] = {}
+        self._responses: dict[int, RowResponse] = {}
 
     def has_near(self, working: Sequence[int]) -> bool:
         """Whether a working set differs by few rows."""
         return len({*working} ^ {*self._place}) <= FEW_ROWS + len(self._place) // 4
 
-    def pull(self, i: int) -> RowResponse:
+    def response(self, i: int) -> RowResponse:
         """The response of the base to a unit multiplier of row i."""
-        if i not in self._pulls:
+        if i not in self._responses:
             a = columns(self.form.exact_rows([i]), slice(0, self.form.n))
             with working_precision(self._bits):
-                moved = self._H_inverse * a.transpose()
-                loads = self._A * moved
-                self._pulls[i] = RowResponse(a, moved, loads.entries(), (self._G * loads).entries())
-        return self._pulls[i]
+                displacement = self._H_inverse * a.transpose()
+                column = self._A * displacement
+                changes = (self._G * column).entries()
+            self._responses[i] = RowResponse(a, displacement, column.entries(), changes)
+        return self._responses[i]
 
-    def loads(self, working: Sequence[int], p: int) -> list[arb]:
-        """The vector A_W H^-1 a_p', with an entry for each row of the working set W."""
-        pull = self.pull(p)
+    def delassus_column(self, working: Sequence[int], p: int) -> list[arb]:
+        """The vector A_W H^-1 a_p', a column of the Delassus matrix: an entry for each row of W."""
+        response = self.response(p)
         place = self._place
         with working_precision(self._bits):
             return [
-                pull.loads[place[i]] if i in place else self._between(i, [p])[0] for i in working
+                response.delassus[place[i]] if i in place else self._between(i, [p])[0]
+                for i in working
             ]
 
     def solved(self, working: Sequence[int], right_side: Sequence[arb]) -> list[arb]:
@@ -170,9 +172,11 @@ class UpdatedInverse:
         with working_precision(self._bits):
             y = self._G * y
             if entered or left:
-                changes = [self._G_rows[j] for j in left] + [self.pull(i).changes for i in entered]
+                changes = [self._G_rows[j] for j in left] + [
+                    self.response(i).changes for i in entered
+                ]
                 U = arb_mat(changes).transpose()
-                loads = [self._unit(j) for j in left] + [self.pull(i).loads for i in entered]
+                loads = [self._unit(j) for j in left] + [self.response(i).delassus for i in entered]
                 equations = arb_mat(loads)
                 r = [arb(0)] * len(left) + [right[i] for i in entered]
                 of_entered = [[arb(0)] * len(left) + self._between(i, entered) for i in entered]
@@ -188,12 +192,12 @@ class UpdatedInverse:
 
     def _between(self, i: int, rows: Sequence[int]) -> list[arb]:
         """The a_i H^-1 a' of some rows."""
-        a = self.pull(i).a
-        return [(a * self.pull(other).moved)[0, 0] for other in rows]
+        a = self.response(i).a
+        return [(a * self.response(other).displacement)[0, 0] for other in rows]
 
 
-def responses(form: ExactForm, rows: Sequence[Row], A: arb_mat, bits: int) -> arb_mat:
-    """S = A H^-1 A' of exact rows, in balls: by the blocks of H, of which a row moves few.
+def delassus_matrix(form: ExactForm, rows: Sequence[Row], A: arb_mat, bits: int) -> arb_mat:
+    """The Delassus matrix S = A H^-1 A' of exact rows, in balls: by the few blocks that each moves.
 
     Parameters
     ----------
@@ -234,7 +238,7 @@ def ball_point(
         W.
     bits : int
         Of balls.
-    near : NearSets, optional
+    near : UpdatedInverse, optional
         Of a working set that differs by few rows.
 
     Raises
@@ -249,7 +253,7 @@ def ball_point(
     with working_precision(bits):
         right_side = -(A * free + c)
         if near is None:
-            y = responses(form, rows, A, bits).solve(right_side, algorithm="lu")
+            y = delassus_matrix(form, rows, A, bits).solve(right_side, algorithm="lu")
         else:
             y = arb_mat(len(rows), 1, near.solved(working, right_side.entries()))
         net = A.transpose() * y

@@ -48,7 +48,7 @@ def test_a_row_that_balls_show_to_be_violated_enters_before_any_zero_is_decided(
     """x_0 >= 1 is held; 2 x_0 >= 2 follows from it, and (1 - 2^-53) x_0 >= 1 misses by 2^-53."""
     minimiser = Minimiser(program([[1, 0], [2, 0], [1 - 2.0**-53, 0]], [1, 2, 1]), (0,))
     assert minimiser.open_rows == [1, 2]
-    assert not minimiser.lowest_shown
+    assert not minimiser.perhaps_most_violated
     assert most_violated(minimiser) == least_index(minimiser) == 2
     fresh = minimiser.on((0,))
     assert most_violated(fresh) == 2

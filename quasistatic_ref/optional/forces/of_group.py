@@ -21,7 +21,7 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.certify.groups import labels
+from quasistatic_ref.certify.groups import components
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.friction import scaled_by
@@ -112,7 +112,7 @@ def sides(step: StepData) -> list[Indices]:
     moved = step.contacts.J.any(axis=1)  # (n_c, n_v)
     _, kind = np.unique(moved, axis=1, return_inverse=True)
     alike = (np.arange(step.n_v)[:, None] == kind) & moved.any(axis=0)
-    label, _ = labels(np.concatenate([step.coupled(), alike]))
+    label, _ = components(np.concatenate([step.coupled(), alike]))
     label[: step.n_a] = 0
     label[label < step.n_a] = 0
     return [np.flatnonzero(label == side) for side in np.unique(label)]

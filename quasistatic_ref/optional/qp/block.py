@@ -12,7 +12,7 @@ import numpy as np
 from flint import arb, arb_mat, fmpq, fmpz
 
 from quasistatic_ref.certify.form import EXACT, MatrixForm, exact_matrix
-from quasistatic_ref.certify.groups import labels
+from quasistatic_ref.certify.groups import components
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.modulo import independent_modulo, primes
 from quasistatic_ref.numbers.precision import working_precision
@@ -277,7 +277,7 @@ def blocks_of(program: QuadraticProgram) -> list[Block]:
     """The blocks of a program, in the order of their first coordinates."""
     P, rows = program.P, program.rows
     coupled = (P != 0) | (P.T != 0) | np.eye(len(P), dtype=bool)
-    coordinate, row = labels(np.concatenate([coupled, rows.a != 0]))
+    coordinate, row = components(np.concatenate([coupled, rows.a != 0]))
     return [
         Block(program, np.flatnonzero(coordinate == first), np.flatnonzero(row[len(P) :] == first))
         for first in np.unique(coordinate)

@@ -11,7 +11,7 @@ import numpy as np
 from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.form import EXACT
-from quasistatic_ref.certify.groups import labels
+from quasistatic_ref.certify.groups import components
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.modulo import independent_modulo
 from quasistatic_ref.numbers.pivots import UNIT, surely_positive
@@ -97,7 +97,7 @@ def semidefinite(P: Sequence[Sparse], prime: int) -> int:
     there = np.eye(len(P), dtype=bool)
     for i, row in enumerate(P):
         there[i, [*row]] = True
-    label, _ = labels(there)
+    label, _ = components(there)
     rank = 0
     for first in np.unique(label):
         at = np.flatnonzero(label == first).tolist()

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.groups import Group, labels
+from quasistatic_ref.certify.groups import Group, components
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.optional.stands.bodies import Body
@@ -300,7 +300,7 @@ class SlowGroup:
         longest = (np.abs(contacts.J) @ np.abs(slow.delta_q)).max(initial=0.0)
         sticks = (slow.wrench[:, 2] > 0) & (slips <= STICKS * longest)
         ways = self._ways(starts)
-        return labels(self.touches[sticks] & (ways > STILL * ways.max()))[0]
+        return components(self.touches[sticks] & (ways > STILL * ways.max()))[0]
 
     def _clamped(self, i: int, steps: list[Slow]) -> Standing:
         """What a clamp on a body alone would bear: its inertia is made large.
