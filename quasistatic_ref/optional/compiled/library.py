@@ -29,11 +29,9 @@ _address = _ffi.from_buffer
 def addresses(read: Iterable[NDArray[Any]], written: Iterable[NDArray[Any]] = ()) -> list[Any]:
     """Addresses of arrays, as C takes them, which keep these alive.
 
-    `read` and `written` are arrays [any unit].
-
     Parameters
     ----------
-    read, written : iterable of ndarray [any unit] [any unit]
+    read, written : iterable of ndarray [any unit]
         Of numbers of 64 bits or truth values, of any shape and unit. Those that are read are copied
         where they are not contiguous.
     """
