@@ -9,6 +9,8 @@ import os
 import resource
 import shlex
 import sys
+from collections import Counter
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -36,9 +38,20 @@ def pytest_configure(config):
     config.addinivalue_line("markers", "ci: what README's line leaves to .ci/run, marked by itself")
 
 
-def pytest_collection_modifyitems(items):
+MANY = 6
+"""Cases of a test, of more of which README's line takes every third; a file that is named, all."""
+
+
+def pytest_collection_modifyitems(config, items):
     """Skip what needs an extra that is not installed, and mark what README's line does not run."""
+    whole = {Path(path).name for path in config.args} == {"tests"}
+    cases = Counter(item.nodeid.partition("[")[0] for item in items)
+    seen = Counter()
     for item in items:
+        test = item.nodeid.partition("[")[0]
+        if whole and cases[test] > MANY and seen[test] % 3:
+            item.add_marker(pytest.mark.long)
+        seen[test] += 1
         extras = [extra for mark in item.iter_markers("extra") for extra in mark.args]
         for extra in filter(is_missing, extras):
             item.add_marker(pytest.mark.skip(reason=reason(extra)))
