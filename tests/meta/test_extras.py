@@ -2,6 +2,7 @@
 
 import re
 import tomllib
+from types import SimpleNamespace
 
 import pytest
 
@@ -38,14 +39,29 @@ def test_every_marker_names_an_extra(request):
         is_missing("nonsense")
 
 
+def idle_tests(request, names):
+    """Tests that do nothing."""
+    parent = request.node.parent
+    return [pytest.Function.from_parent(parent, name=n, callobj=lambda: None) for n in names]
+
+
+@pytest.mark.parametrize("path", ["tests", "tests/step"])
+def test_a_third_of_many_cases_is_taken_where_no_file_is_named(request, path):
+    names = [
+        f"{test}[{k}]" for k in range(9) for test in ("many", "few") if test == "many" or k < 6
+    ]
+    items = idle_tests(request, names)
+    conftest.pytest_collection_modifyitems(SimpleNamespace(args=[path]), items)
+    left = {item.name for item in items if item.get_closest_marker("ci")}
+    assert left == ({f"many[{k}]" for k in (1, 2, 4, 5, 7, 8)} if path == "tests" else set())
+
+
 def test_a_skipped_test_is_named_with_its_extra_and_left_to_ci(request, monkeypatch):
     monkeypatch.setattr(conftest, "is_missing", lambda extra: extra == "robots")
-    items = []
-    for extra in ("robots", "engines", "compiled"):
-        item = pytest.Function.from_parent(request.node.parent, name=extra, callobj=lambda: None)
-        item.add_marker(pytest.mark.extra(extra))
-        items.append(item)
-    conftest.pytest_collection_modifyitems(items)
+    items = idle_tests(request, ["robots", "engines", "compiled"])
+    for item in items:
+        item.add_marker(pytest.mark.extra(item.name))
+    conftest.pytest_collection_modifyitems(request.config, items)
     reasons = [mark.kwargs["reason"] for item in items for mark in item.iter_markers("skip")]
     assert reasons == ['needs the extra robots: pip install -e ".[test,robots]"']
     assert [item.name for item in items if item.get_closest_marker("ci")] == ["robots"]
