@@ -153,7 +153,7 @@ def optimum_by_groups(
         Of each group, counted in it: rows that a solver found active.
     proofs : ProofCache, optional
         Those of the step before; they become those of this step.
-    own : (ndarray, ndarray), optional
+    own : (ndarray, ndarray), shapes (m_c, w) and (m,), optional [m]
         The step's ``own_inequalities``, where they are known.
 
     Raises
@@ -209,7 +209,15 @@ class ProofCache:
         self._forms: dict[int, StepForm] = {}
 
     def form(self, i: int, part: StepData, own: tuple[Array, Array]) -> StepForm:
-        """The exact program of group i: with the rows of the last step's, if they are the same."""
+        """The exact program of group i: with the rows of the last step's, if they are the same.
+
+        Parameters
+        ----------
+        i : int
+        part : StepData
+        own : (ndarray, ndarray), shapes (m_c, w) and (m,) [m]
+            Its ``own_inequalities``.
+        """
         self._forms[i] = form = StepForm(part, own).with_rows_of(self._forms.get(i))
         return form
 

@@ -45,7 +45,7 @@ class StepForm(ExactForm):
     Parameters
     ----------
     step : StepData
-    own : (ndarray, ndarray), optional
+    own : (ndarray, ndarray), shapes (m_c, w) and (m,), optional [m]
         Its ``own_inequalities``, where they are known.
 
     Raises

@@ -291,7 +291,7 @@ class ContactForces(Shown):
 
 
 def warn_of_imbalance(imbalance: float) -> None:
-    """Warn whoever reads forces that leave a share of the load [-]; of no load there is none."""
+    """Warn whoever reads forces that leave a share `imbalance` of the load [-], which is finite."""
     if BORNE < imbalance < float("inf"):
         words = f"forces of single contacts leave {imbalance:.1e} of the load: read wrench in "
         warnings.warn(f"{words}their place, or raise mu_v or mu_omega", stacklevel=3)

@@ -90,7 +90,7 @@ def inequalities(step: StepData, known: tuple[Array, Array] | None = None) -> tu
     Parameters
     ----------
     step : StepData
-    known : (ndarray, ndarray), optional
+    known : (ndarray, ndarray), shapes (m_c, w) and (m,), optional [m]
         Its :func:`own_inequalities`, where they are known.
     """
     own, b = own_inequalities(step) if known is None else known

@@ -322,7 +322,7 @@ class SlowGroup:
 
 
 def moved(step: StepData, way: Array) -> dict[str, Any]:
-    """The fields of a step that change where a motion, (n_v,) [m, rad], was done before."""
+    """The fields of a step that change where a motion `way`, (n_v,) [m, rad], was done before."""
     extra, contacts = step.extra, step.contacts
     if extra.cost is not None:
         H, g = extra.cost

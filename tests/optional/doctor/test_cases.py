@@ -1,66 +1,23 @@
 """Scenes, each with what is right by hand, and nothing else is said of it (cases/*.toml)."""
 
-import copy
-import tomllib
-from pathlib import Path
-
-import mujoco
 import pytest
 
-from quasistatic_ref import (
-    Body,
-    Box,
-    Capsule,
-    Cylinder,
-    RunFailed,
-    Sphere,
-    load_scenario,
-    mujoco_scenario,
-)
+from quasistatic_ref import RunFailed
+from tests.optional.doctor.case_scenes import HERE, ROWS, made
 from tests.optional.doctor.mistake_scenes import GRAVE
 
-HERE = Path(__file__).with_name("cases")
-ROWS = [
-    case
-    for file in sorted(HERE.glob("*.toml"))
-    for case in tomllib.loads(file.read_text("utf-8"))["case"]
-]
 CASES = [
     pytest.param(case, id=case["what"], marks=pytest.mark.long if "long" in case else ())
     for case in ROWS
 ]
-UNPROVED = {"certify": "off"}
-"""Findings are the same without proofs, which take most of a run's time."""
 FALLS = {"free-fall", "lost-grip", "unsupported-body", "locked-guide"}
 """Findings on what does not stand, or may fall by one of several solutions of Coulomb's law."""
-SOLIDS = {"box": lambda *size: Box(size=size), "sphere": Sphere, "cylinder": Cylinder}
-SOLIDS["capsule"] = Capsule
 
 
 @pytest.fixture(autouse=True)
 def in_the_folder(monkeypatch):
     """Files of a case are beside it."""
     monkeypatch.chdir(HERE)
-
-
-def made(case, changes=(), **more):
-    """The scenario of a case, whose simple bodies are made here, or of a scene of MuJoCo."""
-    tables = {"fast": True, "solver": UNPROVED} | copy.deepcopy(case.get("scene", case)) | more
-    for key, value in dict(changes).items():
-        *path, last = key.split(".")
-        inner = tables
-        for part in path:
-            inner = inner[part]
-        inner[last] = value
-    if "mjcf" in tables:
-        model = mujoco.MjModel.from_xml_string(tables["mjcf"])
-        return mujoco_scenario(model, **{"h": 0.01, "steps": 1} | tables.get("with", {}))
-    for body in tables["bodies"].values():
-        kind, *sizes = body["urdf"].split()
-        if sizes:
-            *sizes, mass = map(float, sizes)
-            body["urdf"] = Body.of_shape("solid", SOLIDS[kind](*sizes), mass).urdf
-    return load_scenario(tables)
 
 
 def found(scenario):

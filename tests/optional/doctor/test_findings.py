@@ -2,8 +2,8 @@
 
 from quasistatic_ref.optional.doctor.texts import NAMES, NOTES
 from tests.meta.remedies import assert_alike, assert_among
+from tests.optional.doctor.case_scenes import ROWS
 from tests.optional.doctor.mistake_scenes import GRAVE, mistakes
-from tests.optional.doctor.test_cases import ROWS
 
 
 def test_each_finding_of_the_page_has_a_scene():

@@ -15,7 +15,7 @@ from quasistatic_ref import (
 from quasistatic_ref.optional.doctor.did.lines import in_words, lines, pair_rows
 from quasistatic_ref.optional.doctor.did.numbers import by_name, numbers_of, resolved, rounding_of
 from tests.closeness import assert_relative
-from tests.optional.doctor.test_cases import made as made_of_case
+from tests.optional.doctor.case_scenes import made as made_of_case
 from tests.optional.words import driven, slides
 from tests.scenes import scene
 
