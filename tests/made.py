@@ -1,6 +1,5 @@
 """What tests make steps, files and bits with: only this file knows where the package keeps it."""
 
-# ruff: noqa: F401
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.files.solution import infeasible_text, solution_text
 from quasistatic_ref.lab.made_steps.at_random import (
@@ -30,3 +29,33 @@ from quasistatic_ref.lab.made_steps.rigid import (
 )
 from quasistatic_ref.step.text import step_record, step_sha256, step_text
 from quasistatic_ref.text.plain import Plain, bits
+
+__all__ = [
+    "GRAVITY",
+    "Plain",
+    "Rng",
+    "X",
+    "Y",
+    "Z",
+    "actuated_step",
+    "bits",
+    "contacts_of",
+    "frames_about",
+    "free_step",
+    "infeasible_text",
+    "no_contacts",
+    "pinch_step",
+    "point_jacobian",
+    "point_step",
+    "random_contacts",
+    "random_frames",
+    "repeated",
+    "rigid_step",
+    "solution_text",
+    "sphere_step",
+    "spread_matrix",
+    "step_record",
+    "step_sha256",
+    "step_text",
+    "text_written",
+]

@@ -55,6 +55,7 @@ class ContactGeometry:
         of_link = padded(link, column, len(moves), -1)
         movers = of_link[links].transpose(1, 0, 2).reshape(len(layout.rows), 2 * of_link.shape[1])
         at, k = np.nonzero(movers >= 0)
+        # Without repeats, as np.unique, which would import NumPy's masked arrays for this alone.
         every = np.sort(at * self.n_x + movers[at, k])
         every = every[np.diff(every, prepend=-1) > 0]
         contact, mover = np.divmod(every, max(self.n_x, 1))

@@ -159,7 +159,7 @@ def test_a_step_next_to_another_thread_s_is_the_same_or_refused(shared):
     def steps(simulator, order):
         ready.wait()
         for k in order:
-            end = outcome(lambda: simulator.step(q[k], []).q)  # noqa: B023 called at once
+            end = outcome(lambda k=k: simulator.step(q[k], []).q)
             words.append(word(end, bits(q[k + 1])))
 
     there = threading.Thread(target=steps, args=(two, range(LONG)[::-1]))

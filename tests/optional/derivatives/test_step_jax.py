@@ -151,7 +151,10 @@ def test_forwards_a_gradient_is_one_column(monkeypatch):
     solved = []
     proved = Nearby.end
     monkeypatch.setattr(Nearby, "end", lambda *args: solved.append(1) or proved(*args))
-    along = lambda q, t: jax.jvp(lambda q: step(q, goal), (q,), (t,))[1]  # noqa: E731 one line
+
+    def along(q, t):
+        return jax.jvp(lambda q: step(q, goal), (q,), (t,))[1]
+
     tangent = np.linspace(-1, 1, len(q))
     one = along(q, tangent)
     assert len(solved) == 4
