@@ -1,1 +1,1 @@
-"""What every folder uses of texts: plain data, quoting, JSON, objects that show themselves."""
+"""What every folder uses of texts: plain data, quoting, JSON, fields of files, pages."""
