@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Iterable
 
 from quasistatic_ref.lab.markdown import markdown_table
-from quasistatic_ref.simulate.record import ARRAYS
+from quasistatic_ref.simulate.record.table import ARRAYS
 from quasistatic_ref.text.declared import Field, Tables
 from quasistatic_ref.text.json_text import json_text
 from quasistatic_ref.text.table_reader import REQUIRED

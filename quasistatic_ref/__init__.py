@@ -37,7 +37,7 @@ _HOMES = {
     "simulate.recorder": "Recorder",
     "simulate.observer": "Observer",
     "simulate.finding": "Finding",
-    "simulate.trajectory": "Trajectory",
+    "simulate.record.trajectory": "Trajectory",
     "files.trajectory": "load_trajectory save_trajectory",
     "files.scenario.scenario": "Scenario load_scenario",
     "optional.scans.body": "scanned_body",
@@ -66,13 +66,13 @@ _HOMES = {
     "optional.show.figures.animation": "animate",
     "optional.show.figures.draw": "draw_scene draw_scenes",
     "optional.show.figures.viewer": "save_view",
-    "simulate.motions": "relative_turn",
+    "simulate.record.motions": "relative_turn",
     # What can go wrong.
     "errors": "QuasistaticError InputError MissingKey StepDataError ModelError ContactError "
     "ScenarioError BackendError",
     "optional.derivatives.reason": "NotDifferentiable",
     "certify.failures": "StepNotSolved StepInfeasible StepIllPosed",
-    "simulate.failures": "LimitExceeded RunFailed",
+    "simulate.record.failures": "LimitExceeded RunFailed",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 
@@ -176,13 +176,13 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         PointCloud as PointCloud,
         Sphere as Sphere,
     )
-    from quasistatic_ref.simulate.failures import (
+    from quasistatic_ref.simulate.record.failures import (
         LimitExceeded as LimitExceeded,
         RunFailed as RunFailed,
     )
     from quasistatic_ref.simulate.finding import Finding as Finding
     from quasistatic_ref.simulate.limits import Limits as Limits
-    from quasistatic_ref.simulate.motions import relative_turn as relative_turn
+    from quasistatic_ref.simulate.record.motions import relative_turn as relative_turn
     from quasistatic_ref.simulate.observer import Observer as Observer
     from quasistatic_ref.simulate.recorder import Recorder as Recorder
     from quasistatic_ref.simulate.result import StepResult as StepResult
@@ -190,7 +190,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.simulate.simulator import Simulator as Simulator
     from quasistatic_ref.simulate.steps import Steps as Steps
     from quasistatic_ref.simulate.target import Targets as Targets
-    from quasistatic_ref.simulate.trajectory import Trajectory as Trajectory
+    from quasistatic_ref.simulate.record.trajectory import Trajectory as Trajectory
     from quasistatic_ref.files.trajectory import (
         load_trajectory as load_trajectory,
         save_trajectory as save_trajectory,

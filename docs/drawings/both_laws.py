@@ -24,7 +24,7 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.coulomb.fixed_point import coulomb_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, LAWS
-from quasistatic_ref.simulate.motions import link_motion
+from quasistatic_ref.simulate.record.motions import link_motion
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 

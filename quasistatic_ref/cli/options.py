@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.option_change import OptionChange
 from quasistatic_ref.files.step import load_step, save_step
-from quasistatic_ref.simulate.failures import RunFailed
+from quasistatic_ref.simulate.record.failures import RunFailed
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.text.json_text import json_text
@@ -71,7 +71,7 @@ OPTIONS: Final[dict[str, dict[str, Any]]] = {
 SOLVER: Final = ("--backend", "--fast", "--cone", "--certify")
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.trajectory import Trajectory
+    from quasistatic_ref.simulate.record.trajectory import Trajectory
 
 
 def add(parser: argparse.ArgumentParser, *names: str, **more: Any) -> None:

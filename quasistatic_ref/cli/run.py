@@ -18,10 +18,10 @@ from quasistatic_ref.files.npz import header_of, npz_arrays
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.files.trajectory import FORMAT, WHAT, save_trajectory
 from quasistatic_ref.parts import is_there, needing, part
-from quasistatic_ref.simulate.failures import RunFailed
-from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.law import COULOMB
-from quasistatic_ref.simulate.trajectory import Trajectory, certified
+from quasistatic_ref.simulate.record.failures import RunFailed
+from quasistatic_ref.simulate.record.header import Header
+from quasistatic_ref.simulate.record.trajectory import Trajectory, certified
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.text.table_reader import TableReader
 

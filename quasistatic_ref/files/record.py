@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.simulate.header import Header
-from quasistatic_ref.simulate.record import (
+from quasistatic_ref.simulate.record.header import Header
+from quasistatic_ref.simulate.record.table import (
     ARRAYS,
     FORCES,
     FULL,

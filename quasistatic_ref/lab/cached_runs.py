@@ -4,8 +4,8 @@ from functools import cache
 
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.lab.grasp import CASES, lift_motion
-from quasistatic_ref.simulate.motions import LinkMotion
-from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.record.motions import LinkMotion
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 
 
 @cache

@@ -8,8 +8,8 @@ import numpy as np
 from quasistatic_ref.cli.run import worst_residual
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.motions import LinkMotion, link_motion
-from quasistatic_ref.simulate.trajectory import Trajectory, certified
+from quasistatic_ref.simulate.record.motions import LinkMotion, link_motion
+from quasistatic_ref.simulate.record.trajectory import Trajectory, certified
 
 CASES: dict[str, list[str]] = {
     "with torsion": [],

@@ -24,9 +24,9 @@ from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.parallel import workers as workers_here
 from quasistatic_ref.optional.doctor.did.numbers import by_name, numbers_of
-from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar
-from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.record.failures import RunFailed
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.text.json_text import json_text
 from quasistatic_ref.text.quoting import no_formula
 from quasistatic_ref.tolerances import LARGE

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array, positive_number
-from quasistatic_ref.simulate.failures import LimitExceeded
+from quasistatic_ref.simulate.record.failures import LimitExceeded
 from quasistatic_ref.step.data import StepData
 
 

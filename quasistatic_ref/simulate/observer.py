@@ -8,10 +8,10 @@ from numpy.typing import ArrayLike, NDArray
 if TYPE_CHECKING:
     from quasistatic_ref.model.system import System
     from quasistatic_ref.numbers.arrays import Array
+    from quasistatic_ref.simulate.record.trajectory import Trajectory
     from quasistatic_ref.simulate.result import StepArrays, StepResult
     from quasistatic_ref.simulate.simulator import Simulator
     from quasistatic_ref.simulate.target import JointTrack
-    from quasistatic_ref.simulate.trajectory import Trajectory
 
 
 class Recording(Protocol):

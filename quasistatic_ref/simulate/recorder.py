@@ -15,13 +15,20 @@ from numpy.typing import ArrayLike, NDArray
 from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.parts import is_there, part
-from quasistatic_ref.simulate.header import RECORDS, Header, Record
 from quasistatic_ref.simulate.observer import Observer
-from quasistatic_ref.simulate.record import ARRAYS, FULL, Reading, arrays_of, names_of, no_steps
+from quasistatic_ref.simulate.record.header import RECORDS, Header, Record
+from quasistatic_ref.simulate.record.table import (
+    ARRAYS,
+    FULL,
+    Reading,
+    arrays_of,
+    names_of,
+    no_steps,
+)
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Drives, JointTrack, Targets
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.solution import UNKNOWN
 
 if TYPE_CHECKING:

@@ -11,15 +11,15 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError, QuasistaticError, check_kind, keywords_named
-from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.finding import check_finding_name
-from quasistatic_ref.simulate.header import Record
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.progress import progress_bar
+from quasistatic_ref.simulate.record.failures import RunFailed
+from quasistatic_ref.simulate.record.header import Record
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.recorder import Recorder, doctors
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import (
     Force,
     Target,
@@ -69,12 +69,12 @@ def rollout(
     progress : bool
         Whether to show a progress bar on standard error, where that is a terminal.
     findings : bool
-        Whether to print there, at the end of a run, its findings
-        (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.findings`). Findings that are not
-        printed are looked for when they are first read, saved or pickled.
+        Whether to print there, at the end of a run, its
+        :attr:`~quasistatic_ref.simulate.record.trajectory.Trajectory.findings`. Findings that are
+        not printed are looked for when they are first read, saved or pickled.
     ignore : sequence of str
-        Names of findings that are neither printed nor in `findings`, but in
-        :attr:`~quasistatic_ref.simulate.trajectory.Trajectory.ignored_findings`.
+        Names of findings that are neither printed nor in the trajectory's `findings`, but in its
+        :attr:`~quasistatic_ref.simulate.record.trajectory.Trajectory.ignored_findings`.
     observers : sequence of Observer
         What else watches the run: before each step, after it, and at the end.
 

@@ -13,7 +13,7 @@ from quasistatic_ref import load_scenario, load_trajectory
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.files.resources import models_folder
 from quasistatic_ref.lab.grasp import grasp_report
-from quasistatic_ref.simulate.motions import rotation_angle
+from quasistatic_ref.simulate.record.motions import rotation_angle
 from tests.closeness import assert_relative, assert_same
 from tests.tolerances import (
     ROUNDING,

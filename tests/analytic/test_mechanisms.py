@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref import load_scenario
-from quasistatic_ref.simulate.trajectory import certified
+from quasistatic_ref.simulate.record.trajectory import certified
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import FIRST_ORDER, SCENARIO
 

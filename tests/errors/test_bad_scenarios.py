@@ -8,7 +8,7 @@ import pytest
 from quasistatic_ref import InputError, QuasistaticError, load_scenario
 from quasistatic_ref.files.clouds import point_cloud
 from quasistatic_ref.files.scenario import contacts
-from quasistatic_ref.simulate.trajectory import certified
+from quasistatic_ref.simulate.record.trajectory import certified
 from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written
 from tests.files.urdf.urdf_texts import collision, link, robot
 

@@ -32,10 +32,10 @@ from quasistatic_ref.optional.show import pages, table
 from quasistatic_ref.optional.stands import after, slow, stands
 from quasistatic_ref.parts import PARTS, is_there, part
 from quasistatic_ref.simulate.distances import ChangedPairs
+from quasistatic_ref.simulate.record.trajectory import StandsAfter, Table
 from quasistatic_ref.simulate.recorder import WatchingDoctor
 from quasistatic_ref.simulate.simulator import SceneFindings, StandingsOf
 from quasistatic_ref.simulate.step_solver import CoulombSolution, ExtendedSolution
-from quasistatic_ref.simulate.trajectory import StandsAfter, Table
 from quasistatic_ref.solve.backends import SolverNames
 from quasistatic_ref.solve.choice import FunctionSolver, NamedSolver
 from quasistatic_ref.solve.many import ColdAnswers

@@ -29,8 +29,8 @@ from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.files.trajectory import header_table
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.parts import part
-from quasistatic_ref.simulate.record import ARRAYS
-from quasistatic_ref.simulate.trajectory import RecordArrays
+from quasistatic_ref.simulate.record.table import ARRAYS
+from quasistatic_ref.simulate.record.trajectory import RecordArrays
 from tests.closeness import assert_same
 from tests.scenes import written_scenario
 

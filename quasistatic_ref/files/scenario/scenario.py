@@ -45,14 +45,14 @@ from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.header import Record
 from quasistatic_ref.simulate.observer import Observer, Recording
+from quasistatic_ref.simulate.record.header import Record
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.stiffness import stiffness_of_parts
 from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import Target
 from quasistatic_ref.solve.backends import DEFAULT, Certify, is_function
 from quasistatic_ref.step.cones import cone

@@ -17,8 +17,8 @@ from quasistatic_ref.lab.grasp import (
     grasp_report,
     grasp_scenarios,
 )
-from quasistatic_ref.simulate.failures import RunFailed
-from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.record.failures import RunFailed
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

@@ -12,10 +12,10 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.run import scenario_of
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.parts import part
-from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar
+from quasistatic_ref.simulate.record.failures import RunFailed
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.standing import NOTHING_FREE, WORDS, Standing, Standings
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.text.plain import field_values
 from quasistatic_ref.text.quoting import listed
 

@@ -14,7 +14,7 @@ from quasistatic_ref.optional.show.figures.draw import draw_scene, force_scale
 from quasistatic_ref.optional.show.figures.looks import CAMERA, FORCE
 from quasistatic_ref.optional.show.figures.moments import Moment, moment
 from quasistatic_ref.optional.show.figures.style import panels, scaled
-from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 
 LEAST = 0.03
 """Smaller rotations are drawn there [deg]."""

@@ -27,10 +27,10 @@ from quasistatic_ref.optional.doctor.frame.run import Run
 from quasistatic_ref.optional.doctor.frame.start import Start
 from quasistatic_ref.optional.doctor.frame.undecided import failure
 from quasistatic_ref.simulate.finding import Finding, told
-from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.observer import Observer, Recording
+from quasistatic_ref.simulate.record.header import Header
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.result import StepArrays, StepResult
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.text.plain import field_values
 
 

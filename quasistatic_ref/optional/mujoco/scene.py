@@ -26,12 +26,12 @@ from quasistatic_ref.optional.mujoco.places import overlapped_children
 from quasistatic_ref.optional.mujoco.settled import settled
 from quasistatic_ref.optional.mujoco.system import MujocoSystem, Placed
 from quasistatic_ref.parts import part
-from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Observer
+from quasistatic_ref.simulate.record.failures import RunFailed
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Targets
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.extension import ExtensionOfQ

@@ -10,7 +10,7 @@ from quasistatic_ref.errors import InputError
 
 if TYPE_CHECKING:
     from quasistatic_ref.numbers.arrays import Array, Mask
-    from quasistatic_ref.simulate.trajectory import Trajectory
+    from quasistatic_ref.simulate.record.trajectory import Trajectory
 
 BEARING: Final = 1e-3
 """A contact bears load above this share of the largest normal force [-]."""

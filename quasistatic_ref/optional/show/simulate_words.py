@@ -12,7 +12,7 @@ from quasistatic_ref.optional.show.step_words import CONTACT
 from quasistatic_ref.text.quoting import counted
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.trajectory import Trajectory
+    from quasistatic_ref.simulate.record.trajectory import Trajectory
 
 FORCE = ("f_d1 [N]", "f_d2 [N]", "f_n [N]", "tau_n [N m]")
 
@@ -22,7 +22,7 @@ def trajectory_page(trajectory: Trajectory) -> Page:
 
     Contacts that bear load come first.
     """
-    from quasistatic_ref.simulate.trajectory import certified  # which needs pinocchio
+    from quasistatic_ref.simulate.record.trajectory import certified  # which needs pinocchio
 
     header = trajectory.header
     steps = trajectory.steps

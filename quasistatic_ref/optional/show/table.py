@@ -22,7 +22,7 @@ from quasistatic_ref.text.quoting import no_formula
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from quasistatic_ref.simulate.trajectory import Trajectory
+    from quasistatic_ref.simulate.record.trajectory import Trajectory
 
 CONTACT: Final[Mapping[str, tuple[str, ...]]] = {
     "phi": ("phi [m]",),

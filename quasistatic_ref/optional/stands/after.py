@@ -12,9 +12,9 @@ from quasistatic_ref.simulate.simulator import Simulator
 
 if TYPE_CHECKING:
     from quasistatic_ref.numbers.arrays import Array
+    from quasistatic_ref.simulate.record.trajectory import Trajectory
     from quasistatic_ref.simulate.scene import Scene
     from quasistatic_ref.simulate.standing import Standings
-    from quasistatic_ref.simulate.trajectory import Trajectory
 
 
 def stands_after(run: Trajectory, k: int, scene: Scene, certify: str) -> Standings:

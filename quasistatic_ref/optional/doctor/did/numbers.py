@@ -18,8 +18,8 @@ from quasistatic_ref.optional.doctor.frame.contacts import (
 from quasistatic_ref.tolerances import FILLED, UNMOVED
 
 if TYPE_CHECKING:
+    from quasistatic_ref.simulate.record.trajectory import Trajectory
     from quasistatic_ref.simulate.settings import Settings
-    from quasistatic_ref.simulate.trajectory import Trajectory
 
 SLIDES: Final = 1e-4
 """Slip of a pair that slides, at least [m/s]: 1 mm in ten seconds."""

@@ -15,7 +15,7 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import friction_coefficients
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.trajectory import Trajectory
+    from quasistatic_ref.simulate.record.trajectory import Trajectory
 
 TOUCHES: Final = 1e-9
 """Slack of a row of a contact that touches, at most [m]: certified steps leave rounding, 1e-16, and

@@ -21,8 +21,8 @@ from quasistatic_ref.optional.doctor.frame.contacts import (
 from quasistatic_ref.optional.doctor.frame.start import Start, side
 from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.observer import Recording
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.recorder import POINTS
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:

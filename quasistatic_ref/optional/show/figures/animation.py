@@ -20,7 +20,7 @@ from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.moments import frames
 from quasistatic_ref.optional.show.figures.style import figure_style, sized
 from quasistatic_ref.simulate.progress import progress_bar
-from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 
 FRAMES_PER_SECOND = 20
 DOTS_PER_INCH = 110

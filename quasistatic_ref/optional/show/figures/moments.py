@@ -13,8 +13,8 @@ from quasistatic_ref.optional.show.figures.surfaces import surface_points
 from quasistatic_ref.optional.show.figures.visuals import Visual
 from quasistatic_ref.optional.show.loads import bearing, shown_forces
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.scene import Scene
-from quasistatic_ref.simulate.trajectory import Trajectory
 
 SLIP = 1e-9
 """A contact that bears load slides where beta moves along the tangents by more in a step, or turns

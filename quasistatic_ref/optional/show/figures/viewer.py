@@ -34,8 +34,8 @@ from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points
 from quasistatic_ref.optional.show.figures.visuals import AROUND, UP, Visual, visuals
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.scene import Scene
-from quasistatic_ref.simulate.trajectory import Trajectory
 
 FRAMES_PER_SECOND = 30
 LONGEST = 0.25

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.numbers.arrays import Array, Indices
-from quasistatic_ref.simulate.header import Header
 from quasistatic_ref.simulate.law import COULOMB
+from quasistatic_ref.simulate.record.header import Header
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.standard_form import StandardForm, standard_form

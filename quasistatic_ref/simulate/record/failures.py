@@ -9,7 +9,7 @@ from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:  # a trajectory needs pinocchio, which the commands of single steps do without
-    from quasistatic_ref.simulate.trajectory import Trajectory
+    from quasistatic_ref.simulate.record.trajectory import Trajectory
 
 
 class LimitExceeded(StepNotSolved):

@@ -8,7 +8,7 @@ from quasistatic_ref.errors import check_kind
 from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, checked_array
-from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.record.trajectory import Trajectory
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.parts import part
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.header import Header
+from quasistatic_ref.simulate.record.header import Header
 from quasistatic_ref.simulate.standing import Standings
 from quasistatic_ref.step.data import Contacts, Extra, StepData, no_extra
 from quasistatic_ref.step.solution import UNKNOWN, ContactForces, ForcesOfStep, warn_of_imbalance
@@ -89,7 +89,7 @@ class Trajectory(RecordArrays, Plain, HasPage):
     Parameters
     ----------
     header : Header
-        See :class:`~quasistatic_ref.simulate.header.Header`.
+        See :class:`~quasistatic_ref.simulate.record.header.Header`.
     arrays : mapping of str to ndarray
         Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the
         step), ``delta_q``, ``q_bar_a``, ``phi``, ``alpha``, ``beta``, ``n``, ``d1``, ``d2``,
