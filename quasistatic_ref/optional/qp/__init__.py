@@ -1,4 +1,4 @@
-"""Exact answers for any strictly convex quadratic program, in the words of qpsolvers.
+"""Exact answers for any convex quadratic program, in the words of qpsolvers.
 
 Minimise 1/2 x'Px + q'x subject to G x <= h, A x = b, lb <= x <= ub. The units are the user's:
 each number is in those of its row or column, and of the objective.
