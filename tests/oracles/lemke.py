@@ -32,6 +32,23 @@ def optimum(P, q, a, h):
     return None if z is None else (-by_q - by_a @ z, z)
 
 
+def least_norm(P, q, a, h):
+    """Of all optima of a convex program the one of least norm, in fractions; None if it has none.
+
+    The conditions of an optimum are complementary, too, where x is a difference of two numbers
+    >= 0. All optima have the P x and the q'x of one.
+    """
+    zero = exact(np.zeros((len(h), len(h))))
+    M = np.block([[P, -P, a.T], [-P, P, -a.T], [-a, a, zero]])
+    z = complementary(M, np.concatenate([q, -q, h]))
+    if z is None:
+        return None
+    x = z[: len(q)] - z[len(q) : 2 * len(q)]
+    faces = np.concatenate([a, P, -P, [q]])
+    sides = np.concatenate([h, P @ x, -P @ x, [q @ x]])
+    return optimum(exact(np.eye(len(q))), 0 * q, faces, sides)[0]
+
+
 def complementary(M, r):
     """A z >= 0 with w = M z + r >= 0 and w'z = 0; None if there is none."""
     m = len(r)

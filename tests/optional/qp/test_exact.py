@@ -49,12 +49,11 @@ class InRows:
         a = exact(np.reshape([self.rows[name][0] for name in names], (-1, len(self.q))))
         return a, exact([self.rows[name][1] for name in names])
 
-    def optimum(self):
-        """The x of the other method; None if there is none."""
+    def inequalities(self):
+        """The P, q, a and h of the other method."""
         a, h = self.of(self.rows)
         of_equations, b = self.of(self.equations)
-        answer = optimum(self.P, self.q, np.concatenate([a, -of_equations]), np.append(h, -b))
-        return None if answer is None else answer[0]
+        return self.P, self.q, np.concatenate([a, -of_equations]), np.append(h, -b)
 
     def only(self, x, active):
         """Whether the multipliers of the active rows are the only ones at x."""
@@ -102,12 +101,13 @@ def test_2000_random_programs_have_the_bits_of_another_method_in_fractions(part,
     for seed in range(100 * part, 100 * (part + 1)):
         program = random_program(seed)
         rows = InRows(program)
-        x = rows.optimum()
+        wanted = optimum(*rows.inequalities())
         answer = outcome(program)
-        assert isinstance(answer, qr.QPInfeasible) == (x is None)
-        if x is None:
+        assert isinstance(answer, qr.QPInfeasible) == (wanted is None)
+        if wanted is None:
             proofs += 1
         else:
+            x, _ = wanted
             assert floats(x) == answer.x.tolist()
             assert answer.multipliers_unique == rows.only(x, answer.active)
             assert answer.digits(answer.x) == 16
