@@ -10,6 +10,7 @@ import resource
 import shlex
 import sys
 from collections import Counter
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -120,6 +121,23 @@ def cli(capsys):
         return capsys.readouterr()
 
     return printed
+
+
+@pytest.fixture
+def answers(monkeypatch):
+    """A function that lets a backend reply as a test wants: ``answers("daqp", reply)``.
+
+    ``reply(solver, own)`` returns or raises; ``own()`` is what the solver would have replied.
+    """
+    from tests.helpers import pinch
+    from tests.solvers import solver_for
+
+    def replying(name, reply):
+        kind = type(solver_for(pinch(), name))
+        own = kind.reply
+        monkeypatch.setattr(kind, "reply", lambda s, *of: reply(s, partial(own, s, *of)))
+
+    return replying
 
 
 @pytest.fixture(scope="session")

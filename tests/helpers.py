@@ -50,6 +50,12 @@ def changed(contacts, **changes):
     return replace(contacts, **changes)
 
 
+def with_mu_of(other, step):
+    """The step with another's mu_v and mu_omega, which are constants of a compiled problem."""
+    mu = {name: getattr(other.contacts, name) for name in ("mu_v", "mu_omega")}
+    return step.replace(contacts=changed(step.contacts, **mu))
+
+
 def residuals_of(step, delta_q, lam):
     """The residuals of an answer in the step's own cone."""
     judge = cone(step.cone).judge(step.contacts.mu)

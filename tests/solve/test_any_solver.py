@@ -14,12 +14,12 @@ import qpsolvers
 
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.solve.choice import solver_for
 from tests.cases import cases
 from tests.closeness import assert_within
 from tests.helpers import one_sentence, pinch
+from tests.solvers import solver_for
 
-STEP = pinch()
+STEP = pinch(grip=1.0)
 EXACT = qr.solve_step(STEP)
 
 
@@ -31,12 +31,7 @@ def by_daqp(P, q, G, h):
 
 MINE = """
 import os
-import numpy as np
-import qpsolvers
-
-def solve(P, q, G, h):
-    answer = qpsolvers.solve_problem(qpsolvers.Problem(P, q, G, h), "daqp")
-    return answer.x, answer.z, "optimal"
+from tests.solve.test_any_solver import by_daqp as solve
 
 def prints(P, q, G, h):
     os.write(1, b"noise\\n")
@@ -45,9 +40,6 @@ def prints(P, q, G, h):
 
 def gives_up(P, q, G, h):
     return None, None, "tired"
-
-def raises(P, q, G, h):
-    raise RuntimeError("no licence")
 
 number = 3
 """
@@ -70,6 +62,7 @@ def test_a_function_solves_steps_as_a_backend_does():
     said = solution.statistics
     assert (said.interface, said.status) == ("function", "optimal")
     assert said.digits > 9
+    assert not said.unanswered
     residual = qr.solve_step(STEP, by_daqp, certify="residual")
     assert_within(residual.delta_q, EXACT.delta_q, 1e-9)
     solver = pickle.loads(pickle.dumps(solver_for(STEP, by_daqp)))
@@ -80,9 +73,13 @@ def test_a_function_solves_steps_as_a_backend_does():
 
 @pytest.mark.parametrize("name", ["mine:solve", "mine.py:solve"])
 def test_a_function_has_a_name_on_the_command_line(name, mine, cli):
-    assert "correct digits" in cli("solve", "step.json", "--backend", name, "-o", "s.json").err
+    assert "correct digits" in cli("solve step.json --backend", name).err
     run = qr.load_scenario("sphere_spin", {"solver.backend": name}, steps=2).run()
     assert set(run.certificate) == {"exact"}
+
+
+def test_a_function_without_an_answer_has_no_digits(mine, cli):
+    assert "correct digits" not in cli("solve step.json --backend mine:gives_up").err
 
 
 def test_the_output_of_a_function_comes_not_among_the_answers(mine, capfd):
@@ -109,7 +106,6 @@ WRONG = {
     "no UTF-8 in a status": (lambda q, h: (None, None, "caf\udce9"), r"caf\udce9"),
     "of another shape": (lambda q, h: (q[:1], h, "optimal"), "in place of"),
     "no three": (lambda q, h: q, "in place of"),
-    "of another status": (lambda q, h: (q, h, "almost"), "almost"),
     "not finite": (lambda q, h: (q * np.nan, h, "optimal"), "not finite"),
     "raised": (lambda q, h: 1 / 0, "division by zero"),
 }
@@ -122,10 +118,43 @@ def test_the_answer_of_a_function_is_not_believed(answer, says):
 
     solution = qr.solve_step(STEP, function)
     assert solution.delta_q.tobytes() == EXACT.delta_q.tobytes()
-    assert says in solution.statistics.status
+    said = solution.statistics
+    assert re.match(f"failed: .*{re.escape(says)}", said.status)
+    assert said.unanswered == (said.digits is None)
     with pytest.raises(qr.StepNotSolved, match=re.escape(says)) as caught:
         qr.solve_step(STEP, function, certify="off")
     assert str(caught.value).encode()
+
+
+def test_digits_of_an_answer_of_another_status_are_measured():
+    said = qr.solve_step(STEP, lambda *program: (*by_daqp(*program)[:2], "almost")).statistics
+    assert said.status == "failed: almost"
+    assert said.digits > 9
+    assert not said.unanswered
+
+
+LIES = {
+    "a motion a little off": lambda x, z: (x + 1e-4, z),
+    "no multipliers": lambda x, z: (x, 0 * z),
+    "no motion": lambda x, z: (0 * x, z),
+    "a motion whose residual is no number": lambda x, z: (x + 1.7e308, z),
+}
+
+
+@cases("lie", LIES)
+def test_an_optimal_status_is_no_evidence(lie):
+    def liar(*program):
+        x, z, status = by_daqp(*program)
+        return *lie(x, z), status
+
+    assert qr.solve_step(STEP, liar).delta_q.tobytes() == EXACT.delta_q.tobytes()
+    with pytest.raises(qr.StepNotSolved) as caught:
+        qr.solve_step(STEP, liar, certify="residual")
+    assert caught.value.step is STEP
+    assert not caught.value.residuals.worst <= 1e-6
+    believed = qr.solve_step(STEP, liar, certify="off").certificate
+    assert believed.kind == "none"
+    assert not believed.residuals
 
 
 @pytest.mark.parametrize(

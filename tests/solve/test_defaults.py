@@ -7,10 +7,9 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref import Extension, Simulator, StepNotSolved, load_scenario, solve_step
 from quasistatic_ref.optional.daqp.default import DENSE_BELOW, default_backend
-from quasistatic_ref.optional.daqp.solver import Workspaces
 from quasistatic_ref.simulate.law import CONVEX, COULOMB
-from quasistatic_ref.solve.solver import Reply
-from tests.helpers import error
+from tests.helpers import error, first_step
+from tests.solvers import Reply
 from tests.tolerances import OPTIMUM
 
 FAILED = Reply(None, None, False, "at a loss")
@@ -44,15 +43,13 @@ def test_bodies_that_cannot_touch_count_one_by_one():
 
 
 @pytest.mark.parametrize("failed", [FAILED, UNCLAIMED])
-def test_clarabel_takes_steps_on_which_the_default_backend_fails(failed, monkeypatch):
+def test_clarabel_takes_steps_on_which_the_default_backend_fails(failed, answers):
     scenario = load_scenario("sphere_spin", ["solver.certify=off"], fast=True)
     simulator = scenario.simulator()
-    honest = Workspaces.reply
     q = scenario.system.q_start
     backends = []
+    answers("daqp", lambda _, own: failed if len(backends) in (1, 2) else own())
     for k in range(4):
-        fails = k in (1, 2)
-        monkeypatch.setattr(Workspaces, "reply", (lambda *_: failed) if fails else honest)
         result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
         optimum = solve_step(result.step, "none").delta_q
         assert error(result.step, result.solution.delta_q, optimum) <= OPTIMUM
@@ -61,14 +58,12 @@ def test_clarabel_takes_steps_on_which_the_default_backend_fails(failed, monkeyp
     assert backends == ["daqp", "clarabel", "clarabel", "daqp"]
 
 
-def test_a_failure_of_a_backend_that_is_named_is_that_backend_s(monkeypatch):
-    from quasistatic_ref.solve.step_problem import CvxpySolver
-
-    monkeypatch.setattr(CvxpySolver, "reply", lambda *_: FAILED)
+def test_a_failure_of_a_backend_that_is_named_is_that_backend_s(answers):
+    answers("piqp", lambda *_: FAILED)
     settings = ["solver.certify=off", "solver.backend=piqp"]
     scenario = load_scenario("sphere_spin", settings, fast=True)
     with pytest.raises(StepNotSolved, match="piqp did not solve the step"):
-        scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h))
+        first_step(scenario)
 
 
 def test_a_simulator_that_names_no_backend_takes_curved_extensions():

@@ -7,13 +7,11 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.solve.backends import NONE, installed_backends, others_installed
-from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.solver import FREE
 from tests.closeness import assert_within
 from tests.helpers import SHAPES, error, planted_step, random_step, sphere_on_floor
 from tests.made import repeated
 from tests.oracles.random_steps import steps
+from tests.solvers import FREE, NONE, installed_backends, others_installed, solver_for
 from tests.tolerances import OPTIMUM
 
 BALL = sphere_on_floor(wrench=(0.0, 0.0, -2.943, 0.0, 0.0, 1e-3))

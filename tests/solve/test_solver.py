@@ -15,21 +15,17 @@ from quasistatic_ref import (
     load_scenario,
     solve_step,
 )
-from quasistatic_ref.optional.daqp.solver import DaqpSolver, Workspaces
-from quasistatic_ref.optional.qpsolvers.through_qpsolvers import QpsolversSolver
-from quasistatic_ref.solve.backends import BACKENDS, installed_backends
-from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.solver import NoSolver
-from quasistatic_ref.solve.step_problem import CvxpySolver
-from quasistatic_ref.solve.units import ScaledStep
+from quasistatic_ref.optional.daqp.solver import Workspaces
 from tests.closeness import assert_same
 from tests.helpers import (
     changed,
     error,
+    first_step,
     point_on_floor,
     random_step,
 )
 from tests.made import repeated
+from tests.solvers import BACKENDS, ScaledStep, installed_backends, solver_for
 from tests.tolerances import OPTIMUM
 
 
@@ -83,24 +79,18 @@ def test_rows_of_an_extension_count_as_rows_of_the_step(step):
 
 
 def test_no_solver_gives_no_answer_of_its_own(step):
+    none = solver_for(step, "none")
     with pytest.raises(BackendError, match="has no answer of its own"):
-        solve_step(step, NoSolver(step, "none"), certify="residual")
+        solve_step(step, none, certify="residual")
     with pytest.raises(StepNotSolved, match="not called"):
-        NoSolver(step, "none").answer(ScaledStep(step), 1e-9)
+        none.answer(ScaledStep(step), 1e-9)
 
 
-@pytest.mark.parametrize(
-    ("fast", "interface"),
-    [
-        (False, "cvxpy"),
-        (True, "native"),
-    ],
-)
+@pytest.mark.parametrize(("fast", "interface"), [(False, "cvxpy"), (True, "native")])
 def test_a_simulator_keeps_its_solver_while_steps_fit(fast, interface):
     some = load_scenario("two_finger_pinch", ["solver.certify=off"], fast=fast)
     run = some.simulator()
-    q = some.system.q_start
-    result = run.step(q, some.targets(some.h))
+    result = first_step(some, run)
     first = run.solver
     run.step(result.q, some.targets(2 * some.h))
     assert run.solver is first
@@ -112,19 +102,16 @@ def test_a_simulator_keeps_its_solver_while_steps_fit(fast, interface):
 
 
 @pytest.mark.parametrize(
-    ("kind", "name", "interface"),
+    ("name", "interface"),
     [
-        (CvxpySolver, "osqp", "cvxpy"),
-        (QpsolversSolver, "qpsolvers:piqp", "qpsolvers"),
-        (DaqpSolver, "daqp", "native"),
-        (NoSolver, "none", "none"),
+        ("osqp", "cvxpy"), ("qpsolvers:piqp", "qpsolvers"), ("daqp", "native"), ("none", "none"),
     ],
-)
-def test_a_solver_that_was_pickled_or_copied_starts_afresh(kind, name, interface, step):
+)  # fmt: skip
+def test_a_solver_that_was_pickled_or_copied_starts_afresh(name, interface, step):
     solver = solver_for(step, name)
     expected = solve_step(step, solver)
     for again in (pickle.loads(pickle.dumps(solver)), copy.copy(solver)):
-        assert type(again) is kind
+        assert type(again) is type(solver)
         assert (again.name, again.interface) == (name, interface)
         assert again.fits(step)
         found = solve_step(step, again)
@@ -133,7 +120,7 @@ def test_a_solver_that_was_pickled_or_copied_starts_afresh(kind, name, interface
 
 
 def test_a_backend_that_raises_is_set_up_again_for_the_next_step(step, monkeypatch):
-    solver = DaqpSolver(step)
+    solver = solver_for(step, "daqp")
     honest = Workspaces.reply
 
     def broken(*_):

@@ -8,10 +8,10 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.lab.bench.scenes import boxes
-from quasistatic_ref.solve.backends import installed_backends
 from quasistatic_ref.tolerances import UNMOVED
 from tests.closeness import assert_same, assert_within
 from tests.helpers import pinch, random_step, sphere_on_floor
+from tests.solvers import installed_backends
 
 WEIGHT = (0.3, 0.0, -2.943, 0.0, 0.0, 1e-3)
 ABLE = [name for name in installed_backends() if ":" not in name and name != "highs"]

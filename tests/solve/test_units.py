@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, standard_form
-from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.standard_form import OUT_OF_REACH, clipped_gaps
 from tests.cases import cases
 from tests.closeness import assert_relative, assert_same
@@ -17,6 +16,7 @@ from tests.helpers import (
     sphere_on_floor,
 )
 from tests.made import bits, free_step, no_contacts
+from tests.solvers import ScaledStep
 from tests.tolerances import NATURAL_HIGH, NATURAL_LOW
 
 STEPS = {

@@ -15,18 +15,12 @@ from quasistatic_ref.step.standard_form import friction_rows, page_units, si_uni
 from tests.closeness import assert_close, assert_relative, assert_within
 from tests.helpers import (
     PAPER,
-    changed,
     error,
     planted_step,
     random_step,
+    with_mu_of,
 )
 from tests.tolerances import OPTIMUM, ROUNDING
-
-
-def with_mu_of(other, step):
-    """The step with another's mu_v and mu_omega, which are constants of a compiled problem."""
-    mu = {name: getattr(other.contacts, name) for name in ("mu_v", "mu_omega")}
-    return step.replace(contacts=changed(step.contacts, **mu))
 
 
 def test_a_program_is_compiled_at_its_first_solve_alone(monkeypatch):

@@ -16,13 +16,12 @@ from quasistatic_ref.lab.folders import contact_qp_folder
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.problem import EXACT
 from quasistatic_ref.lab.vectors.layers.qp import step_of
-from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.choice import solver_for
 from tests.extras import SCENARIOS
 from tests.lab.vectors.committed_cases import cases
 from tests.made import bits
 from tests.oracles.random_steps import POLYHEDRAL, drawn
 from tests.pages import ROOT
+from tests.solvers import NONE, solver_for
 
 CLAIMS = ("active", "multipliers_unique", "differentiable", "smallest_inactive_slack")
 """What of a certificate is unique where the multipliers are; the others always are."""

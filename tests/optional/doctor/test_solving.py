@@ -6,69 +6,54 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref import StepNotSolved
-from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.solve.step_problem import CvxpySolver
 from tests.files.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
+from tests.solvers import Reply
 
 STEPS = 8
-SCENE = ["block_push", "--set", f"steps={STEPS}", "--set", "solver.backend=osqp"]
+LOST = Reply(None, None, False, "lost")
 
 
-def kinds(kind):
-    """A class and all that inherit it."""
-    return [kind, *(one for below in kind.__subclasses__() for one in kinds(below))]
-
-
-def fail(monkeypatch, fails, solver=Solver):
-    """Have each solver of a class fail where `fails` says so of its name."""
-    for kind in kinds(solver):
-        if "answer" in vars(kind):
-            monkeypatch.setattr(kind, "answer", failing_method(kind.answer, fails))
-
-
-def failing_method(answer, fails):
-    def lost(self, scaled, accuracy):
-        if fails(self.name):
-            raise StepNotSolved(self.name, "lost", scaled.step, accuracy)
-        return answer(self, scaled, accuracy)
-
-    return lost
+def fail(answers, fails, *backends):
+    """Have backends reply that they have lost where `fails` says so of a name."""
+    for backend in backends:
+        answers(backend, lambda one, own: LOST if fails(one.name) else own())
 
 
 @pytest.fixture
-def failing(monkeypatch):
+def failing(answers):
     """A backend that does not solve three of the steps."""
     calls = count()
-    fail(monkeypatch, lambda name: next(calls) in (1, 4, 5), CvxpySolver)
+    fail(answers, lambda name: next(calls) in (1, 4, 5), "daqp")
 
 
 @pytest.mark.parametrize(
     ("accused", "fails", "remedy"),
     [
         ("clarabel", {"clarabel"}, "choose another backend than clarabel, such as daqp"),
+        ("osqp", {"osqp"}, "choose another backend than osqp, such as clarabel or daqp"),
         ("daqp", {"daqp"}, "choose another backend than daqp, such as clarabel"),
         ("daqp", {"daqp", "clarabel", "scs"}, "check masses, lengths and stiffness"),
     ],
 )
 def test_the_remedy_names_what_solves_the_step_and_never_the_accused(
-    monkeypatch, accused, fails, remedy
+    answers, accused, fails, remedy
 ):
-    fail(monkeypatch, fails.__contains__)
+    fail(answers, fails.__contains__, "clarabel", "daqp")
     scenario = qr.load_scenario("block_push", {"solver.backend": accused}, steps=3)
     (finding,) = scenario.run(progress=False).findings
     assert finding.remedy.startswith(remedy)
 
 
 def test_failures_are_in_the_summary_and_in_a_finding_that_is_grave(failing, tmp_path, cli):
-    printed = cli("run", *SCENE, "--out", tmp_path, "--strict", status=1)
+    words = f"run block_push --set steps={STEPS} --set solver.backend=daqp --strict --out"
+    printed = cli(words, tmp_path, status=1)
     assert f"{STEPS} of {STEPS} steps exact (the backend failed in 3 of them)" in printed.out
     (finding,) = qr.load_trajectory(tmp_path / "block_push.npz").findings
     assert finding.name == "failing-backend"
     assert finding.numbers == {"failed": 3, "short": 0, "step": 1}
     sentence = (
-        "grave: osqp failed in 3 of 8 steps, the first of them step 1; the exact method solved "
-        "them; choose another backend than osqp, such as clarabel or daqp [failing-backend]"
+        "grave: daqp failed in 3 of 8 steps, the first of them step 1; the exact method solved "
+        "them; choose another backend than daqp, such as clarabel [failing-backend]"
     )
     assert sentence in printed.err
 
@@ -76,7 +61,7 @@ def test_failures_are_in_the_summary_and_in_a_finding_that_is_grave(failing, tmp
 def test_the_steps_have_the_bits_of_a_backend_that_never_fails(failing):
     runs = [
         qr.load_scenario("block_push", {"solver.backend": name}, steps=STEPS).run(progress=False)
-        for name in ("osqp", "none")
+        for name in ("daqp", "none")
     ]
     assert runs[0]["q"].tobytes() == runs[1]["q"].tobytes()
     assert runs[1].findings == ()
@@ -115,12 +100,12 @@ def test_an_arm_at_rest_accuses_no_backend(tmp_path, backend, gravity):
 
 @pytest.mark.parametrize("fast", [False, True])
 @pytest.mark.parametrize("saved_by", ["clarabel", "none"])
-def test_no_run_under_residual_ends_for_a_backend_that_fails(monkeypatch, fast, saved_by):
+def test_no_run_under_residual_ends_for_a_backend_that_fails(answers, fast, saved_by):
     """Every backend but one fails; the exact method needs none."""
     exact = qr.load_scenario("block_push", steps=3).run(progress=False)
     settings = {"solver.backend": "piqp", "solver.certify": "residual"}
     scenario = qr.load_scenario("block_push", settings, fast=fast, steps=3)
-    fail(monkeypatch, lambda name: name != saved_by)
+    fail(answers, lambda name: name != saved_by, "piqp", "daqp")
     run = scenario.run(progress=False)
     assert run.header.unanswered == (0, 1, 2)
     if saved_by != "none":
