@@ -57,11 +57,11 @@ class Sums:
         there = np.empty(len(q))
         for joint, at, v in self.many:
             with np.errstate(all="ignore"):  # as plain arithmetic
-                there[at] = joint.moved([*q[at]], [*delta_q[v]])
+                there[at] = joint.integrated([*q[at]], [*delta_q[v]])
         here = q.tolist()
         change = delta_q.tolist()
         for joint in self.few:
-            there[joint.q] = joint.moved(here[joint.q], change[joint.v])
+            there[joint.q] = joint.integrated(here[joint.q], change[joint.v])
         return there
 
     @compiled
@@ -84,7 +84,7 @@ class Sums:
         there = np.empty((len(delta_q), len(q)))
         for joint in self.joints:
             with np.errstate(all="ignore"):  # as plain arithmetic
-                moved = joint.moved(q[joint.q].tolist(), [*delta_q[:, joint.v].T.copy()])
+                moved = joint.integrated(q[joint.q].tolist(), [*delta_q[:, joint.v].T.copy()])
             there[:, joint.q] = np.stack(moved, axis=1)
         return there
 

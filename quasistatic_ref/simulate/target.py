@@ -88,7 +88,7 @@ class JointTrack(Plain):
         if s == 0:
             return start
         # The geodesic of (+): a screw when the base both moves and turns.
-        return self.joint.moved(start, [s * x for x in self._ways[i]])
+        return self.joint.integrated(start, [s * x for x in self._ways[i]])
 
     @cached_property
     def _ways(self) -> list[list[float]]:

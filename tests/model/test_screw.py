@@ -32,7 +32,7 @@ def test_a_floating_base_moves_by_its_twist_in_its_own_frame(angle):
     q = [*at, *START.as_quat()]
     delta_q = [*LINEAR, *w]
     expected = at + START.apply(screw(LINEAR, w)[1])
-    q_next = FLOATING.moved(q, delta_q)
+    q_next = FLOATING.integrated(q, delta_q)
     assert_within(q_next[:3], expected, ROUNDING * 4)
     assert_within(FLOATING.change(q, q_next), delta_q, 8 * ROUNDING)
 
@@ -43,7 +43,7 @@ def test_a_floating_base_turns_by_its_rotation_vector(angle, axis):
     # The product of both matrices, which q and -q stand for; and a turn back is that by -w.
     w = angle * axis
     q = [0.0, 0.0, 0.0, *START.as_quat()]
-    after = FLOATING.moved(q, [0.0, 0.0, 0.0, *w])
+    after = FLOATING.integrated(q, [0.0, 0.0, 0.0, *w])
     expected = START.as_matrix() @ screw(np.zeros(3), w)[0]
     found = Rotation.from_quat(after[3:]).as_matrix()
     assert_within(found, expected, 4 * ROUNDING)

@@ -14,7 +14,7 @@ KINDS = sorted(BY_ENTRIES, key=lambda kind: kind.__name__)
 class Odd(KINDS[0]):
     """A kind of a user's own, whose sum is another."""
 
-    def moved(self, q, delta_q):
+    def integrated(self, q, delta_q):
         """Half of its last entry."""
         return [*q[:-1], float(q[-1]) / 2]
 
@@ -63,7 +63,7 @@ def check(joints, rng):
         q, other = turned(joints, rng), turned(joints, rng)
         delta_q = size * rng.normal(size=joints[-1].v.stop) * (rng.random(joints[-1].v.stop) < 0.8)
         pairs = [(q, other), (q, q), (q, sums.plus(q, delta_q))]
-        each = [joint.moved(q[joint.q].tolist(), delta_q[joint.v].tolist()) for joint in joints]
+        each = [joint.integrated(q[joint.q].tolist(), delta_q[joint.v].tolist()) for joint in joints]
         assert bits(sums.plus(q, delta_q)) == bits(np.concatenate(each))
         for here, there in pairs:
             one = [

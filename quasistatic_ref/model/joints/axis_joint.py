@@ -60,7 +60,7 @@ class AxisJoint(Joint):
         """The joint's entries of q at position zero."""
         return cls.at(0.0)
 
-    def moved(self, q: Vector, delta_q: Vector) -> list[Number]:
+    def integrated(self, q: Vector, delta_q: Vector) -> list[Number]:
         """The joint's entries of q (+) delta_q."""
         return [q[0] + delta_q[0]]
 

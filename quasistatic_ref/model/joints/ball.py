@@ -25,7 +25,7 @@ class Ball(TwistJoint):
         """The joint's entries of q at a pose."""
         return [*quaternion(rpy).tolist()]
 
-    def moved(self, q: Vector, delta_q: Vector) -> list[Number]:
+    def integrated(self, q: Vector, delta_q: Vector) -> list[Number]:
         """The joint's entries of q (+) delta_q."""
         return screw.turned(q, delta_q, screw.half_turn(delta_q))
 

@@ -38,7 +38,7 @@ class Continuous(AxisJoint):
         """The joint's entries of q at a position, which is an angle [rad]."""
         return [*cos_sin(position)]
 
-    def moved(self, q: Vector, delta_q: Vector) -> list[Number]:
+    def integrated(self, q: Vector, delta_q: Vector) -> list[Number]:
         """The joint's entries of q (+) delta_q."""
         return screw.heading(q, delta_q[0])
 

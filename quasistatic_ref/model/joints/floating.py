@@ -26,7 +26,7 @@ class Floating(TwistJoint):
         """The joint's entries of q at a pose."""
         return [*xyz.tolist(), *quaternion(rpy).tolist()]
 
-    def moved(self, q: Vector, delta_q: Vector) -> list[Number]:
+    def integrated(self, q: Vector, delta_q: Vector) -> list[Number]:
         """The joint's entries of q (+) delta_q."""
         v, w = delta_q[:3], delta_q[3:]
         half = screw.half_turn(w)

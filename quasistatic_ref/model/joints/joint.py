@@ -120,7 +120,7 @@ class Joint(Plain, ABC):
         """The joint's entries of q at position zero [m, rad, -]."""
 
     @abstractmethod
-    def moved(self, q: Vector, delta_q: Vector) -> list[Number]:
+    def integrated(self, q: Vector, delta_q: Vector) -> list[Number]:
         """The joint's entries of q (+) delta_q, from its entries of both [m, rad, -]."""
 
     @abstractmethod

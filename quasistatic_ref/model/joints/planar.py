@@ -24,7 +24,7 @@ class Planar(TwistJoint):
         """The joint's entries of q at a pose."""
         return [*xyz[:2].tolist(), *cos_sin(float(rpy[2]))]
 
-    def moved(self, q: Vector, delta_q: Vector) -> list[Number]:
+    def integrated(self, q: Vector, delta_q: Vector) -> list[Number]:
         """The joint's entries of q (+) delta_q."""
         x, y, angle = delta_q
         w = [0.0, 0.0, angle]

@@ -27,7 +27,7 @@ def plus(sums: Sums) -> Sum | None:
     def answer(q: Array, delta_q: Array) -> Array:
         there, left = compiled(q, delta_q)
         for joint in left:
-            there[joint.q] = joint.moved(q[joint.q].tolist(), delta_q[joint.v].tolist())
+            there[joint.q] = joint.integrated(q[joint.q].tolist(), delta_q[joint.v].tolist())
         return there
 
     return answer if _all_known(sums) else None

@@ -18,7 +18,7 @@ def wrapping(parent):
     """A class of joints whose angle stays between -pi and pi."""
 
     class Wrapping(parent):
-        def moved(self, q, delta_q):
+        def integrated(self, q, delta_q):
             return [math.remainder(q[0] + delta_q[0], 2 * math.pi)]
 
         def change(self, q, q_next):
