@@ -68,7 +68,7 @@ def groups(step: StepData) -> Groups:
     """
     extra = step.extra
     row, of_row = np.nonzero(extra.A)
-    of_step = step.contacts.moved, step.coupled_entries, step.counts, step.n_v
+    of_step = step.contacts.couplings, step.coupled_entries, step.counts, step.n_v
     return coupled_groups(*of_step, (row, of_row), len(extra.names))
 
 

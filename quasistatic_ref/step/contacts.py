@@ -141,7 +141,7 @@ class Contacts(Plain, Shown):
         return self.unchecked(**{name: getattr(self, name) for name in self.kept()} | changes)
 
     @property
-    def moved(self) -> tuple[Indices, Indices]:
+    def couplings(self) -> tuple[Indices, Indices]:
         """Indices of the contacts and coordinates, (k,) each, for which J is not zero."""
         contact, k = np.nonzero(self.own.any(axis=1) & (self.column < self.n_v))
         return contact, self.column[contact, k]

@@ -105,6 +105,6 @@ def _groups(step: StepData, label: Indices) -> Iterator[tuple[Group, StepData]]:
     i, j = step.coupled_entries
     of_H = np.append(i, label), np.append(j, np.arange(step.n_v))
     row, column = np.nonzero(step.extra.A)
-    of_step = step.contacts.moved, of_H, step.counts, step.n_v
+    of_step = step.contacts.couplings, of_H, step.counts, step.n_v
     for group in coupled_groups(*of_step, (row, column), len(step.extra.names)):
         yield group, group_step(step, group)
