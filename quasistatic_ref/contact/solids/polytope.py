@@ -65,11 +65,11 @@ class Polytope:
         return self.vertices[..., self.edges[:, 1], :] - self.tails
 
     @cached_property
-    def alone(self) -> "Polytope":
+    def stack_of_one(self) -> "Polytope":
         """The polytope as a stack of one."""
         return stacked([self])
 
-    def moved(self, R: Array, t: Array) -> "Polytope":
+    def in_frame(self, R: Array, t: Array) -> "Polytope":
         """Stacked polytopes in other frames, x' = R x + t (`shape` stays in its own).
 
         Parameters

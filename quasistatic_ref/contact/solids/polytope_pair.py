@@ -52,7 +52,7 @@ def polytope_pairs(
     back = pose_a.R.mT
     R = product(back, pose_b.R)
     t = rotated(back, pose_b.t - pose_a.t)
-    gaps, normals = gaps_between(a, b.moved(R, t), within)
+    gaps, normals = gaps_between(a, b.in_frame(R, t), within)
     phi, alpha, beta, n = _closest(a, b, R, t, gaps, normals)
     turn = pose_a.R[:, None]
     alpha, beta, n = rotated(turn, np.stack([alpha, beta, n], axis=1)).swapaxes(0, 1)
@@ -65,7 +65,7 @@ def _closest(
 ) -> Witnesses:
     """The closest points in the frames of `a`, from the gaps of the cores along all normals."""
     if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
-        return _capsule_pair(a, b.moved(R, t))
+        return _capsule_pair(a, b.in_frame(R, t))
     every = np.arange(len(t))
     best = gaps.argmax(axis=1)
     gap = gaps[every, best]
@@ -227,7 +227,7 @@ def _nearest(
     in float64, and that which the way leads to is right.
     """
     every = np.arange(len(t))
-    moved = b.moved(R, t)
+    moved = b.in_frame(R, t)
     fine = are_fine(a, b)
     gives = giving_way(a, moved) if fine else np.inf
     i, phi_b, normal_a = _nearest_corner(a, moved.vertices, n, gives)

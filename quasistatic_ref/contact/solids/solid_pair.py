@@ -53,7 +53,7 @@ def pair_and_gaps(
     if P is None or Q is None:
         return _curved_pair(name, a, b), None
     pose_a, pose_b = Pose(a.R[None], a.t[None]), Pose(b.R[None], b.t[None])
-    points, (gaps, normals) = polytope_pairs(P.alone, Q.alone, pose_a, pose_b, within)
+    points, (gaps, normals) = polytope_pairs(P.stack_of_one, Q.stack_of_one, pose_a, pose_b, within)
     phi, alpha, beta, n = points
     return Witness(float(phi[0]), alpha[0], beta[0], n[0]), (gaps[0], normals[0])
 

@@ -170,7 +170,7 @@ def test_a_fine_pair_is_looked_at_near_its_contact_alone(monkeypatch):
     rng = np.random.default_rng(0)
     points = rng.normal(size=(500, 3))
     ball = convex_hull(0.05 * points / np.linalg.norm(points, axis=1, keepdims=True))
-    P = polytope(ball).alone
+    P = polytope(ball).stack_of_one
     settled = []
     whole = distance.corner_surface
 
@@ -180,7 +180,7 @@ def test_a_fine_pair_is_looked_at_near_its_contact_alone(monkeypatch):
 
     monkeypatch.setattr(distance, "corner_surface", counted)
     for place in (0.099, 0.101, 2.0):
-        Q = P.moved(np.eye(3)[None], place * UP[None])
+        Q = P.in_frame(np.eye(3)[None], place * UP[None])
         near = near_features.near_features(P, Q, 1e-12)
         assert max(map(len, near)) < 200
         assert len(near[0]) + len(near[1]) > 0
