@@ -63,7 +63,9 @@ def check(joints, rng):
         q, other = turned(joints, rng), turned(joints, rng)
         delta_q = size * rng.normal(size=joints[-1].v.stop) * (rng.random(joints[-1].v.stop) < 0.8)
         pairs = [(q, other), (q, q), (q, sums.plus(q, delta_q))]
-        each = [joint.integrated(q[joint.q].tolist(), delta_q[joint.v].tolist()) for joint in joints]
+        each = [
+            joint.integrated(q[joint.q].tolist(), delta_q[joint.v].tolist()) for joint in joints
+        ]
         assert bits(sums.plus(q, delta_q)) == bits(np.concatenate(each))
         for here, there in pairs:
             one = [

@@ -18,7 +18,12 @@ from quasistatic_ref.optional.extensions.rises import LIGHT
 from quasistatic_ref.optional.mujoco import constraints, touches
 from quasistatic_ref.optional.mujoco.fates import check, kind_of
 from quasistatic_ref.optional.mujoco.loads import Spring, diagonal_of_H, loads
-from quasistatic_ref.optional.mujoco.mujoco_state import MujocoState, Natural, moved, mujoco_state
+from quasistatic_ref.optional.mujoco.mujoco_state import (
+    MujocoState,
+    Natural,
+    mujoco_state,
+    product_with_zeros,
+)
 from quasistatic_ref.optional.mujoco.tolerances import DEEP, FULL_RANK
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.by_group import coordinate_units
@@ -200,7 +205,7 @@ def actuated(
     ModelError
         Naming a servo or spring that leaves others of its coordinates free: K_q is singular.
     """
-    moments = [moved(state, spring.m[None], tied.T)[0] for spring in springs]
+    moments = [product_with_zeros(state, spring.m[None], tied.T)[0] for spring in springs]
     K = np.zeros((len(tied.dofs),) * 2)
     for spring, m in zip(springs, moments, strict=True):
         K += spring.k * np.outer(m, m)
@@ -255,7 +260,9 @@ def joint_friction(state: MujocoState, T: Array, heavy: Array) -> tuple[Rises, l
     losses = state.data.efc_frictionloss[rows]
     numbers: list[int] = []
     loads_of_rises, names = [], []
-    for row, along, loss in zip(rows.tolist(), moved(state, J, T), losses.tolist(), strict=True):
+    for row, along, loss in zip(
+        rows.tolist(), product_with_zeros(state, J, T), losses.tolist(), strict=True
+    ):
         on = np.flatnonzero(along).tolist()
         name = friction_name(state, row)
         if len(on) > 1:

@@ -233,7 +233,7 @@ def terms(state: MujocoState, J: Array, T: Array) -> Array:
     return sizes
 
 
-def moved(state: MujocoState, J: Array, T: Array) -> Array:
+def product_with_zeros(state: MujocoState, J: Array, T: Array) -> Array:
     """J T, with zeros for the entries of which only rounding is left, shape (m, n).
 
     J has the shape (m, nv), and T the shape (nv, n) [-].

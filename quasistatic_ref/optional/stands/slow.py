@@ -313,7 +313,7 @@ class SlowGroup:
             M_u = np.where(own[:, None], HEAVY * self.masses.max() / body.mass, 1.0) * M_u
             way = np.array(steps[1].delta_q)
             way[part.n_a :] += starts * steps[1].T ** 2
-            heavy = part.with_fields(M_u=read_only(M_u), **moved(part, way))
+            heavy = part.with_fields(M_u=read_only(M_u), **after_motion(part, way))
             try:
                 starts = self._starts(*(self._slow(step.T, 0.0 * step.s, heavy) for step in steps))
             except NoFixedPoint:
@@ -321,7 +321,7 @@ class SlowGroup:
         return body.missing(starts[own], M_u[np.ix_(own, own)])
 
 
-def moved(step: StepData, way: Array) -> dict[str, Any]:
+def after_motion(step: StepData, way: Array) -> dict[str, Any]:
     """The fields of a step that change where a motion `way`, (n_v,) [m, rad], was done before."""
     extra, contacts = step.extra, step.contacts
     if extra.cost is not None:
