@@ -146,7 +146,7 @@ class Answered(Solver):
 
     def __init__(self, solver: Solver) -> None:
         super().__init__(solver.template, solver.name)
-        self.__dict__.update(interface=solver.interface, basic=solver.basic)
+        self.__dict__.update(interface=solver.interface, gives_basic_rows=solver.gives_basic_rows)
         self.reply = Reply(None, None, False, "")
 
     def answer(self, scaled: ScaledStep, accuracy: float) -> Reply:

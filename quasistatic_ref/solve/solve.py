@@ -294,7 +294,7 @@ def starting_rows(
     if claimed is None:
         return [group.within(start) for group in groups]
     x, y = claimed.answer
-    if solver.basic:
+    if solver.gives_basic_rows:
         moved = scaled.units.coordinate * x
         y = y.copy()
         y[third_pair_rows(scaled.step, scaled.own_inequalities[0], moved, y)] = ROUNDED * y.max()

@@ -107,20 +107,20 @@ class Solver(ABC):
         What the steps that it solves have in common, of ``KIND`` of ``step/data.py``.
     remembers : bool
         Whether its answer to a step may depend on the steps before.
-    basic : bool
+    gives_basic_rows : bool
         Whether the rows of its positive multipliers are independent.
     bare_name : str
         Of the backend, without the interface.
     unsafe : bool
         Whether its backend may not return from steps whose rows are unlike each other.
-    proofs : Proofs
+    proofs : ProofCache
         Those of the last step.
     """
 
     interface: ClassVar[str]
     fixed: ClassVar[tuple[str, ...]]
     remembers: ClassVar[bool] = False
-    basic: ClassVar[bool] = False
+    gives_basic_rows: ClassVar[bool] = False
 
     def __init__(self, template: StepData, name: str) -> None:
         self.template = template

@@ -231,7 +231,7 @@ class DaqpSolver(BackendSolver):
 
     interface = "native"
     remembers = True
-    basic = True
+    gives_basic_rows = True
     fixed = ("n_a", "n_u", "cone", "contacts.rows", "extra")
 
     def __init__(self, template: StepData, name: str = DAQP) -> None:
