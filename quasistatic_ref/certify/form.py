@@ -37,7 +37,7 @@ PRECISION: Final = 320
 """Bits of a ball's midpoint. The data have 53 to 250; 256 is enough on grasps, and what is
 left undecided is decided in rational numbers, so this is a matter of speed alone."""
 
-MANY: Final = 64
+MANY_COORDINATES: Final = 64
 """Coordinates above which products with H^-1 pay by its blocks."""
 
 UNIT: Final = 2.0**-53
@@ -184,8 +184,8 @@ class ExactForm(ABC):
         [x, 1] is off by (n + 1) u s from its rounding, by u s from what x is off by, and by at most
         10 u s from that of the row itself. In all (n + 12) u s. The bound is (2 n + 64) u s: what
         is left, more than twice that, is for the rounding of s itself. Each underflow takes 2^-1074
-        at most, times a factor of s if it is in another; TINY, added to all factors of s and to the
-        bound, is more.
+        at most, times a factor of s if it is in another; UNDERFLOW, added to all factors of s and
+        to the bound, is more.
         """
         A, b = self.inequalities
         return A @ x - b, (2 * self.n + 64) * UNIT * self.sizes(most) + UNDERFLOW
@@ -334,7 +334,7 @@ def inverse(H: arb_mat, bits: int = PRECISION) -> arb_mat:
 
 def blocks_of(H: arb_mat) -> list[tuple[list[int], arb_mat]]:
     """Coordinates and entries of each diagonal block of a matrix, (n, n); none if it is small."""
-    return _blocks(H) if H.nrows() > MANY else []
+    return _blocks(H) if H.nrows() > MANY_COORDINATES else []
 
 
 def _blocks(H: arb_mat) -> list[tuple[list[int], arb_mat]]:

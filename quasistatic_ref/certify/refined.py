@@ -31,7 +31,7 @@ GAIN: Final = 0.05
 """A correction that leaves more than this share of the violation is the last."""
 LEAST: Final = 1e-7
 """Least sigma: the cost of a correction that rows leave free [-]."""
-FAR: Final = 1e7
+FAR_FROM_TIGHT: Final = 1e7
 """Slacks of more than so many violations do not bear [-]."""
 
 
@@ -75,7 +75,7 @@ def refined(minimiser: Minimiser, bearing: BearingRows, start: Start) -> Minimis
         if not 0 < worst <= GAIN * before:
             break
         before = worst
-        near = np.flatnonzero(slack < FAR * worst)
+        near = np.flatnonzero(slack < FAR_FROM_TIGHT * worst)
         y = np.array([float(v) for v in minimiser.balls.y])
         pull = A[list(minimiser.working)].T @ (y * length[list(minimiser.working)])
         size = np.abs(pull).max(initial=0.0) or 1.0

@@ -32,7 +32,7 @@ There a normal that is off counts only where it leads from one of the nearest po
 within OUTSIDE_FACE of the distance D: else their difference takes its place. Edges with that normal
 n and a computed gap of D have a difference d of tails with n'd = D, and |d - D n| is at most the
 bodies' sizes. With a normal that is off by r = ROUNDED the gap is off by r |d - D n| + r^2 D / 2,
-which is less than r (1 + FAR) sizes up to 4e4 sizes: such edges are not left out."""
+which is less than r (1 + FAR_SIZES) sizes up to 4e4 sizes: such edges are not left out."""
 POINTS: Final = 40
 """Most points of a body that bound the gaps of the other's faces."""
 

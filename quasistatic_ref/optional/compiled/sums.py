@@ -73,7 +73,7 @@ def trials_of_plus() -> list[tuple[Sums, tuple[Array, Array]]]:
     q, shape (n_q,), and delta_q, (n_v,).
     """
     sums = Sums(_joints(KINDS))
-    q = np.array([0.1, -0.2, 0.3, *UNIT, 0.4, 0.2, *TURN, 0.96, 0.28, 0.3, 1.5])
+    q = np.array([0.1, -0.2, 0.3, *QUATERNION, 0.4, 0.2, *TURN, 0.96, 0.28, 0.3, 1.5])
     delta_q = np.array([0.3, -0.1, 0.2, 0.7, -0.4, 1.1, 0.2, 0.1, 0.5, -0.3, 0.6, 0.02])
     return [(sums, (q, size * delta_q)) for size in (1.0, 1e-4, 0.0)]
 
@@ -84,12 +84,12 @@ def trials_of_change() -> list[tuple[Sums, tuple[Array, Array]]]:
     q and q_next, shape (n_q,) each.
     """
     sums = Sums(_joints(KINDS))
-    q = np.array([0.1, -0.2, 0.3, *UNIT, 0.4, 0.2, *TURN, 0.96, 0.28, 0.3, 1.5])
-    there = np.array([0.2, 0.1, -0.3, *UNIT[::-1], 0.1, 0.7, *TURN[::-1], *TURN, 0.1, 0.2])
+    q = np.array([0.1, -0.2, 0.3, *QUATERNION, 0.4, 0.2, *TURN, 0.96, 0.28, 0.3, 1.5])
+    there = np.array([0.2, 0.1, -0.3, *QUATERNION[::-1], 0.1, 0.7, *TURN[::-1], *TURN, 0.1, 0.2])
     return [(sums, (q, there)), (sums, (there, q)), (sums, (q, q))]
 
 
-UNIT = (0.1, 0.5, -0.7, 0.5)
+QUATERNION = (0.1, 0.5, -0.7, 0.5)
 TURN = (0.6, -0.8)
 
 

@@ -30,7 +30,7 @@ from quasistatic_ref.shapes.placed_shape import (
 EXACT = (Box, Sphere, Capsule, HalfSpace)
 """Solids to which coal's distances of points are right to rounding."""
 
-UNIT = 1e-10
+UNIT_LENGTH = 1e-10
 """Largest difference from 1 of the square of a unit normal's length [-]."""
 
 ORIGIN = coal.Transform3s(np.eye(3), np.zeros(3))
@@ -75,7 +75,7 @@ class MeasuredByCoal(Shape):
             there = coal.Transform3s(np.eye(3), point)
             phi[i] = coal.distance(solid, ORIGIN, POINT, there, request, result)
             n[i] = result.normal.ravel()
-        if not (np.abs(dot(n, n) - 1) <= UNIT).all():
+        if not (np.abs(dot(n, n) - 1) <= UNIT_LENGTH).all():
             problem = 'coal has no normal for one of its points; use distances = "closed"'
             raise ContactError(problem, field=type(self.solid).__name__.lower())
         return phi, n

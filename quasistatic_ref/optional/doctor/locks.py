@@ -29,8 +29,8 @@ is moved slowly enough for the model is slower."""
 LOCKED: Final = 0.1
 """Motion in a step over that by Coulomb's law [-] below which a body is locked."""
 
-TINY = 1e-9
-"""Entries of J, relative to the contact's largest or to 1 [-, m], that are rounding."""
+ROUNDED = 1e-9
+"""Share of the largest number of a kind, and for entries of J of 1 [-, m], that is rounding [-]."""
 
 
 def guided(start: Start) -> Iterator[Finding | Undecided]:
@@ -41,14 +41,14 @@ def guided(start: Start) -> Iterator[Finding | Undecided]:
     contacts = start.simulator.geometry.contacts(start.points, start.kinematics)
     J_n, J_1, J_2, J_w = np.abs(np.asarray(frame_jacobian(contacts, contacts.J)))
     J_t = np.hypot(J_1, J_2)
-    rounding = TINY * np.maximum(J_t, J_n).max(axis=1, keepdims=True, initial=1.0)
+    rounding = ROUNDED * np.maximum(J_t, J_n).max(axis=1, keepdims=True, initial=1.0)
     fixed = (J_n <= rounding).all(axis=1)
     if start.extension is not None:  # a private rise opens the gap
         fixed[start.extension.rises.contacts] = False
     mu_v, _, mu_omega = contacts.mu.T
     slides = (J_t > rounding) & (mu_v > 0)[:, None]
     turns = ~slides.any(axis=1)
-    moved = np.where(turns[:, None], (J_w > TINY) & (mu_omega > 0)[:, None], slides)
+    moved = np.where(turns[:, None], (J_w > ROUNDED) & (mu_omega > 0)[:, None], slides)
     clearance = np.where(contacts.phi > REPEATED, contacts.phi, 0.0)
     fastest = quotient(clearance, np.where(turns, mu_omega, mu_v) * start.h)
     under_coulomb = start.simulator.law == COULOMB
@@ -108,7 +108,7 @@ def locked(run: Run) -> Iterator[Finding | Undecided]:
     slow: Callable[..., Any] = part("slow_step")
     frictionless = slow(step.with_fields(cone="frictionless"), run.h)
     smooth = frictionless.wrench[:, 2]
-    noise = TINY * np.abs(step.tau_u).max(initial=0.0)
+    noise = ROUNDED * np.abs(step.tau_u).max(initial=0.0)
 
     def could(normal: Array) -> Array:
         """What contacts that press with these forces can bear along each coordinate."""
@@ -126,7 +126,7 @@ def locked(run: Run) -> Iterator[Finding | Undecided]:
     except QuasistaticError:  # nothing is claimed where Coulomb's law has no solution
         return
     way = np.abs(by_coulomb.delta_q[of_system])
-    suspect &= (moved < LOCKED * way) & (way > TINY * way.max(initial=0.0))
+    suspect &= (moved < LOCKED * way) & (way > ROUNDED * way.max(initial=0.0))
     if not suspect.any():
         return
     from scipy.optimize import nnls  # takes as long as a short run

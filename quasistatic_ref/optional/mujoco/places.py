@@ -47,7 +47,7 @@ MESH = "MESH"
 KINDS_OF_GEOMS = (*SHAPES, MESH)
 """Kinds of geoms that have a shape of this package."""
 ONE, TWO = ("SPHERE", "ELLIPSOID"), ("CAPSULE",)
-MANY, BOXES = 4, 8
+PLACES, PLACES_OF_BOXES = 4, 8
 """Places of a pair: one of what is round, two of a capsule, and of two boxes as many as a face cut
 by a face has corners; no other pair has more than four contacts that matter."""
 
@@ -184,7 +184,7 @@ def _places_of(state: MujocoState, a: int, b: int) -> int:
         return 1
     if kinds & {*TWO}:
         return 2
-    return BOXES if kinds == {"BOX"} else MANY
+    return PLACES_OF_BOXES if kinds == {"BOX"} else PLACES
 
 
 def _check_count(state: MujocoState, touching: list[MjContact]) -> None:

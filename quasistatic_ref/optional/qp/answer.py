@@ -29,7 +29,7 @@ QP_FORMAT: Final = "quasistatic-ref/qp"
 VERSION: Final = 2
 MOST_NAMES: Final = 8
 """Names of rows that a sentence lists."""
-FAR: Final = 1e20
+INFINITE: Final = 1e20
 """What other solvers take for infinite [any unit]."""
 MOST_TERMS: Final = 6
 """Terms of a direction that a sentence shows."""
@@ -97,7 +97,9 @@ class ExactQP(Plain, Shown):
     def remark(self) -> str:
         """A warning about a limit such as 1e30 that holds x, and that others take for infinite."""
         rows = self.problem.rows
-        far = {name: abs(c) for name, c in zip(rows.names, rows.c, strict=True) if abs(c) >= FAR}
+        far = {
+            name: abs(c) for name, c in zip(rows.names, rows.c, strict=True) if abs(c) >= INFINITE
+        }
         held = [name for name in (*self.active, *self.least_norm) if name in far]
         if not held:
             return ""

@@ -24,7 +24,7 @@ Result = TypeVar("Result")
 
 BITS: Final = 128
 """Of balls: what they leave undecided is decided in whole numbers."""
-MANY: Final = 40
+MANY_UNKNOWNS: Final = 40
 """Unknowns from which a dense system is solved in balls first."""
 
 
@@ -284,7 +284,7 @@ class Face:
 
 def decided(block: Block, convex: Convex, decide: Callable[[bool], Result]) -> Result:
     """The answer of `decide` by balls where P is large and full, else modulo primes."""
-    full = block.n > MANY and 2 * sum(map(len, block.P)) > block.n**2
+    full = block.n > MANY_UNKNOWNS and 2 * sum(map(len, block.P)) > block.n**2
     if convex.definite and full:
         with suppress(Undecided), working_precision(BITS):
             return block.lucky(lambda: decide(True))

@@ -58,7 +58,7 @@ OWN = 1e-9
 """Difference of s from its own slip's norm, over the longest motion [-], of a fixed point."""
 STICKS = 1e-3
 """Slip over the longest motion of a contact that sticks [-]."""
-TINY = 1e-300
+NO_FORCE = 1e-300
 """In the place of a force of zero, by which nothing is divided [N]."""
 STILL = 1e-6
 """Acceleration over the largest of a group [-] of a body that stays."""
@@ -290,7 +290,7 @@ class SlowGroup:
         pairs = [[first, last] for last, first in pairwise(steps)]
         amounts = np.array([self._amounts(self._starts(*pair)) for pair in pairs])
         off = np.abs(np.diff(amounts, axis=0)).max(axis=1)
-        return pairs[1 + int((off / np.maximum(amounts[1:].max(axis=1), TINY)).argmin())]
+        return pairs[1 + int((off / np.maximum(amounts[1:].max(axis=1), NO_FORCE)).argmin())]
 
     def _one_verdict(self, slow: Slow, starts: Array) -> Indices:
         """A label of each body, (bodies,): one of those that press without slipping, and move."""

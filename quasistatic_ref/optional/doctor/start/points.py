@@ -19,7 +19,7 @@ from quasistatic_ref.tolerances import REPEATED
 
 UPWARDS = 0.5
 """Cosine of the steepest normal that counts as bearing weight [-]."""
-MOST = 1000
+MOST_CANDIDATES = 1000
 """Candidates of a pair that are looked at."""
 ROUNDING = 1e-6
 """Angle [rad] by which a centre of mass is over an edge."""
@@ -38,7 +38,7 @@ def few_points(start: Start) -> Iterator[Finding | Undecided]:
         kept = [_bearing(start, pair, name, nearest) for pair, nearest in each]
         if _around(start, name, kept):
             continue
-        wider = [replace(pair, k=max(pair.k, MOST)) for pair, _ in of_body]
+        wider = [replace(pair, k=max(pair.k, MOST_CANDIDATES)) for pair, _ in of_body]
         every = [_bearing(start, x, name, closest_points([x], start.kinematics)) for x in wider]
         if _around(start, name, every):
             counts, more = (np.array([len(x) for x in points]) for points in (kept, every))

@@ -13,7 +13,7 @@ from quasistatic_ref.simulate.finding import Finding
 
 SHARE = 1e-3
 """Of the way between a joint's limits, by which it may be beyond one [-]."""
-MOST = {"m": 1e-4, "rad": 1e-3}
+MOST_BEYOND = {"m": 1e-4, "rad": 1e-3}
 """And the most that this may be [m, rad]."""
 GROSS = 100.0
 """Force over effort that is grave [-]; an effort of 1, which many URDFs have for want of a number,
@@ -64,7 +64,7 @@ def _beyond(run: Run, name: str) -> Iterator[tuple[Joint, float, str, dict[str, 
         within = np.clip(at, lower, upper)
         k = int(abs(at - within).argmax())
         unit = joint.coordinates[0].unit
-        if abs(at[k] - within[k]) > max(BEYOND, min(SHARE * (upper - lower), MOST[unit])):
+        if abs(at[k] - within[k]) > max(BEYOND, min(SHARE * (upper - lower), MOST_BEYOND[unit])):
             says = f"{at[k]:.6g} {unit} at step {k}, beyond its limit, {within[k]:.6g} {unit}"
             yield joint, at[k], says, {f"at_{unit}": at[k], f"limit_{unit}": within[k], "step": k}
 

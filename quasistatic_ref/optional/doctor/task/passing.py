@@ -20,15 +20,15 @@ from quasistatic_ref.text.quoting import listed
 
 LOOKED = 8
 """Steps, spread over a run, in which bodies are looked for that pass through each other."""
-MOST = 300
+MOST_PAIRS = 300
 """Pairs of shapes that are looked at."""
 
 
 def through(run: Run) -> Iterator[Finding | Undecided]:
     """Bodies that come to be in each other and share no table: of each two the deepest."""
-    apart = [*islice(_apart(run), MOST + 1)] if run.complete else []
-    if len(apart) > MOST:
-        yield Undecided("bodies that share no table", f"more than {MOST} pairs of shapes")
+    apart = [*islice(_apart(run), MOST_PAIRS + 1)] if run.complete else []
+    if len(apart) > MOST_PAIRS:
+        yield Undecided("bodies that share no table", f"more than {MOST_PAIRS} pairs of shapes")
         return
     steps = np.unique(np.linspace(0, run.steps, 1 + LOOKED).round().astype(int)).tolist()
     reaches = [_radius(pair.alpha.shape) + _radius(pair.beta.shape) for pair in apart]

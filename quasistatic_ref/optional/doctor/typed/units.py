@@ -16,7 +16,7 @@ from quasistatic_ref.simulate.finding import Finding
 
 ROUGH: Final = 5.0
 """Friction coefficient above which a number is none [-]: racing tyres have 1.7."""
-MANY = 10
+TIMES_TOO_MANY = 10
 """Times as many contacts as a pair has candidates [-] that no one means by k."""
 LONGEST = 1.0
 """Time step [s] above which milliseconds are meant: what hands move goes its whole way in it."""
@@ -105,7 +105,11 @@ def angle(start: Start) -> Iterator[Finding]:
 
 def count(start: Start) -> Iterator[Finding]:
     """A k far beyond the points of its pairs, once for each table."""
-    beyond = {table(start, pair): pair for pair in start.pairs if pair.k > MANY * pair.candidates}
+    beyond = {
+        table(start, pair): pair
+        for pair in start.pairs
+        if pair.k > TIMES_TOO_MANY * pair.candidates
+    }
     for name, pair in beyond.items():
         cause = f"k of {name} is {pair.k}, and {pair.name} has {pair.candidates} points, all of "
         cause += "which are contacts of every step"
