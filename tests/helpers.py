@@ -157,6 +157,14 @@ def sphere_on_floor(
     return sphere_step(m, inertia, radius, wrench, mu_v=mu_v, mu_omega=mu_omega, phi=phi, h=h)
 
 
+def boxes_step(count):
+    """A step of boxes that are pushed over a floor, out of each other's reach."""
+    from quasistatic_ref.lab.bench.scenes import boxes
+
+    scene = boxes(count)
+    return scene.simulator("off", True).step(scene.q, np.zeros(0), scene.force).step
+
+
 def pinch(m=0.2, grip=20.0, offset=0.01, mu_v=0.5, mu_omega=0.02):
     """A bar held by two fingers on the axis x, `offset` [m] along y from its centre of mass."""
     return pinch_step(grip, offset, mu_v, mu_omega, m=m)

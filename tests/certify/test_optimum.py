@@ -9,17 +9,14 @@ from quasistatic_ref.certify import optimum, step_form
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.certify.working_set import WholeSystem
-from quasistatic_ref.lab.bench.scenes import boxes
-from quasistatic_ref.solve.choice import solver_for
-from tests.helpers import point_on_floor
+from tests.helpers import boxes_step, point_on_floor
 from tests.made import bits
+from tests.solvers import solver_for
 
 
 def test_a_coordinate_that_does_not_move_needs_no_fractions(monkeypatch):
     """A box that slides askew does not turn: three entries are zero, which no ball shows."""
-    scene = boxes(1)
-    target = scene.target(0.0, scene.q)
-    step = scene.simulator("off", False).step(scene.q, target, scene.force).step
+    step = boxes_step(1)
 
     def refused(system):
         pytest.fail("solved in fractions")
@@ -53,9 +50,7 @@ def test_a_stack_at_rest_is_proved_at_its_first_steps_alone(proofs_made, fast):
 
 
 def test_a_group_that_rests_is_kept_beside_one_that_moves(proofs_made):
-    scene = boxes(3)
-    step = scene.simulator("full", False).step(scene.q, np.zeros(0), scene.force).step
-    proofs_made.clear()
+    step = boxes_step(3)
     first, *others = [group.coordinates for group, _ in group_steps(step)]
     solver = solver_for(step, "none")
     solve_step(step, solver)

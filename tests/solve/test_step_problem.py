@@ -7,18 +7,17 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.tolerances import UNMOVED
 from tests.closeness import assert_same, assert_within
-from tests.helpers import pinch, random_step, sphere_on_floor
+from tests.helpers import boxes_step, pinch, random_step, sphere_on_floor
 from tests.solvers import installed_backends
 
-WEIGHT = (0.3, 0.0, -2.943, 0.0, 0.0, 1e-3)
+WEIGHT = -2.943 * np.eye(6)[2]
 ABLE = [name for name in installed_backends() if ":" not in name and name != "highs"]
 COSTLY = qr.Extra(("stop",), np.eye(7)[:1], [1e-4], H=np.eye(7), g=np.full(7, 1e-6))
 STEPS = {
     "pinch": pinch,
-    "ball": lambda: sphere_on_floor(wrench=WEIGHT),
+    "ball": lambda: sphere_on_floor(wrench=(0.3, 0.0, -2.943, 0.0, 0.0, 1e-3)),
     "four and six rows": lambda: random_step(0),
     "a user's row and cost": lambda: random_step(0).replace(extra=COSTLY),
     "facets": lambda: random_step(0).replace(cone="facets-8"),
@@ -50,16 +49,13 @@ def test_solve_is_right_in_si_units(name, solver):
     found = page.solve(called)
     assert_within(found, exact.delta_q, 1e-6 * size)
     assert_same(page.primal(), found)
-    lam = exact.lam
-    assert page.dual().sum() == pytest.approx(lam.sum(), rel=1e-4, abs=1e-9)
+    assert page.dual().sum() == pytest.approx(exact.lam.sum(), rel=1e-4, abs=1e-9)
     assert page.problem.status == cp.OPTIMAL
     form = qr.standard_form(step)
     least = exact.delta_q @ form.H @ exact.delta_q / 2 - form.g @ exact.delta_q
     load = np.abs(form.g).max() or size * form.H.max()
-    value = page.problem.value * step.h**3
-    assert value == pytest.approx(least, rel=1e-6, abs=1e-6 * size * load)
-    said = page.problem.solution.opt_val * step.h**3
-    assert said == pytest.approx(least, rel=1e-6, abs=1e-6 * size * load)
+    for value in (page.problem.value, page.problem.solution.opt_val):
+        assert value * step.h**3 == pytest.approx(least, rel=1e-6, abs=1e-6 * size * load)
 
 
 def test_the_ellipsoid_is_solved_with_its_multipliers():
@@ -81,21 +77,15 @@ def test_the_ellipsoid_is_solved_with_its_multipliers():
 @pytest.mark.parametrize("lift", [1e-3, 1e-5, -1.0])
 def test_a_row_that_is_added_holds_and_its_multiplier_is_a_force(solver, lift):
     """A ball of weight W is lifted by z: a force of M z / h^2 + W if z > 0; a far row has none."""
-    step = sphere_on_floor(wrench=(0.0, 0.0, -2.943, 0.0, 0.0, 0.0))
+    step = sphere_on_floor(wrench=WEIGHT)
     force = step.M_u[2, 2] * lift / step.h**2 + 2.943 if lift > 0 else 0.0
-    rows = []
-
-    def additions(page):
-        rows.append(page.row(page.delta_q[2] - lift))
-        return [page.delta_q[2] >= lift]
-
-    page = qr.StepProblem(step, additions)
+    page = qr.StepProblem(step, lambda page: [page.delta_q[2] >= lift])
     z = page.solve(solver)[2]
     assert page.problem.status == cp.OPTIMAL
     assert z == pytest.approx(max(lift, 0.0), rel=1e-6, abs=1e-9)
     assert page.problem.constraints[-1].dual_value == pytest.approx(force, rel=1e-6, abs=1e-6)
     bare = qr.StepProblem(step)
-    row = bare.row(bare.delta_q[2] >= lift)
+    row = bare.row(bare.delta_q[2] - lift)
     lifted = cp.Problem(bare.problem.objective, [*bare.problem.constraints, row])
     lifted.solve(solver="CLARABEL")
     assert_within(bare.delta_q.value[2], max(lift, 0.0), 1e-9)
@@ -124,7 +114,7 @@ def test_rows_and_costs_of_a_user_are_in_metres_and_newton_metre_seconds(kind):
 
     Its cost is h times its energy.
     """
-    step = sphere_on_floor(wrench=(0.0, 0.0, -2.943, 0.0, 0.0, 0.0)).replace(cone="frictionless")
+    step = sphere_on_floor(wrench=WEIGHT).replace(cone="frictionless")
     k = 1e4
 
     def additions(page):
@@ -138,10 +128,7 @@ def test_rows_and_costs_of_a_user_are_in_metres_and_newton_metre_seconds(kind):
 
 
 def test_a_page_without_a_solution_is_said_in_a_sentence():
-    def walls(page):
-        return [page.delta_q[0] >= 1e-3, page.delta_q[0] <= -1e-3]
-
-    page = qr.StepProblem(pinch(), walls)
+    page = qr.StepProblem(pinch(), lambda page: [page.delta_q[0] >= 1e-3, page.delta_q[0] <= -1e-3])
     with pytest.raises(qr.StepNotSolved, match="infeasible"):
         page.solve()
     assert page.problem.status == cp.INFEASIBLE
@@ -149,20 +136,23 @@ def test_a_page_without_a_solution_is_said_in_a_sentence():
 
 def test_a_page_of_more_than_a_thousand_numbers_is_solved_in_cvxpy_s_own_way():
     """From there on CVXPY chooses another way to compile by itself, which fails at ``multiply``."""
-    scene = boxes(3)
-    step = scene.simulator("off", True).step(scene.q, np.zeros(0), scene.force).step
-    page = qr.StepProblem(step)
+    page = qr.StepProblem(boxes_step(3))
     assert sum(parameter.size for parameter in page.parameters.values()) >= 1000
     page.problem.solve(solver="CLARABEL")
     assert page.problem.status == cp.OPTIMAL
 
 
-def test_a_solver_that_cvxpy_does_not_call_is_refused():
-    page = qr.StepProblem(pinch())
-    with pytest.raises(qr.BackendError, match="is not a backend"):
-        page.solve("clarabell")
-    with pytest.raises(qr.BackendError, match="is not called through CVXPY"):
-        page.solve("none")
+@pytest.mark.parametrize(
+    ("solver", "says"),
+    [
+        ("clarabell", "is not a backend"),
+        ("none", "is not called through CVXPY"),
+        ("mosek", r"is not installed; .*\(got .mosek"),
+    ],
+)
+def test_a_solver_that_cvxpy_does_not_call_is_refused(solver, says):
+    with pytest.raises(qr.BackendError, match=says):
+        qr.StepProblem(pinch()).solve(solver)
 
 
 @pytest.mark.extra("study")
@@ -179,8 +169,3 @@ def test_multipliers_of_a_solve_that_gave_none_are_not_those_of_the_solve_before
     page.problem.solve(solver="HIGHS")
     assert page.contact_rows[0].dual_value is not None
     assert page.dual() is None
-
-
-def test_a_solver_that_cvxpy_knows_and_that_is_not_here_is_said_to_be_missing():
-    with pytest.raises(qr.BackendError, match=r"is not installed; .*\(got .mosek"):
-        qr.solve_step(pinch(), "mosek")

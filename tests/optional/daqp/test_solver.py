@@ -3,9 +3,8 @@
 import numpy as np
 
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.optional.daqp.solver import Answer, DaqpSolver, Workspace
-from tests.helpers import changed, error, planted_step
+from tests.helpers import boxes_step, changed, error, planted_step
 from tests.tolerances import ACTIVE_SET
 
 AT_A_LOSS = Answer(np.zeros(0), np.zeros(0), -2, 0, 0.0)
@@ -52,8 +51,7 @@ def test_a_workspace_that_had_no_finite_answer_is_set_up_again():
 
 def test_a_step_that_couples_what_the_step_before_did_not_is_solved(rng):
     """J of a kept solver may have entries where it had zeros."""
-    scene = boxes(2)
-    step = scene.simulator("off", False).step(scene.q, np.zeros(0), scene.force).step
+    step = boxes_step(2)
     solver = DaqpSolver(step)
     J = step.contacts.J.copy()
     J[0, 0, 6] = 0.5
