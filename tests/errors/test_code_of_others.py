@@ -33,7 +33,6 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(place)
     scene_written(place)
     (place / "helper.py").write_text(HELPER)
-    (tmp_path / "rail.urdf").write_text((place / "rail.urdf").read_text())
     yield place
     assert not (place / "it_ran").exists()
     sys.modules.pop("helper", None)
@@ -83,27 +82,6 @@ def test_a_module_beside_a_function_takes_no_installed_ones_place(folder):
     scene = changed(SCENE, ("solver/backend", "helper.py:solve"))
     load_scenario(scene, steps=1).run()
     (folder / "it_ran").unlink()
-
-
-@pytest.mark.parametrize(
-    "field", ["bodies/rail/urdf", "bodies/ball/cloud", "shapes/scan/mesh/file"]
-)
-@pytest.mark.parametrize("way", ["relative", "absolute"])
-def test_tables_of_others_read_nothing_outside_of_the_working_folder(folder, field, way):
-    outside = "../rail.urdf" if way == "relative" else str(folder.parent / "rail.urdf")
-    if "mesh" in field:
-        outside = outside.replace("urdf", "obj")
-        (folder.parent / "rail.obj").touch()
-    with pytest.raises(InputError, match=field.split("/")[-1]):
-        load_scenario(spoilt(field, outside), of_others=True)
-
-
-def test_tables_of_others_read_from_folders_that_the_user_names(folder, tmp_path):
-    assert load_scenario(SCENE, of_others=True).steps == SCENE["steps"]
-    scene = changed(SCENE, ("bodies/rail/urdf", str(tmp_path / "rail.urdf")))
-    with pytest.raises(InputError, match="is outside the scenario's folder"):
-        load_scenario(scene, of_others=True)
-    assert load_scenario(scene, {"roots": [str(tmp_path)]}, of_others=True).steps == SCENE["steps"]
 
 
 def test_a_name_that_holds_a_dot_is_not_where_the_user_s_change_leads(folder):

@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, load_trajectory
-from quasistatic_ref.files.content import json_read, text_of, text_written, toml_read
-from quasistatic_ref.files.content import written_whole as whole
+from quasistatic_ref.files.content import json_read, text_of, text_written, toml_read, written_whole
 from quasistatic_ref.text.json_text import json_text
 from tests.cases import cases, refusal
 from tests.files.urdf.urdf_texts import loaded_urdf
@@ -58,7 +57,7 @@ def test_a_writer_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, erro
     old = text_written(tmp_path / "t.txt", "old")
     for path in (old, tmp_path / "t.bin"):
         with pytest.raises(InputError if error is FULL else type(error), match=says):
-            whole(path, write)
+            written_whole(path, write)
     assert old.read_text() == "old"
     assert os.listdir(tmp_path) == ["t.txt"]
 
@@ -124,7 +123,7 @@ def test_a_writer_that_fails_sends_nothing_down_a_pipe(error):
 
     one, other = os.pipe()
     with pytest.raises((RuntimeError, InputError)):
-        whole(f"/dev/fd/{other}", write)
+        written_whole(f"/dev/fd/{other}", write)
     os.close(other)
     assert os.read(one, 100) == b""
     os.close(one)
@@ -187,6 +186,10 @@ CONTENTS = {
         b"x = { " + b"'a'." * DEEP + b"b = 1 }",
         "line 1: a key",
     ),
+    "a key of escaped quotes": (toml_read, rb'"\"".' * 1200 + b"b = 1", "line 1: a key has more"),
+    "a key of escaped points": (toml_read, rb'"\".".' * 1200 + b"b = 1", "line 1: a key has more"),
+    "a key of backslashes": (toml_read, rb'"\\".' * 1200 + b"b = 1", "line 1: a key has more"),
+    "a key of one backslash": (toml_read, rb"'\'." * 1200 + b"b = 1", "line 1: a key has more"),
     "many digits in TOML": (toml_read, b"h = " + b"1" * 5000, "an unusable number"),
     "many digits in JSON": (json_read, b'{"h": ' + b"1" * 5000 + b"}", "a number too long"),
     "a field twice in TOML": (toml_read, b"h = 1\nh = 2\n", "is not TOML: Cannot overwrite"),

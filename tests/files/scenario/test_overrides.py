@@ -1,6 +1,7 @@
 """Changes of a scenario: the command line's strings, mappings and keywords say the same."""
 
 import re
+from functools import reduce
 from pathlib import Path
 
 import numpy as np
@@ -82,12 +83,14 @@ def test_a_path_from_python_is_the_callers_own_and_may_lead_anywhere(path, tmp_p
 
 RECURSIVE = {}
 RECURSIVE["inner"] = RECURSIVE
+DEEP = reduce(lambda inner, _: [inner], range(900), 1.0)
 
 REFUSED = {
     "one string": ("h=1", {}, "settings: must be a list of dotted.key=value, or a mapping"),
     "no changes": (3, {}, "settings: must be a list of dotted.key=value, or a mapping"),
     "a field of that name": (["settings=3"], {}, "--set settings=3: is unknown; known: "),
     "a value that holds itself": ({"h": RECURSIVE}, {}, "h: is nested too deeply, or holds itself"),
+    "900 lists in one another": ({"gravity": DEEP}, {}, "gravity: is nested "),
     "a keyword that holds itself": ((), {"solver": RECURSIVE}, "solver: is nested too deeply"),
     "a contact that is not there": (
         ["contacts.flor.mu_v=1"],
