@@ -1,6 +1,8 @@
-"""What tests make steps, files and bits with: only this file knows where the package keeps it."""
+"""What tests make and read steps, files and bits with: this file alone knows where it is kept."""
 
+from quasistatic_ref.files.clouds import point_cloud, seen_points
 from quasistatic_ref.files.content import text_written
+from quasistatic_ref.files.mesh_files import loaded_mesh, mesh_hull, mesh_path
 from quasistatic_ref.files.solution import infeasible_text, solution_text
 from quasistatic_ref.lab.made_steps.at_random import (
     Rng,
@@ -43,14 +45,19 @@ __all__ = [
     "frames_about",
     "free_step",
     "infeasible_text",
+    "loaded_mesh",
+    "mesh_hull",
+    "mesh_path",
     "no_contacts",
     "pinch_step",
+    "point_cloud",
     "point_jacobian",
     "point_step",
     "random_contacts",
     "random_frames",
     "repeated",
     "rigid_step",
+    "seen_points",
     "solution_text",
     "sphere_step",
     "spread_matrix",

@@ -4,20 +4,21 @@ import json
 
 import pytest
 
-from quasistatic_ref.text.json_text import plain
 from tests.cases import cases
 from tests.errors.scene import changed, dotted, numeric_fields
 from tests.helpers import planted_step
-from tests.made import step_record
+from tests.made import step_text
 
-STEP = plain(step_record(planted_step(7)[0]))
+STEP = json.loads(step_text(planted_step(7)[0]))
 """n_a = 3, n_u = 4, contacts with 6, 4 and 6 rows."""
-ONE = "contacts/1/"
+RANGE = "products of them exceed the range of float64; look for a wrong unit"
 CAUSES = {
-    # name: (change to the step, the field named, words of the sentence)
-    "n_a without end": (("n_a", 10**12), "K_q", "must be 1000000000000 x 1000000000000 numbers"),
-    "five rows": ((ONE + "rows", 5), "contacts[1].rows", "must be 4 or 6 (got 5)"),
-}  # fmt: skip
+    # name: (change to the step, words of the sentence)
+    "n_a without end": (("n_a", 10**12), "K_q: must be 1000000000000 x 1000000000000 numbers"),
+    "five rows": (("contacts/1/rows", 5), "contacts[1].rows: must be 4 or 6 (got 5)"),
+    "J of another unit": (("contacts/0/J/2/0", 1e200), RANGE),
+    "a target of another unit": (("delta_q_bar_a/0", 1e308), RANGE),
+}
 
 
 def step_file(folder, record):
@@ -26,12 +27,12 @@ def step_file(folder, record):
     return path
 
 
-@cases("change, field, words", CAUSES)
-def test_a_step_that_cannot_be_used_is_refused(tmp_path, refused, change, field, words):
+@cases("change, words", CAUSES)
+def test_a_step_that_cannot_be_used_is_refused(tmp_path, refused, change, words):
     path = step_file(tmp_path, changed(STEP, change))
     sentence = refused("solve", path, "-o", tmp_path / "solution.json")
-    assert sentence.startswith(f"{path}: {field}: ")
     assert words in sentence
+    assert sentence.startswith(f"{path}: ") or words == RANGE
 
 
 NO_NUMBERS = ("NaN", "-Infinity", "1e999", "1" * 400)
@@ -46,10 +47,3 @@ def test_values_that_are_no_number_are_refused_in_every_field(tmp_path, refused,
     for number in NO_NUMBERS:
         sentence = refused("solve", step_file(tmp_path, text.replace('"MARK"', number)))
         assert sentence.startswith(tuple(f"{tmp_path / 'step.json'}: {field}: " for field in known))
-
-
-@pytest.mark.parametrize("change", [("contacts/0/J/2/0", 1e200), ("delta_q_bar_a/0", 1e308)])
-def test_a_step_whose_products_leave_the_range_says_so(change, tmp_path, refused):
-    path = step_file(tmp_path, changed(STEP, change))
-    sentence = refused("solve", path)
-    assert "products of them exceed the range of float64; look for a wrong unit" in sentence

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Limits, RunFailed, load_scenario, load_step, load_trajectory
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.simulate.interrupt import Interrupt
 from tests.cases import cases
 from tests.closeness import assert_relative
@@ -72,7 +71,7 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(
 
 def test_the_failing_step_fails_again_by_itself(tmp_path, cli):
     path = scene_written(tmp_path, changed(SCENE, *WEDGE))
-    main(["run", str(path), "--out", str(tmp_path)])
+    cli("run", path, "--out", tmp_path, status=3)
     step = tmp_path / "scene_failed_step.json"
     proof = tmp_path / "proof.json"
     cli("solve", step, "-o", proof, status=3)
@@ -121,7 +120,7 @@ def test_ctrl_c_is_noted_once_and_raised_the_second_time():
     assert signal.getsignal(signal.SIGINT) is before
 
 
-def test_somebody_else_s_handler_is_left_alone():
+def test_a_handler_of_the_caller_is_left_alone():
     calls = []
     before = signal.signal(signal.SIGINT, lambda number, frame: calls.append(number))
     try:

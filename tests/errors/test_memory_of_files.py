@@ -4,13 +4,10 @@ import struct
 import tracemalloc
 from contextlib import suppress
 
-import pytest
-
 from quasistatic_ref import Body, InputError, System, load_scenario, load_step
-from quasistatic_ref.files import xml_text
-from quasistatic_ref.files.clouds import point_cloud
-from quasistatic_ref.files.mesh_files import loaded_mesh
-from tests.cases import cases
+from tests.cases import cases, refusal
+from tests.files.urdf.urdf_texts import loaded_urdf
+from tests.made import loaded_mesh, point_cloud
 from tests.oracles.shape_files import COLLADA, plain_gltf
 
 TIMES = 40
@@ -109,14 +106,25 @@ def test_a_file_takes_at_most_forty_times_its_size(tmp_path, name, content):
     assert peak < TIMES * len(content) + 2**20
 
 
-def test_elements_are_counted_while_they_are_read():
-    most = xml_text.MOST_ELEMENTS
-    assert len(list(xml_text.xml_root(f"<a>{'<b/>' * (most - 1)}</a>"))) == most - 1
-    with pytest.raises(InputError, match=rf"^line 2: has more than {most} elements"):
-        xml_text.xml_root(f"<a>\n{'<b/>' * most}{'<' * 1000}")
-    many = " ".join(f'a{k}=""' for k in range(most - 1))
-    with pytest.raises(InputError, match=rf"^line 2: has more than {most} attributes"):
-        xml_text.xml_root(f'<a b="">\n<c {many} d=""/></a>')
-    for long in ("x" * 4001, f'a {"x" * 4001}=""'):
-        with pytest.raises(InputError, match="has a name of more than 4000 characters"):
-            xml_text.xml_root(f"<{long}/>")
+MOST = 100_000
+"""Elements of a URDF, and attributes."""
+MORE = {
+    "elements": (f"<a>\n{'<b/>' * MOST}{'<' * 1000}", "line 2: has more than 100000 elements"),
+    "attributes": (
+        '<a b="">\n<c ' + " ".join(f'a{k}=""' for k in range(MOST)) + "/></a>",
+        "line 2: has more than 100000 attributes",
+    ),
+    "a long name": (f"<{'x' * 4001}/>", "line 1: has a name of more than 4000 characters"),
+    "a long attribute": (f'<a {"x" * 4001}=""/>', "line 1: has a name of more than 4000 char"),
+}
+
+
+@cases("text, words", MORE)
+def test_elements_are_counted_while_a_urdf_is_read(text, words):
+    with refusal(InputError, f"<robot>: {words}"):
+        loaded_urdf(text)
+
+
+def test_a_urdf_has_as_many_elements_as_are_allowed():
+    elements = "<b/>" * (MOST - 2)  # and its robot and link
+    assert loaded_urdf(f'<robot name="r"><link name="a">{elements}</link></robot>').tree.ignored

@@ -24,14 +24,11 @@ from quasistatic_ref import (
     solve_step,
     verify,
 )
-from quasistatic_ref.files.clouds import point_cloud
-from quasistatic_ref.files.mesh_files import loaded_mesh
-from quasistatic_ref.files.resources import models_folder
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.files import answers_written
 from tests.errors.scene import scene_written
 from tests.files.urdf.urdf_texts import collision, link, robot, urdf_of_text
-from tests.made import solution_text
+from tests.made import loaded_mesh, point_cloud, solution_text
 from tests.oracles.shape_files import (
     COLLADA,
     PCD_BODY,
@@ -40,6 +37,7 @@ from tests.oracles.shape_files import (
     pcd,
     plain_gltf,
 )
+from tests.pages import ROOT
 
 LONGEST = 2000
 """Most characters of a sentence."""
@@ -159,7 +157,7 @@ def good(tmp_path_factory):
     for name, save in (("c.npy", np.save), ("c.npz", np.savez)):
         save(folder / name, POINTS)
     contents = {
-        "r.urdf": (models_folder() / "door" / "door.urdf").read_bytes(),
+        "r.urdf": (ROOT / "models/door/door.urdf").read_bytes(),
         "m.obj": TETRAHEDRON.encode(),
         "m.stl": exported("stl_ascii"),
         "b.stl": b"solid".ljust(80) + exported("stl")[80:],
