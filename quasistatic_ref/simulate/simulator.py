@@ -44,8 +44,9 @@ from quasistatic_ref.text.shown import Shown
 
 GRAVITY = (0.0, 0.0, -9.81)
 SceneFindings = Callable[["Simulator", Array, Array], list[Finding]]
-StandingsOf = Callable[["Simulator", ArrayLike, ArrayLike, ArrayLike | None, str], Standings]
 """A simulator, q (n_q,) and a force (n_v,) [N, N m] -> what is wrong with the scene."""
+StandingsOf = Callable[["Simulator", ArrayLike, ArrayLike, ArrayLike | None, str], Standings]
+"""A simulator, q (n_q,), q_bar_a (n_q_a,), a force (n_v,) [N, N m], certify -> what stands."""
 
 
 @contextmanager

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref.certify.optimum import ProofCache
 from quasistatic_ref.numbers.arrays import Array, Indices, all_finite, read_only
 from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.parts import part
@@ -111,7 +112,8 @@ class KnownAnswers:
         self._answers = answers = cold_answers(scaled, g, sizes, options)
         self._sizes = sizes
         self._scaled = scaled
-        self._solver = Answered(solver)
+        self._solver = solver
+        self._proofs = ProofCache()
         self.delta_q = answers.x * (sizes[:, None] * S)
         self.lam = answers.lam * (sizes / length)[:, None]
         finite = np.isfinite(np.hstack([self.delta_q, self.lam])).all(axis=1)
@@ -129,25 +131,29 @@ class KnownAnswers:
         """A solver that answers step k."""
         x, lam, status, iterations = self._answers
         said = status[k]
-        self._solver.reply = Reply(x[k], lam[k], said == OPTIMAL, said, int(iterations[k]))
-        return self._solver
+        reply = Reply(x[k], lam[k], said == OPTIMAL, said, int(iterations[k]))
+        return Answered(self._solver, reply, self._proofs)
 
 
 class Answered(Solver):
-    """A solver whose answer to the next step is known: that of another one.
+    """A solver whose answer to a step is known: that of another solver.
 
-    Attributes
+    Parameters
     ----------
+    solver : Solver
     reply : Reply
-        The answer.
+        Its answer to the step.
+    proofs : ProofCache
+        Those of the last step.
     """
 
     fixed = ()
 
-    def __init__(self, solver: Solver) -> None:
+    def __init__(self, solver: Solver, reply: Reply, proofs: ProofCache) -> None:
         super().__init__(solver.template, solver.name)
         self.__dict__.update(interface=solver.interface, gives_basic_rows=solver.gives_basic_rows)
-        self.reply = Reply(None, None, False, "")
+        self.reply = reply
+        self.proofs = proofs
 
     def answer(self, scaled: ScaledStep, accuracy: float) -> Reply:
         """The known answer; StepNotSolved if its numbers are not finite."""
