@@ -17,7 +17,7 @@ class Rounded(Shape):
     @property
     def core(self) -> tuple[Array, float]:
         """Half extents of the core, shape (3,) [m], and the ball's radius [m]."""
-        raise self.lacks("has no core")
+        raise self.lacks("core", "a sphere, box or capsule", "its core")
 
     @property
     def volume(self) -> float:

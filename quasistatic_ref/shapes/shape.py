@@ -57,7 +57,7 @@ class Shape(Plain):
         ContactError
             If the shape is not solid.
         """
-        raise self.lacks("a cloud touches solid shapes only")
+        raise self.lacks("signed distance", "a solid", "its signed_distance")
 
     def at_points(self, some: Indices | Mask | slice) -> Self:
         """The shape as some of the points see it; most shapes are the same for all points."""
@@ -102,7 +102,7 @@ class Shape(Plain):
         ContactError
             If the shape is not bounded, or a cloud.
         """
-        raise self.lacks("has no farthest point")
+        raise self.lacks("farthest point", "a bounded solid", "its support_point")
 
     def support_value(self, directions: Array) -> Array:
         """How far the shape reaches along unit vectors n: max n . x, shape (N,) [m].
@@ -117,7 +117,7 @@ class Shape(Plain):
         ContactError
             If the shape is not bounded, or a cloud.
         """
-        raise self.lacks("has no closed-form reach")
+        raise self.lacks("closed-form reach", "a bounded solid", "its support_value")
 
     def corners(self, towards: Array) -> tuple[Array, float]:
         """The points that can carry a load where the shape lies flat on another; by default none.
@@ -167,7 +167,7 @@ class Shape(Plain):
         ContactError
             If the shape is not bounded, or a cloud.
         """
-        raise self.lacks("has no known volume")
+        raise self.lacks("known volume", "a bounded solid", "its volume")
 
     @property
     def sizes(self) -> dict[str, Any]:
@@ -178,7 +178,7 @@ class Shape(Plain):
         ContactError
             If it is a cloud or a mesh.
         """
-        raise self.lacks("has no sizes")
+        raise self.lacks("sizes", "a solid that is no mesh", "its sizes")
 
     def words(self) -> str:
         """Kind and sizes, e.g. ``box 0.1 x 0.2 x 0.3 m`` or ``sphere of radius 0.1 m``."""
@@ -187,8 +187,9 @@ class Shape(Plain):
             return f"{self.kind} {dimensions(sizes['size'])}"
         return f"{self.kind} of {', '.join(f'{name} {size:g} m' for name, size in sizes.items())}"
 
-    def lacks(self, problem: str) -> ContactError:
-        """The error that says what a shape of this kind does not have."""
+    def lacks(self, what: str, instead: str, part: str) -> ContactError:
+        """The error that a shape of this kind lacks something: what to take or to write."""
+        problem = f"has no {what}: take {instead}, or write {part}"
         return ContactError(problem, field="shape", value=type(self).__name__)
 
 

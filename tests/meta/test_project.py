@@ -32,3 +32,20 @@ def test_the_extra_all_is_every_extra_for_use():
         "The extra {} is not in all: add it to all in pyproject.toml, or to the four that are not"
     )
     assert_among(EXTRAS, names | {"all", "compared", "test", "docs"}, words)
+
+
+def test_every_extra_for_use_is_in_the_extra_test_or_a_marker():
+    marked = {
+        word
+        for path in ROOT.glob("tests/**/*.py")
+        for call in re.findall(r"\bextra\((.*)\)", path.read_text("utf-8"))
+        for word in re.findall(r'"(\w+)"', call)
+    }
+    packages = {name: {re.match(r"[\w.-]+", one)[0] for one in EXTRAS[name]} for name in EXTRAS}
+    words = (
+        "Nothing tests the extra {}: add its packages to the extra test of pyproject.toml, or "
+        'pytest.mark.extra("{}") to the tests that need it'
+    )
+    for_use = EXTRAS.keys() - {"all", "compared", "test", "docs"}
+    tested = {name for name in for_use if packages[name] <= packages["test"]}
+    assert_among(for_use, tested | marked, words)

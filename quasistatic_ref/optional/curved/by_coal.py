@@ -150,7 +150,9 @@ def _resized(shape: Shape, scale: float) -> Shape:
             return replace(
                 shape, vertices=vertices, offsets=offsets, hull_volume=scale**3 * shape.volume
             )
-    raise shape.lacks("has no closest points with this solid")
+    instead = "a cloud or a half-space for one of both"
+    part = "its geometry into optional/curved/by_coal.py"
+    raise shape.lacks("closest points with this solid", instead, part)
 
 
 @lru_cache(maxsize=256)

@@ -80,7 +80,7 @@ def kinks(shape: Shape) -> Kinks:
             return Kinks(z, np.array([shape.radius / slant]), -z)
     flat = polytope(shape)
     if flat is None:
-        raise shape.lacks("has no known faces")
+        raise shape.lacks("known faces", "another solid", "them into optional/curved/faces.py")
     ways = flat.ways
     ways = ways / np.sqrt(np.sum(ways * ways, axis=1))[:, None]
     return Kinks(ways, np.zeros(len(ways)), flat.normals)

@@ -20,7 +20,7 @@ HASHES = {
     "derivative": "b0be941667c69fab3714389a71ce5089dc8e3e201a3268b6bd89eb03945c13a2",
 }
 """SHA-256 of inputs/LAYER.json followed by expected/LAYER.json. A changed case is another version:
-count RELEASE up, write these anew."""
+count RELEASE up, write these again."""
 
 
 def test_the_version_is_the_same_wherever_it_is_said():

@@ -43,7 +43,8 @@ def test_what_is_said_is_right_by_hand(case):
             if key == "each":  # words of each sentence
                 sentences = [one.sentence for one in findings if one.name == name]
                 assert len(sentences) == len(value)
-                assert all(any(word in each for each in sentences) for word in value)
+                lacking = [word for word in value if not any(word in each for each in sentences)]
+                assert not lacking, f"{lacking} are not in {sentences}"
             elif isinstance(value, str):  # words of the cause, or of the remedy
                 texts = [getattr(one, key) for one in findings if one.name == name]
                 assert [text for text in texts if value in text], f"not in the {key} of {texts}"
