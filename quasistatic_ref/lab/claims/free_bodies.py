@@ -100,10 +100,10 @@ def evidence() -> list[Comparison]:
     expected: list[Array] = []
     while len(heavier) < RANDOM_STEPS:
         step = random_step(rng, 2, 4, random_contacts(rng, 3, 6))
-        sigma = 4.0 ** float(rng.integers(-3, 4))  # its root is a power of two: nothing is rounded
+        k = 4.0 ** float(rng.integers(-3, 4))  # its root is a power of two: nothing is rounded
         try:
-            heavy = exact(step.replace(M_u=sigma * step.M_u))
-            short = exact(step.replace(h=step.h / np.sqrt(sigma)))
+            heavy = exact(step.replace(M_u=k * step.M_u))
+            short = exact(step.replace(h=step.h / np.sqrt(k)))
         except StepInfeasible:
             continue
         heavier.append(heavy.delta_q)
@@ -111,18 +111,18 @@ def evidence() -> list[Comparison]:
         forces.append(heavy.wrench)
         expected.append(short.wrench)
     return [
-        comparison("delta_q with sigma M_u at h [m, rad]", heavier, shorter, 0.0),
+        comparison("delta_q with k M_u at h [m, rad]", heavier, shorter, 0.0),
         comparison("forces of the contacts [N, N m]", forces, expected, 0.0),
     ]
 
 
 CLAIM = Claim(
     name="inertia_and_time_step",
-    sentence="If targets, loads and contacts are the same, a step with the inertia sigma M_u at h "
-    "and a step with M_u at h / sqrt(sigma) have the same displacement and forces: smaller "
+    sentence="If targets, loads and contacts are the same, a step with the inertia k M_u at h "
+    "and a step with M_u at h / sqrt(k) have the same displacement and forces: smaller "
     "steps act like heavier bodies, and as h goes to 0 every free body becomes a wall.",
     where="docs/artifacts.md (R45)",
-    sweep=f"{RANDOM_STEPS} random steps with a solution, sigma from 1/64 to 64",
-    reason="no tolerance: sqrt(sigma) is a power of two, so the bits are the same.",
+    sweep=f"{RANDOM_STEPS} random steps with a solution, k from 1/64 to 64",
+    reason="no tolerance: sqrt(k) is a power of two, so the bits are the same.",
     measure=evidence,
 )

@@ -47,13 +47,13 @@ PINCH = Claim(
 
 # A bar that two fingers lift by its end: the smallest time step with which they hold it.
 #
-# (R46), necessary: the fingers bear the load L = m (g + v / h) and the torque e L about their
+# (R46), necessary: the fingers bear the load L = m (g + v / h) and the torque d L about their
 # common normal. The pyramid of a corner bounds |f_1| + |f_2| by mu_v times its normal force, and
 # either component has the arm a about the middle of the pad, so all corners together make at most
 # the torque 2 mu_v N a. Sufficient: let the two corners of each pad on the side of the centre of
 # mass press with F = L / (2 mu_v) together and push up with all their friction, and the other two
 # press with N - F and push sideways, against each other, with up to all of theirs. The net force of
-# a pad is L / 2, and its torque is anything from a L / 2 to mu_v N a, hence also e L / 2. By the
+# a pad is L / 2, and its torque is anything from a L / 2 to mu_v N a, hence also d L / 2. By the
 # condition F <= N, so no corner pulls. In Coulomb's cone the torque alone is bounded by sqrt(2)
 # times as much.
 
@@ -130,8 +130,8 @@ def lift_evidence() -> list[Comparison]:
 LIFT = Claim(
     name="lift",
     sentence="Two fingers with square pads of half-width a press with N each on a bar, at the "
-    "distance e >= a from its centre of mass. They lift the bar at the speed v without "
-    "turning it while m (g + v / h) <= 2 mu_v N a / e: at a given speed the time step must "
+    "distance d >= a from its centre of mass. They lift the bar at the speed v without "
+    "turning it while m (g + v / h) <= 2 mu_v N a / d: at a given speed the time step must "
     "not be too small.",
     where="docs/derivations.md (R46)",
     sweep="four speeds, three levers; each threshold by bisection on exact answers",
