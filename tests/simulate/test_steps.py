@@ -5,16 +5,17 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.simulate.steps import Ways
+from tests.cases import cases
 from tests.made import bits
 from tests.model.mechanisms import every_joint
 
 N = 5
 
 
-def place(name, *settings, **more):
+def place(name, *settings, extension=None):
     """A simulator some steps into a scene, the state there, N targets and N loads."""
     scenario = qr.load_scenario(name, settings)
-    simulator = scenario.simulator(**more)
+    simulator = scenario.simulator(extension)
     here = scenario.system.at(scenario.system.q_start)
     for k in range(3):
         here = simulator.step(here, scenario.targets((k + 1) * simulator.h)).end
@@ -44,9 +45,26 @@ def same(one, other):
     return bits(parts[0]) == bits(parts[1]) and claims[0] == claims[1]
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_steps_at_once_are_those_of_a_cold_simulator_in_any_order(kind):
-    simulator, here, targets, loads = place(*KINDS[kind])
+GUIDE = qr.Extra(("guide",), np.ones((1, 16)), [1e-6])
+
+
+@pytest.mark.parametrize("extension", [None, lambda q: qr.Extension(rows=GUIDE)], ids=["", "guide"])
+def test_steps_of_one_target_have_the_sums_of_forces_and_the_rows_of_each_step(extension):
+    place_of = "two_finger_pinch", "solver.backend=daqp"
+    simulator, here, targets, loads = place(*place_of, extension=extension)
+    results = simulator.steps(here, targets[0], loads)
+    pairs = results.pair_forces()
+    for k in range(N):
+        expected = simulator.step(here, targets[0], loads[k])
+        assert same(results[k], expected)
+        assert expected.step.extra.names == (GUIDE.names if extension else ())
+        assert bits(results.forces_on("held")[k]) == bits(expected.forces_on("held"))
+        assert all(bits(pairs[name][k]) == bits(f) for name, f in expected.pair_forces().items())
+
+
+@cases("words", KINDS)
+def test_steps_at_once_are_those_of_a_cold_simulator_in_any_order(words):
+    simulator, here, targets, loads = place(*words)
     kept = simulator.solver
     results = simulator.steps(here, targets, loads)
     assert simulator.solver is kept
@@ -64,28 +82,6 @@ def test_steps_at_once_are_those_of_a_cold_simulator_in_any_order(kind):
     assert repr(results) == "<Steps: 5 steps from one state>"
 
 
-def test_rows_of_an_extension_are_those_of_each_step():
-    scenario = qr.load_scenario("two_finger_pinch", ["solver.backend=daqp"])
-    n_v = scenario.system.n_v
-    rows = qr.Extra(("guide",), np.ones((1, n_v)), np.array([1e-6]))
-    simulator = scenario.simulator(lambda q: qr.Extension(rows=rows))
-    q = scenario.system.q_start
-    loads = np.linspace(0, 1, 3)[:, None] * np.ones(n_v)
-    results = simulator.steps(q, scenario.targets(0.01), loads)
-    for k in range(3):
-        assert same(results[k], simulator.step(q, scenario.targets(0.01), loads[k]))
-    assert results[0].step.extra.names == ("guide",)
-
-
-def test_sums_of_forces_are_those_of_each_step():
-    simulator, here, targets, loads = place("two_finger_pinch", "solver.backend=daqp")
-    results = simulator.steps(here, targets, loads)
-    pairs = results.pair_forces()
-    for k in range(N):
-        assert bits(results.forces_on("held")[k]) == bits(results[k].forces_on("held"))
-        assert all(bits(pairs[name][k]) == bits(f) for name, f in results[k].pair_forces().items())
-
-
 def test_steps_at_once_refuse_a_target_or_load_as_a_step_does():
     simulator, here, targets, loads = place("bunny_grasp", "solver.backend=daqp")
     for field, where in (("target", targets), ("load", loads)):
@@ -97,16 +93,16 @@ def test_steps_at_once_refuse_a_target_or_load_as_a_step_does():
         with pytest.raises(type(of_step.value)) as of_steps:
             simulator.steps(here, *both)
         assert str(of_steps.value) == str(of_step.value)
-    with pytest.raises(qr.ModelError, match=r"^targets: must have shape \(N, n_q_a\) = \(5, 8\)"):
-        simulator.steps(here, targets[:, :3])
-    with pytest.raises(qr.StepDataError, match=r"^force: must have shape \(N, n_v\)"):
-        simulator.steps(here, targets[:, :], loads[:, :3])
-    with pytest.raises(qr.QuasistaticError, match=r"must have shape .*, or \(8,\) for all"):
-        simulator.steps(here, targets[:2], loads)
     far = loads.copy()
     far[3, 0] = 1e9
-    with pytest.raises(qr.QuasistaticError, match=r"limits\.reach"):
-        simulator.steps(here, targets, far)
+    for error, says, both in (
+        (qr.ModelError, r"^targets: must have shape \(N, n_q_a\) = \(5, 8\)", (targets[:, :3],)),
+        (qr.StepDataError, r"^force: must have shape \(N, n_v\)", (targets, loads[:, :3])),
+        (qr.ModelError, r"must have shape .*, or \(8,\) for all", (targets[:2], loads)),
+        (qr.QuasistaticError, r"limits\.reach", (targets, far)),
+    ):
+        with pytest.raises(error, match=says):
+            simulator.steps(here, *both)
     none = simulator.steps(here, targets[:0])
     assert (none.q.shape, none.delta_q.shape) == ((0, here.q.size), (0, simulator.system.n_v))
 

@@ -6,21 +6,29 @@ from scipy.linalg import expm, logm
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import InputError, ScenarioError, Targets, load_scenario
-from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.simulate.target import JointTrack
 from quasistatic_ref.simulate.user_functions import target_function
 from tests.cases import cases, refusal
-from tests.closeness import assert_close, assert_within
+from tests.closeness import assert_close, assert_same, assert_within
 from tests.tolerances import DIFFERENCE
 
-TIMES = np.array([1.0, 2.0, 4.0])
+TIMES = [1.0, 2.0, 4.0]
+
+
+def track(scene, joint, values, times=TIMES):
+    """What a joint of the arm or the desk follows."""
+    return JointTrack(scene.joint(joint), np.array(times), np.array(values))
+
+
+def targets_of(scene, *tracks):
+    """The targets of the scene, of which some joints follow tracks."""
+    return Targets(scene.q_start[: scene.n_q_a], tracks)
 
 
 def test_a_continuous_joint_may_turn_beyond_pi(scene):
-    angles = np.array([[0.0], [7.0]])
-    track = JointTrack(scene.joint("arm/spin"), np.array([0.0, 1.0]), angles)
     angle = np.array([0.0, 3.5, 6.3, 7.0, 7.0])
-    found = track.over(np.array([0.0, 0.5, 0.9, 1.0, 2.0]))
+    turning = track(scene, "arm/spin", [[0.0], [7.0]], [0.0, 1.0])
+    found = turning.over(np.array([0.0, 0.5, 0.9, 1.0, 2.0]))
     assert_close(found, np.column_stack([np.cos(angle), np.sin(angle)]))
 
 
@@ -36,33 +44,31 @@ def target_at_random(rng):
 
 
 def test_a_base_follows_the_screw_between_its_waypoints(scene, rng):
-    values = np.array([target_at_random(rng), target_at_random(rng), target_at_random(rng)])
-    track = JointTrack(scene.joint("arm/base"), TIMES, values)
+    values = [target_at_random(rng) for _ in TIMES]
+    moving = track(scene, "arm/base", values)
     for t, i, s in ((1.25, 0, 0.25), (1.9, 0, 0.9), (3.0, 1, 0.5)):
         start = transform(values[i])
         end = transform(values[i + 1])
         xi = np.real(logm(np.linalg.inv(start) @ end))
         expected = start @ expm(s * xi)
-        assert_close(transform(track.over(np.array([t]))[0]), expected, DIFFERENCE)
+        assert_close(transform(moving.over(np.array([t]))[0]), expected, DIFFERENCE)
 
 
-def test_waypoints_of_a_base_may_be_whole_numbers():
-    joint = Floating("arm/base", True, slice(0, 7), slice(0, 6))
-    ends = np.array([[0, 0, 0, 0, 0, 0, 1], [1, 2, 0, 0, 0, 0, 1]])
+def test_waypoints_of_a_base_may_be_whole_numbers(scene):
+    moving = track(scene, "arm/base", [[0, 0, 0, 0, 0, 0, 1], [1, 2, 0, 0, 0, 0, 1]], [0.0, 1.0])
     for t in (np.array([0.25]), np.linspace(0.0, 0.75, 8)):
-        assert JointTrack(joint, np.array([0.0, 1.0]), ends).over(t)[:, 0].tolist() == t.tolist()
+        assert_same(moving.over(t)[:, 0], t)
 
 
 def test_targets_of_many_steps_have_the_bits_of_each(scene, rng):
     """Of a base, a wheel and a slide, where each of them is between, at and beyond waypoints."""
-    tracks = [
-        JointTrack(
-            scene.joint("arm/base"), TIMES, np.array([target_at_random(rng) for _ in TIMES])
-        ),
-        JointTrack(scene.joint("arm/spin"), TIMES, rng.normal(size=(3, 1))),
-        JointTrack(scene.joint("desk/slide"), TIMES, rng.normal(size=(3, 1))),
-    ]
-    targets = Targets(scene.q_start[: scene.n_q_a], tracks)
+    slides = rng.normal(size=(3, 1))
+    targets = targets_of(
+        scene,
+        track(scene, "arm/base", [target_at_random(rng) for _ in TIMES]),
+        track(scene, "arm/spin", rng.normal(size=(3, 1))),
+        track(scene, "desk/slide", slides),
+    )
     h = 0.02
     steps = 250
     at = target_function(scene, h, targets, steps)
@@ -74,18 +80,13 @@ def test_targets_of_many_steps_have_the_bits_of_each(scene, rng):
         assert q_bar_a.tobytes() == one.tobytes()
     slide = scene.joint("desk/slide").q.start
     t = h * np.arange(1, steps + 1)
-    assert_within(
-        np.array(found)[:, slide], np.interp(t, TIMES, tracks[2].values[:, 0]),
-    )  # fmt: skip
+    assert_within(np.array(found)[:, slide], np.interp(t, TIMES, slides[:, 0]))
 
 
 @pytest.mark.parametrize("bad", [[1.0, 0, 0, 0], [0, 0, 0, 2.0], [0, 0, 0, np.nan]])
 def test_a_bad_waypoint_is_refused_before_the_first_step(scene, bad):
     start = scene.q_start[scene.joint("arm/base").q]
-    values = np.array([start, start, [*start[:3], *bad]])
-    targets = Targets(
-        scene.q_start[: scene.n_q_a], [JointTrack(scene.joint("arm/base"), TIMES, values)]
-    )
+    targets = targets_of(scene, track(scene, "arm/base", [start, start, [*start[:3], *bad]]))
     with pytest.raises(InputError):
         target_function(scene, 1.0, targets, 10)
 

@@ -5,9 +5,10 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref import load_scenario
-from quasistatic_ref.lab.made_steps.systems import on_link
 from tests.extras import SCENARIOS_TO_RUN
+from tests.helpers import first_step
 from tests.processes import python
+from tests.scenes import BALL
 
 STEPS = {"bunny_grasp": 60}  # its gripper has closed after 50; of the others 6 are taken
 SAME = ("q", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "H", "g", "A", "b")
@@ -26,29 +27,26 @@ def test_certified_runs_have_the_same_bits_at_both_speeds(name):
 @pytest.mark.parametrize("fast", [False, True])
 def test_a_result_ends_at_a_state_from_which_the_next_step_starts(fast):
     scenario = load_scenario("block_push", fast=fast)
-    simulator, target = scenario.simulator(), scenario.targets(scenario.h)
-    result = simulator.step(scenario.system.q_start, target)
+    simulator = scenario.simulator()
+    result = first_step(scenario, simulator)
     assert result.end.q.tobytes() == result.q.tobytes()
-    again = [simulator.step(place, target).q.tobytes() for place in (result.end, result.q)]
-    assert again[0] == again[1]
+    of_state, of_q = (simulator.step(place, [0.0]).q for place in (result.end, result.q))
+    assert of_state.tobytes() == of_q.tobytes()
 
 
 @pytest.mark.parametrize("certify", ["full", "residual", "off"])
 @pytest.mark.parametrize("backend", ["daqp", "clarabel", "none"])
 def test_a_place_that_is_no_number_is_refused_of_a_body_without_contacts_too(backend, certify):
-    ball = qr.Body.of_shape("ball", qr.Sphere(0.1), 1.0, xyz=(0, 0, 0.1))
-    stone = qr.Body.of_shape("stone", qr.Sphere(0.1), 1.0)
-    system = qr.System([ball, stone])
-    cloud = on_link(system, "ball", qr.PointCloud([[0, 0, -0.1]]))
-    floor = qr.PlacedShape.in_world("floor", qr.HalfSpace((0, 0, 1), 0.0))
-    pairs = [qr.ContactPair(f.name, floor, f, 0.5, 0.0) for f in (cloud, system.shapes[0])]
     certify = "full" if backend == "none" else certify
-    simulator = qr.Simulator(system, pairs, h=0.01, backend=backend, certify=certify)
-    q = system.q_start.copy()
-    simulator.step(q, [])
-    q[7] = np.nan
+    stone = {"bodies.stone": {"urdf": BALL, "base": "floating"}}
+    words = {"solver.backend": backend, "solver.certify": certify}
+    scenario = load_scenario("block_push", stone | words)
+    simulator = scenario.simulator()
+    first_step(scenario, simulator)
+    q = scenario.system.q_start.copy()
+    q[scenario.system.joint("stone/base").q.start] = np.nan
     with pytest.raises(qr.QuasistaticError, match="finite"):
-        simulator.step(q, [])
+        simulator.step(q, scenario.targets(scenario.h))
 
 
 PLAIN = """
