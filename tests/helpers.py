@@ -62,10 +62,19 @@ def residuals_of(step, delta_q, lam):
     return optimality_residuals(standard_form(step), delta_q, lam, judge)
 
 
-def first_step(scenario, simulator=None):
-    """The result of the first step of a scenario, which some simulator takes."""
+def results_of(scenario, simulator=None):
+    """The results of the steps of a scenario, which some simulator takes, one after the other."""
     simulator = simulator or scenario.simulator()
-    return simulator.step(scenario.system.q_start, scenario.targets(scenario.h))
+    q = scenario.system.q_start
+    for k in range(scenario.steps):
+        result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
+        q = result.q
+        yield result
+
+
+def first_step(scenario, simulator=None):
+    """The first of them."""
+    return next(results_of(scenario, simulator))
 
 
 def random_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):

@@ -8,7 +8,7 @@ import quasistatic_ref as qr
 from quasistatic_ref import Extension, Simulator, StepNotSolved, load_scenario, solve_step
 from quasistatic_ref.optional.daqp.default import DENSE_BELOW, default_backend
 from quasistatic_ref.simulate.law import CONVEX, COULOMB
-from tests.helpers import error, first_step
+from tests.helpers import error, first_step, results_of
 from tests.solvers import Reply
 from tests.tolerances import OPTIMUM
 
@@ -44,17 +44,13 @@ def test_bodies_that_cannot_touch_count_one_by_one():
 
 @pytest.mark.parametrize("failed", [FAILED, UNCLAIMED])
 def test_clarabel_takes_steps_on_which_the_default_backend_fails(failed, answers):
-    scenario = load_scenario("sphere_spin", ["solver.certify=off"], fast=True)
-    simulator = scenario.simulator()
-    q = scenario.system.q_start
+    scenario = load_scenario("sphere_spin", ["solver.certify=off"], fast=True, steps=4)
     backends = []
     answers("daqp", lambda _, own: failed if len(backends) in (1, 2) else own())
-    for k in range(4):
-        result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
+    for result in results_of(scenario):
         optimum = solve_step(result.step, "none").delta_q
         assert error(result.step, result.solution.delta_q, optimum) <= OPTIMUM
         backends.append(result.solution.backend)
-        q = result.q
     assert backends == ["daqp", "clarabel", "clarabel", "daqp"]
 
 

@@ -25,7 +25,7 @@ from tests.optional.derivatives.free_bodies import (
     free,
     vector_scene,
 )
-from tests.optional.pushed_block import pushed_block
+from tests.optional.pushed_block import FACE, TIP_RADIUS, pushed_block
 from tests.tolerances import JAX_GRADIENT, JAX_STEP
 
 jax = pytest.importorskip("jax", reason=needs("jax"))
@@ -53,9 +53,10 @@ def floating_hand_and_body():
 
 def turning_block():
     """A block that turns by (cos, sin), and a finger that pushes it along two rails."""
-    scene = pushed_block(cone="pyramid")
-    q = scene.q_at(0.01, 0.02, 0.3, 1e-4)
-    return scene.simulator, q, q[:2] + np.array([4e-3, 1e-3])
+    behind = FACE + TIP_RADIUS + 1e-4
+    x, y = -behind * np.cos(0.3), -behind * np.sin(0.3)
+    scenario = pushed_block(x, y, turn=0.3, fast=True)
+    return scenario.simulator(), scenario.system.q_start, np.array([4e-3, 1e-3])
 
 
 def planar_box():

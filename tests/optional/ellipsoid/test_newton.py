@@ -9,9 +9,9 @@ from quasistatic_ref.lab.made_steps.slider import push, push_step
 from quasistatic_ref.optional.ellipsoid.enclosure import GAP, RESERVE, checked_pair, enclosure
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from tests.closeness import assert_same
-from tests.helpers import changed, pinch
+from tests.helpers import changed, pinch, results_of
 from tests.made import repeated
-from tests.optional.pushed_block import pushed_block
+from tests.optional.pushed_block import FACE, TIP_RADIUS, pushed_block
 from tests.tolerances import ROUNDING
 
 
@@ -43,7 +43,8 @@ def test_any_start_ends_in_the_same_bits(step):
 def test_claims_of_a_push_are_proved_by_the_interior_point():
     # The two pairs may be on opposite sides of the optimum: sqrt(2 RESERVE) is as long as the
     # interior point's own bound twice over, as long as its gap is below RESERVE / 4.
-    for result in pushed_block().run(8):
+    scenario = pushed_block(-(FACE + TIP_RADIUS), 0.02, cone="ellipsoid")
+    for result in results_of(scenario):
         step = result.step
         pair = checked_pair(step)
         size = scaled_blocks(step, StepForm(step)).size
