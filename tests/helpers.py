@@ -1,7 +1,8 @@
-"""Steps of tests, and the one definition of error, written without the package's formulas."""
+"""Steps of tests, their rows by hand, and the one definition of error."""
 
 import os
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -13,7 +14,6 @@ from quasistatic_ref import (
     standard_form,
     verify,
 )
-from quasistatic_ref.lab.made_steps import at_random
 from quasistatic_ref.step.cones import cone
 from tests.made import (
     Z,
@@ -24,6 +24,7 @@ from tests.made import (
     point_step,
     random_contacts,
     sphere_step,
+    step_on,
 )
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
@@ -88,29 +89,23 @@ def random_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):
         rng, n_c, n_a + n_u,
         phi=1e-4 * np.abs(rng.normal(size=n_c)), mu_omega=rng.uniform(0.01, 0.1, n_c), rows=rows,
     )  # fmt: skip
-    return at_random.random_step(rng, n_a, n_u, contacts)
+    return step_on(rng, n_a, n_u, contacts)
 
 
 def contact_row(contacts, j, i):
     """[J'(n~ + d~_i)]' of contact j by hand, i = 0 .. 5."""
-    mu_v = contacts.mu_v[j]
-    mu_omega = contacts.mu_omega[j]
-    along = (contacts.d1[j], contacts.d2[j], -contacts.d1[j], -contacts.d2[j])
-    point = contacts.n[j] + mu_v * along[i] if i < 4 else contacts.n[j]
-    spin = (0, 0, 0, 0, mu_omega, -mu_omega)[i]
-    row = []
-    for k in range(contacts.J.shape[2]):
-        entry = spin * contacts.J[j, 3, k]
-        for r in range(3):
-            entry += point[r] * contacts.J[j, r, k]
-        row.append(entry)
-    return np.array(row)
+    d1, d2 = contacts.d1[j], contacts.d2[j]
+    along = (d1, d2, -d1, -d2, 0, 0)[i]
+    spin = (0, 0, 0, 0, 1, -1)[i]
+    point = contacts.n[j] + contacts.mu_v[j] * along
+    return np.append(point, contacts.mu_omega[j] * spin) @ contacts.J[j]
 
 
 def rows_by_hand(step):
     """[J'(n~ + d~_i)]' of every row by hand, contact-major, shape (m, n_v)."""
     c = step.contacts
-    return np.array([contact_row(c, j, i) for j, count in enumerate(c.rows) for i in range(count)])
+    rows = [contact_row(c, j, i) for j, count in enumerate(c.rows) for i in range(count)]
+    return np.reshape(rows, (-1, step.n_v))
 
 
 def slacks(step, delta_q):
@@ -126,25 +121,22 @@ def planted_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):
     """
     rng = np.random.default_rng(rng)
     step = random_step(rng, n_a, n_u, rows)
-    delta_q = 1e-3 * rng.normal(size=n_a + n_u)
-    phi = []
-    lam = []
-    push = np.zeros(n_a + n_u)
-    for j, count in enumerate(rows):
-        motion = [float(contact_row(step.contacts, j, i) @ delta_q) for i in range(count)]
-        active = int(np.argmin(motion))
-        lam_j = np.zeros(count)
-        lam_j[active] = 0.01 * rng.uniform(0.5, 1.5)
-        phi.append(-motion[active])
-        lam.append(lam_j)
-        push += lam_j[active] * contact_row(step.contacts, j, active)
+    delta_q = 1e-3 * rng.normal(size=step.n_v)
+    J = rows_by_hand(step)
+    motion = J @ delta_q
+    lam = np.zeros(len(J))
+    active = [
+        start + int(np.argmin(motion[start:end])) for start, end in pairwise(step.offsets.tolist())
+    ]
+    lam[active] = rng.uniform(0.005, 0.015, len(active))
     spring = step.K_q @ (delta_q[:n_a] - step.delta_q_bar_a)
+    push = lam @ J / step.h
     step = step.replace(
-        tau_a=spring - push[:n_a] / step.h,
-        tau_u=step.M_u @ delta_q[n_a:] / step.h**2 - push[n_a:] / step.h,
-        contacts=changed(step.contacts, phi=np.array(phi)),
+        tau_a=spring - push[:n_a],
+        tau_u=step.M_u @ delta_q[n_a:] / step.h**2 - push[n_a:],
+        contacts=changed(step.contacts, phi=-motion[active]),
     )
-    return step, delta_q, np.concatenate([np.zeros(0), *lam])
+    return step, delta_q, lam
 
 
 def point_on_floor(m=0.3, mu_v=0.5, phi=0.0, force=(0.0, 0.0, 0.0), h=0.01):
@@ -179,28 +171,11 @@ def pinch(m=0.2, grip=20.0, offset=0.01, mu_v=0.5, mu_omega=0.02):
     return pinch_step(grip, offset, mu_v, mu_omega, m=m)
 
 
-def hessian(step):
-    """H of (13), by blocks."""
-    n_a = step.n_a
-    n_v = step.n_v
-    H = np.zeros((n_v, n_v))
-    H[:n_a, :n_a] = step.h * step.K_q
-    H[n_a:, n_a:] = step.M_u / step.h
-    return H
-
-
-def free_displacement(step):
-    """H^-1 g in closed form: delta_q_bar_a + K_q^-1 tau_a; h^2 M_u^-1 tau_u."""
-    actuated = step.delta_q_bar_a + np.linalg.solve(step.K_q, step.tau_a)
-    return np.concatenate([actuated, step.h**2 * np.linalg.solve(step.M_u, step.tau_u)])
-
-
 def error(step, delta_q, truth):
     """||x - x*||_H / ||H^-1 g||_H."""
-    H = hessian(step)
-    free = free_displacement(step)
+    H, g, *_ = standard_form(step)
     gap = np.asarray(delta_q) - np.asarray(truth)
-    return float(np.sqrt(gap @ H @ gap) / np.sqrt(free @ H @ free))
+    return float(np.sqrt(gap @ H @ gap / (g @ np.linalg.solve(H, g))))
 
 
 def verify_refusal(folder, step, solution):

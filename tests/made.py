@@ -10,6 +10,7 @@ from quasistatic_ref.lab.made_steps.at_random import (
     random_frames,
     spread_matrix,
 )
+from quasistatic_ref.lab.made_steps.at_random import random_step as step_on
 from quasistatic_ref.lab.made_steps.contacts import (
     GRAVITY,
     X,
@@ -61,6 +62,7 @@ __all__ = [
     "solution_text",
     "sphere_step",
     "spread_matrix",
+    "step_on",
     "step_record",
     "step_sha256",
     "step_text",

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.optimize import linprog
 
 from quasistatic_ref import standard_form
-from quasistatic_ref.tolerances import CLOSED_FORM
+from tests.tolerances import CLOSED_FORM
 
 
 def balances(step, x):

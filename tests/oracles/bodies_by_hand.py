@@ -13,7 +13,7 @@ metre or by 1e-16 m, either body of a pair alpha, free bodies in any order.
 
 from functools import partial
 from itertools import product
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -28,9 +28,8 @@ from quasistatic_ref import (
     System,
     convex_hull,
 )
-from quasistatic_ref.shapes.placed_shape import Shape
-from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.contact.still import placed_shape
+from tests.tolerances import CLOSED_FORM
 
 Array = np.ndarray
 H = 0.01
@@ -68,7 +67,7 @@ class Scene(NamedTuple):
 
     Parameters
     ----------
-    bodies : list of (Shape, R, t)
+    bodies : list of (shape, R, t)
     normals : dict of (alpha, beta) to ndarray, shape (3,)
         Of what touches, by numbers of bodies.
     motion : ndarray, shape (N, 6)
@@ -77,7 +76,7 @@ class Scene(NamedTuple):
         On each free body at its centre [N, N m].
     """
 
-    bodies: list[tuple[Shape, Array, Array]]
+    bodies: list[tuple[Any, Array, Array]]
     normals: dict[tuple[int, int], Array]
     motion: Array
     load: Array = WEIGHT

@@ -5,25 +5,27 @@ apart; one polyhedral cone after the other):
 
 - every backend and none, plain and fast, cold, and contacts in another order give equal bits;
 - so does the definition, in which what each contact gives way by is solved for, too;
-- so do fractions, by which the optimum is proved (tests/oracles/compliant_forces.py; the pyramid).
+- so do fractions: the plain program's rows around those of the step, by Lemke's method (the
+  pyramid).
 """
+
+from fractions import Fraction
 
 import numpy as np
 
-from quasistatic_ref import (
-    QuasistaticError,
-    contact_forces,
-    solve_step,
-)
-from quasistatic_ref.certify.optimum import step_optimum
+from quasistatic_ref import QuasistaticError, contact_forces, solve_step
+from quasistatic_ref.lab.program.forces import compliant_program, forces_of
+from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.forces.forces import WRENCH, defined_optimum
-from quasistatic_ref.step.cones import PYRAMID
 from tests.made import repeated
-from tests.oracles.compliant_forces import forces as independent_forces
+from tests.oracles.lemke import optimum
 from tests.oracles.random_steps import drawn
+from tests.oracles.rational_kkt import exact
+from tests.oracles.solution_truth import program
+from validation.check_solution import rounded
 
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp", "scs", "none")
-CONES = (PYRAMID, "product", "facets-6", "frictionless")
+CONES = ("pyramid", "product", "facets-6", "frictionless")
 LOST = 1e-6
 UNITS = (1.0, 1e-3, 1e3)
 """[m]"""
@@ -47,9 +49,27 @@ def differences(step, oracle):
     }
     if len(set(c.tolist())) == 1:
         held["definition"] = defined_optimum(step, c[0])[0][:, WRENCH].tobytes() == bits
-        if oracle and step.cone == PYRAMID and not step.extra.names:
+        if oracle and step.cone == "pyramid" and not step.extra.names:
             held["independent"] = independent_forces(step, c[0]).tobytes() == bits
     return {name: int(not holds) for name, holds in held.items()}
+
+
+def independent_forces(step, compliance):
+    """(f_d1, f_d2, f_n, tau_n) of each contact [N, N m], each rounded once.
+
+    In the step with compliance c [m/N], four lengths s of each contact are added to its gap, slips
+    and spin, and cost h |s|^2 / (2 c).
+    """
+    contacts = step.contacts
+    tables = [cone_table(step.cone, rows) for rows in contacts.rows]
+    c = [Fraction(compliance)] * contacts.n_c
+    softened = compliant_program(*program(step), tables, Fraction(step.h), c)
+    H, g, A, b = map(exact, softened)
+    x, _ = optimum(H, -g, -A, -b)
+    mu = zip(exact(contacts.mu_v), exact(contacts.mu_omega), strict=True)
+    entries = [{"mu_v": mu_v, "mu_omega": mu_omega} for mu_v, mu_omega in mu]
+    found = forces_of(x[step.n_v :], c, entries)
+    return np.array([[*map(rounded, parts)] for parts in found])
 
 
 def random_steps(count):
@@ -59,7 +79,7 @@ def random_steps(count):
         step = drawn(seed).replace(cone=CONES[seed % len(CONES)])
         seed += 1
         try:
-            step_optimum(step)
+            solve_step(step, "none")
         except QuasistaticError:
             continue
         found += 1

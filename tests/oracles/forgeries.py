@@ -18,8 +18,7 @@ import math
 from itertools import islice
 
 from quasistatic_ref import InputError, StepInfeasible, load_solution, solve_step, verify
-from quasistatic_ref.files.solution import solution_text as text_of
-from tests.made import infeasible_text
+from tests.made import infeasible_text, solution_text
 from tests.oracles.records import places, value_at, with_value
 from tests.oracles.solution_truth import truth_of, wrenches
 
@@ -34,7 +33,7 @@ def good_file(step, kind):
     """The solution file of a step, certified as its kind wants."""
     certify = {"residual": "residual", "none": "off"}.get(kind.split()[0], "full")
     try:
-        return json.loads(text_of(solve_step(step, certify=certify)))
+        return json.loads(solution_text(solve_step(step, certify=certify)))
     except StepInfeasible as proof:
         return json.loads(infeasible_text(step, proof.farkas.exact))
 

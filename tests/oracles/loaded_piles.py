@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref import StepData
-from quasistatic_ref.numbers.arrays import Array
 from tests.made import GRAVITY, contacts_of, point_jacobian
 
 SIDE = 0.1
@@ -26,7 +25,7 @@ class Loaded:
     """
 
     step: StepData
-    borne: Array
+    borne: np.ndarray
 
 
 def loaded_pile(

@@ -56,21 +56,6 @@ def on_rows(of, working):
     return both[: len(g)], both[len(g) :]
 
 
-def proved_optimum(of, working):
-    """The optimum, its multipliers on a working set, and all slacks.
-
-    Raises
-    ------
-    ArithmeticError
-        If the optimum is not that of the working set.
-    """
-    x, lam = on_rows(of, working)
-    slack = of[2] @ x - of[3]
-    if min([*lam, *slack], default=0) < 0:
-        raise ArithmeticError("a multiplier or a slack is negative")
-    return x, lam, slack
-
-
 def refutation(H, g, A, b, x, net, slack, lam):
     """Why numbers in float64 are not the correctly rounded answer; None if they are.
 

@@ -1,5 +1,7 @@
 """Drawn scenes whose bodies have come to rest on flat faces: walls, towers, grids and bins."""
 
+from itertools import combinations, product
+
 import numpy as np
 
 from quasistatic_ref import (
@@ -16,93 +18,76 @@ from quasistatic_ref import (
 )
 
 
-def settled_step(kind, seed, count, steps=8):
-    """A step of a scene of some bodies, after others under gravity alone.
+def settled_step(kind, seed, count):
+    """The eighth step of a scene of some bodies under gravity alone.
 
     Where bodies press each other into a wall, the first step without a solution is that step.
     """
     rng = np.random.default_rng(seed)
-    bodies, walls, near = KINDS[kind](rng, count)
-    system = System(bodies)
-    grounds = [PlacedShape.in_world(f"w{k}", HalfSpace(n, o)) for k, (n, o) in enumerate(walls)]
+    solids, places, turns, reach, walls = KINDS[kind](rng, np.arange(count))
+    each = enumerate(zip(solids, places, turns, strict=True))
+    system = System(
+        [Body.of_shape(f"b{i}", a, 0.2, xyz=xyz, rpy=(0, 0, turn)) for i, (a, xyz, turn) in each]
+    )
     shapes = system.shapes
-    pairs = [(ground, shape) for ground in grounds for shape in shapes]
-    pairs += [(shapes[j], shapes[i]) for i in range(count) for j in range(i) if near(i, j)]
+    grounds = [
+        PlacedShape.in_world(f"w{k}", HalfSpace(*wall))
+        for k, wall in enumerate([((0, 0, 1), 0.0), *walls])
+    ]
+    pairs = [*product(grounds, shapes)]
+    pairs += [
+        (shapes[i], shapes[j])
+        for i, j in combinations(range(count), 2)
+        if np.linalg.norm(places[j] - places[i]) < reach
+    ]
     mu_v = float(rng.uniform(0.3, 0.8))
     mu_omega, rows = ((0.0, 4), (0.003, 6))[int(rng.integers(2))]
     contacts = [
-        ContactPair(f"p{k}", alpha, beta, mu_v, mu_omega, rows, 4)
-        for k, (alpha, beta) in enumerate(pairs)
+        ContactPair(f"p{k}", *pair, mu_v, mu_omega, rows, 4) for k, pair in enumerate(pairs)
     ]
     simulator = Simulator(system, contacts, h=0.05, certify="residual", backend="daqp")
     q = system.q_start
     try:
-        for _ in range(steps - 1):
-            q = simulator.step(q, []).q
-        return simulator.step(q, []).step
+        for _ in range(8):
+            result = simulator.step(q, [])
+            q = result.q
     except StepInfeasible as proof:
         return proof.step
+    return result.step
 
 
-def _boxes(half, places, turns=None):
-    turns = turns or [(0.0, 0.0, 0.0)] * len(places)
-    both = enumerate(zip(places, turns, strict=True))
-    return [Body.of_shape(f"b{i}", Box(half), 0.2, xyz=xyz, rpy=rpy) for i, (xyz, rpy) in both]
-
-
-def _wall(rng, count):
+def wall(rng, k):
     """Bricks in bond: each lies on two of the course below."""
-    x, y, z = half = tuple(rng.uniform(0.02, 0.05, 3))
-    columns = int(rng.integers(2, 4))
-    places = []
-    row = 0
-    while len(places) < count:
-        places += [((2 * c + row % 2) * x, 0.0, z * (2 * row + 1)) for c in range(columns)]
-        row += 1
-    at = np.array(places[:count])
-    far = np.array([2.2 * x, y, 2.2 * z])
-
-    def near(i, j):
-        return bool((np.abs(at[i] - at[j]) < far).all())
-
-    return _boxes(half, places[:count]), [((0, 0, 1), 0.0)], near
+    x, _, z = half = rng.uniform(0.02, 0.05, 3)
+    columns = rng.integers(2, 4)
+    course = k // columns
+    places = np.stack([(2 * (k % columns) + course % 2) * x, 0 * k, z * (2 * course + 1)], axis=1)
+    return [Box(half)] * len(k), places, 0.0 * k, 2.1 * np.linalg.norm(half), ()
 
 
-def _tower(rng, count):
+def tower(rng, k):
     """Boxes on each other, each turned a little."""
-    half = (0.03, 0.03, 0.02)
-    shift = rng.uniform(-1e-3, 1e-3, (count, 2))
-    places = [(*shift[i], 0.02 + 0.04 * i) for i in range(count)]
-    turns = [(0.0, 0.0, float(rng.uniform(0.0, 0.2)) * i) for i in range(count)]
-    return _boxes(half, places, turns), [((0, 0, 1), 0.0)], lambda i, j: i == j + 1
+    places = np.column_stack([rng.uniform(-1e-3, 1e-3, (len(k), 2)), 0.02 + 0.04 * k])
+    return [Box((0.03, 0.03, 0.02))] * len(k), places, rng.uniform(0.0, 0.2, len(k)) * k, 0.05, ()
 
 
-def _grid(rng, count):
+def grid(rng, k):
     """Boxes on a floor, face to face."""
-    a = float(rng.uniform(0.02, 0.04))
-    places = [(2 * a * (i % 3), 2 * a * (i // 3), a) for i in range(count)]
-    at = np.array(places)
-
-    def near(i, j):
-        return float(np.linalg.norm(at[i] - at[j])) < 2.1 * a
-
-    return _boxes((a, a, a), places), [((0, 0, 1), 0.0)], near
+    a = rng.uniform(0.02, 0.04)
+    places = a * np.stack([2 * (k % 3), 2 * (k // 3), np.ones(len(k))], axis=1)
+    return [Box((a, a, a))] * len(k), places, 0.0 * k, 2.1 * a, ()
 
 
-def _bin(rng, count):
+def fallen(rng, k):
     """Boxes, balls and capsules that fall between four walls."""
-    shapes = (
-        lambda: Box(tuple(rng.uniform(0.02, 0.05, 3))),
-        lambda: Sphere(float(rng.uniform(0.02, 0.04))),
-        lambda: Capsule(float(rng.uniform(0.015, 0.03)), float(rng.uniform(0.03, 0.07))),
-    )
-    places = [(*rng.uniform(-0.03, 0.03, 2), 0.06 + 0.06 * i) for i in range(count)]
-    bodies = [Body.of_shape(f"b{i}", shapes[i % 3](), 0.1, xyz=xyz) for i, xyz in enumerate(places)]
-    walls = [
-        ((0, 0, 1), 0.0),
-        *((n, -0.08) for n in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))),
-    ]
-    return bodies, walls, lambda i, j: True
+    sizes = rng.uniform(0.02, 0.05, (len(k), 3))
+    kinds = Box, lambda size: Sphere(size[0]), lambda size: Capsule(*size[:2])
+    solids = [kinds[i % 3](size) for i, size in enumerate(sizes)]
+    places = np.column_stack([rng.uniform(-0.03, 0.03, (len(k), 2)), 0.06 * (k + 1)])
+    walls = [(n, -0.08) for n in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))]
+    return solids, places, 0.0 * k, np.inf, walls
 
 
-KINDS = {"wall": _wall, "tower": _tower, "grid": _grid, "bin": _bin}
+KINDS = {"wall": wall, "tower": tower, "grid": grid, "bin": fallen}
+"""The solids of bodies 0, 1, ..., their places [m], turns [rad], the distance of neighbours [m] at
+most, and walls beside the ground."""
