@@ -1,24 +1,27 @@
-"""The committed vectors, for the tests of the checker."""
+"""The committed vectors, what the checker says of an answer, and the plain program's answers."""
 
 import functools
 import json
-import sys
 
 import numpy as np
 
+from quasistatic_ref.lab.program.layers import LAYERS as PROGRAM
+from quasistatic_ref.lab.program.layers import plain
+from quasistatic_ref.lab.vectors import layers
+from quasistatic_ref.lab.vectors.challenge.fresh import record_of
 from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.check.folder import layer_report
-from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
-from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.files import Case, expected_read, inputs_read
 from quasistatic_ref.lab.vectors.trees import mapped
 from tests.made import text_written
 from tests.pages import ROOT
 
+__all__ = ["record_of"]
+
 VECTORS = ROOT / "validation" / "vectors"
+LAYERS = layers.LAYERS
 NUMPY = LAYERS[:8]
 """Layers that the plain program answers."""
-PLAIN_PROGRAM = f"{sys.executable} -m quasistatic_ref.lab.program"
-"""The plain program, as a command."""
 
 
 @functools.cache
@@ -53,6 +56,34 @@ def small_cases(layer):
     if layer in ("step", "derivative"):
         return by_size(layer)[:24]
     return cases(layer)[:: 1 if len(cases(layer)) < 60 else 3]
+
+
+def inputs_of(name):
+    """The input of a case, by its id; not to be changed."""
+    return next(case.input for case in cases(name.partition("/")[0]) if case.id == name)
+
+
+def plain_answer(layer, inputs):
+    """The answer of the plain program."""
+    return plain(PROGRAM[layer](inputs))
+
+
+def own_answer(layer, inputs):
+    """The package's own answer."""
+    return layers.layer(layer).own(inputs)
+
+
+def verdict_on(name, output, digits=None):
+    """The verdict on an output of a committed case."""
+    layer = name.partition("/")[0]
+    return verdict_of(layer, inputs_of(name), expected_of(layer)[name], output, digits)
+
+
+def verdict_of(layer, inputs, record, output, digits=None):
+    """The verdict on an output of any case, of which a record is expected."""
+    case, answers = Case("one", "", inputs), Answers({"one": output}, "test")
+    (verdict,) = layer_report(layer, [case], {"one": record}, answers, digits).verdicts
+    return verdict
 
 
 def report_on(layer, outputs, **declared):

@@ -21,6 +21,7 @@ BAD = {
     "challenge --command x --seed -1": "--seed: must be 0 or more",
     "challenge --command x --digits 20": "--digits: must be at most 16",
     "challenge --command x --layer row": "did you mean 'rows'?",
+    "challenge --command x --layer derivative": "has no new cases; the vectors have some",
     "challenge --command x --again no_such_file": "no_such_file",
     "challenge --command ./no_such_program": "cannot be started",
     "challenge --command \\'unclosed": "cannot be read",

@@ -3,35 +3,32 @@
 import ast
 import json
 import shutil
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab import program
 from quasistatic_ref.lab.program.distance import closest_points
-from quasistatic_ref.lab.program.rows import cone_table
-from quasistatic_ref.lab.program.step import step
-from quasistatic_ref.lab.vectors.challenge.fresh import record_of
-from quasistatic_ref.lab.vectors.challenge.program import Program
-from quasistatic_ref.lab.vectors.check.folder import answer_judged
-from quasistatic_ref.lab.vectors.check.verdict import FAILED
-from quasistatic_ref.lab.vectors.files import Case
 from tests.cases import first
 from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import (
     NUMPY,
-    PLAIN_PROGRAM,
     VECTORS,
     cases,
     expected_of,
+    inputs_of,
+    plain_answer,
+    record_of,
     report_on,
+    verdict_of,
 )
 from tests.made import text_written
+from tests.pages import PACKAGE
 from tests.processes import python
 from tests.tolerances import CLOSED_FORM
 
-PROGRAM = Path(program.__file__).parent
+PROGRAM = PACKAGE / "lab" / "program"
 LIBRARIES = {"json", "numpy", "pathlib", "sys"}
 FOUND = Path(__file__).with_name("found_by_challenges.json")
 """Quadratic programs that this one or another once got wrong: rows that all but repeat or
@@ -40,7 +37,7 @@ contradict each other, cones at their tips."""
 
 def test_a_cone_that_the_plain_program_lacks_is_refused():
     with pytest.raises(ValueError, match="the cone pyramid-45 is none that this program knows"):
-        cone_table("pyramid-45", 4)
+        plain_answer("rows", inputs_of("rows/random/3") | {"cone": "pyramid-45"})
 
 
 @pytest.mark.parametrize("every", first(1, [3, 1]))
@@ -60,20 +57,15 @@ def test_the_plain_program_passes_layers_1_to_8(tmp_path, every):
         assert report.count("passed") > 0
 
 
+def test_the_plain_program_takes_challenges(cli):
+    program = f"'{sys.executable} -m quasistatic_ref.lab.program'"
+    cli("vectors challenge --quiet --cases 8 --command", program)
+
+
 def test_faults_of_programs_that_challenges_found_are_mended():
-    program = Program(PLAIN_PROGRAM)
-    with program:
-        for i, case in enumerate(json.loads(FOUND.read_text())):
-            reply = program.ask(str(i), "qp", case)
-            assert reply.kind == "output", (i, reply.reason)
-            verdict, _ = answer_judged(
-                "qp",
-                Case(str(i), "", case),
-                record_of("qp", case),
-                reply.output,
-                program.declaration,
-            )
-            assert verdict.verdict != FAILED, verdict
+    for case in json.loads(FOUND.read_text()):
+        verdict = verdict_of("qp", case, record_of("qp", case), plain_answer("qp", case))
+        assert verdict.verdict != "failed", verdict
 
 
 def test_boxes_that_touch_with_their_faces_are_not_apart():
@@ -115,7 +107,7 @@ def test_a_point_that_repeats_an_earlier_one_is_no_contact_of_its_own():
         repeated = case.input | {"shapes": shapes}
         wanted = expected_of("step")[case.id]["output"]["contacts"]
         for contacts in (
-            step(repeated)["contacts"],
+            plain_answer("step", repeated)["contacts"],
             record_of("step", repeated)["output"]["contacts"],
         ):
             assert [one["index"] for one in contacts] == [one["index"] for one in wanted], case.id

@@ -4,9 +4,8 @@ import hashlib
 
 import pytest
 
-from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.versions import RELEASE
-from tests.lab.vectors.committed_cases import ROOT, VECTORS
+from tests.lab.vectors.committed_cases import LAYERS, ROOT, VECTORS
 
 HASHES = {
     "distance": "80735c595d255903889e3acb308a8f0744724b69840dd7c390ad9b22e3f102c4",

@@ -1,29 +1,43 @@
 """A program that ends, hangs or prints what is no answer is reported and started again."""
 
+import json
 import signal
 
 import pytest
 
-from quasistatic_ref import InputError
 from quasistatic_ref.lab.processes import descendants
-from quasistatic_ref.lab.vectors.challenge.program import Program
-from quasistatic_ref.lab.vectors.challenge.run import EASY_CASES, MOST_FINDINGS, challenge
 from tests.lab.vectors.challenge.programs import command
 from tests.processes import has_ended, started, waited_for
 
 SECONDS = {"hangs": 0.2, "does not read": 0.05}
 """For an answer, ten for others."""
+SELECTION = "--layer selection"
 
 
-def outcome(name, folder):
-    program = Program(command(name, folder), timeout=SECONDS.get(name, 10.0))
-    return challenge(program, layers=["selection"], cases=12)
+@pytest.fixture
+def challenged(tmp_path, cli):
+    """What is printed of twelve cases that a program is asked."""
+
+    def printed(name, more=SELECTION, status=0):
+        words = ("--cases 12 --quiet", more, "--timeout", str(SECONDS.get(name, 10.0)))
+        program = "--command", f"'{command(name, tmp_path)}'", "--out", tmp_path / "found"
+        return cli("vectors challenge", *words, *program, status=status)
+
+    return printed
 
 
-def test_a_program_that_is_right_has_no_findings(tmp_path):
-    found = outcome("right", tmp_path)
-    assert (found.findings, found.status, found.implementation) == ([], 0, "")
-    assert found.verdicts == {("selection", "passed"): 12}
+def counts(printed):
+    """How many answers of each layer are what, by the table."""
+    head, *rows = (line.split() for line in printed.out.splitlines() if line[:1] != "/")
+    return [dict(zip(head, row, strict=True)) for row in rows]
+
+
+RIGHT = [{"layer": "selection", "passed": "12", "failed": "0"}]
+
+
+def test_a_program_that_is_right_has_no_findings(challenged):
+    printed = challenged("right")
+    assert (counts(printed), printed.err) == (RIGHT, "")
 
 
 @pytest.mark.parametrize(
@@ -43,42 +57,40 @@ def test_a_program_that_is_right_has_no_findings(tmp_path):
         ("refuses", "error", "not today"),
     ],
 )
-def test_a_program_that_fails_is_reported(name, kind, words, tmp_path):
-    found = outcome(name, tmp_path)
-    assert found.status == 1
-    assert len(found.findings) == MOST_FINDINGS
-    finding, *_ = found.findings
-    assert finding.kind == kind
-    assert words in finding.reason
+def test_a_program_that_fails_is_reported_three_times(name, kind, words, challenged):
+    titles = challenged(name, status=1).err.splitlines()
+    assert [f": {kind}: " in title for title in titles[:3]] == [True] * 3
+    assert len(titles) == (4 if kind == "wrong" else 3)  # and what is usual of the layer
+    assert words in titles[0]
 
 
-def test_after_an_end_the_other_cases_are_asked(tmp_path):
-    found = outcome("is killed", tmp_path)
+def test_after_an_end_the_other_cases_are_asked(challenged):
     # It answers three cases after each start, and the layer has no more after three findings.
-    assert found.verdicts == {("selection", "passed"): 9, ("selection", "end"): 3}
+    (row,) = counts(challenged("is killed", status=1))
+    assert (row["passed"], row["end"]) == ("9", "3")
 
 
-def test_a_layer_that_is_not_supported_gets_the_easy_cases_alone(tmp_path):
-    found = outcome("supports nothing", tmp_path)
-    assert found.verdicts == {("selection", "unsupported"): EASY_CASES}
-    assert found.status == 0
+def test_a_layer_that_is_not_supported_gets_five_easy_cases_alone(challenged):
+    (row,) = counts(challenged("supports nothing"))
+    assert (row["passed"], row["unsupported"]) == ("0", "5")
 
 
-def test_layers_that_a_program_does_not_declare_are_not_asked(tmp_path):
-    program = Program(command("declares a layer", tmp_path))
-    found = challenge(program, layers=["rows", "selection", "wrench"], cases=12)
-    assert (found.findings, found.verdicts) == ([], {("selection", "passed"): 12})
-    assert found.implementation == "mine 3"
+def test_layers_that_a_program_does_not_declare_are_not_asked(challenged):
+    layers = "--layer rows --layer selection --layer wrench"
+    assert counts(challenged("declares a layer", layers)) == RIGHT
+    record = json.loads(challenged("declares a layer", f"{layers} --json").out)
+    assert (record["implementation"], record["findings"]) == ("mine 3", [])
 
 
-def test_a_program_that_ends_at_once_is_bad_input(tmp_path):
-    with pytest.raises(InputError, match="does not answer: it ended with status 3"):
-        outcome("ends at once", tmp_path)
-
-
-def test_a_first_line_that_cannot_be_is_bad_input(tmp_path):
-    with pytest.raises(InputError, match="tangent"):
-        outcome("declares nonsense", tmp_path)
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("ends at once", "does not answer: it ended with status 3"),
+        ("declares nonsense", "tangent"),  # in its first line
+    ],
+)
+def test_a_program_with_which_no_challenge_begins_is_bad_input(name, words, challenged):
+    assert words in challenged(name, status=2).err
 
 
 @pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGHUP])

@@ -4,9 +4,8 @@ import copy
 
 import pytest
 
-from quasistatic_ref.lab.vectors.challenge.fresh import record_of
-from quasistatic_ref.lab.vectors.check.own_contacts import contacts_problem
 from quasistatic_ref.lab.vectors.tables import free_body, on, scene
+from tests.lab.vectors.committed_cases import record_of, verdict_of
 
 ABOUT_X = (0.1, 0.0, 0.0, 1.0)
 ABOUT_Y = (0.0, 0.2, 0.0, 1.0)
@@ -42,7 +41,7 @@ def test_package_and_plain_program_are_right_by_the_same_rules(turn):
 )
 def test_a_contact_that_is_no_crossing_and_does_not_fill_is_refused(index, changes, words):
     case, record = brick((0.0, 0.0, 0.0, 1.0), 8)
-    contacts = copy.deepcopy(record["output"]["contacts"])
-    (wrong,) = (contact for contact in contacts if contact["index"] == index)
+    output = copy.deepcopy(record["output"])
+    (wrong,) = (contact for contact in output["contacts"] if contact["index"] == index)
     wrong |= changes
-    assert words in contacts_problem(case, record, contacts)
+    assert words in verdict_of("step", case, record, output).reason

@@ -17,8 +17,7 @@ from quasistatic_ref.lab import program
 from quasistatic_ref.lab.program.layers import LAYERS, TO_SIX_DIGITS, plain
 from quasistatic_ref.lab.vectors.challenge.fresh import CHALLENGED
 from quasistatic_ref.lab.vectors.challenge.run import challenge
-from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
-from tests.lab.vectors.committed_cases import ROOT, by_size, expected_of
+from tests.lab.vectors.committed_cases import ROOT, by_size, verdict_on
 
 PAGE = ROOT / "docs" / "guides" / "check_your_implementation.md"
 ROW = re.compile(r"^\| (`.+?) \| (.+?) \| .+ \|$", re.MULTILINE)
@@ -201,9 +200,7 @@ def written_wrong(file, right, wrong):
 
 def wrong_field(layers, layer, case, digits):
     """The first field of an answer to a committed case that is not right to so many digits."""
-    record = expected_of(layer)[case.id]
-    output = plain(layers[layer](case.input))
-    return verdict_to_digits(layer, case.input, record, output, digits).field
+    return verdict_on(case.id, plain(layers[layer](case.input)), digits).field
 
 
 def test_the_mistakes_are_those_of_the_page():

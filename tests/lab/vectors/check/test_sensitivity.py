@@ -2,12 +2,16 @@
 
 import pytest
 
-from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.check.compare import ROUNDING
-from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import nodes
 from tests.cases import first
-from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
+from tests.lab.vectors.committed_cases import (
+    LAYERS,
+    cases,
+    expected_of,
+    right_answers,
+    verdict_of,
+)
 from tests.oracles.records import with_value
 
 
@@ -50,7 +54,7 @@ def test_any_one_number_changed_beyond_its_tolerance_fails(layer, every, rng):
             if by is None:
                 continue
             other = with_value(answer, keys, value + (1 if rng.random() < 0.5 else -1) * by)
-            verdict = case_verdict(layer, case.input, wanted, other)
+            verdict = verdict_of(layer, case.input, wanted, other)
             assert verdict.verdict == "failed", (case.id, keys, value, by, verdict)
             tried += 1
     assert tried >= len(cases(layer)) / every

@@ -3,12 +3,10 @@
 import numpy as np
 
 from quasistatic_ref import contact_forces, load_scenario
-from quasistatic_ref.lab.vectors.check.case import case_verdict
-from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.own.step import posed_case, with_compliance
 from tests.closeness import assert_within
 from tests.helpers import first_step
-from tests.lab.vectors.committed_cases import cases, expected_of
+from tests.lab.vectors.committed_cases import expected_of, inputs_of, own_answer, verdict_on
 from tests.tolerances import ROUNDING
 
 
@@ -25,17 +23,16 @@ STACK = "step/stack/0"
 
 
 def test_other_optimal_lam_stand_with_the_same_forces():
-    (case,) = (case.input for case in cases("step") if case.id == STACK)
     record = expected_of("step")[STACK]
-    own = layer("step").own(case)
+    own = own_answer("step", inputs_of(STACK))
     assert record["flags"]["unique_multipliers"] is False
     assert own["lam"] != record["output"]["lam"]
-    assert case_verdict("step", case, record, own).verdict == "acceptable"
-    assert case_verdict("step", case, record, {**own, "forces": own["wrench"]}).field == "forces"
+    assert verdict_on(STACK, own).verdict == "acceptable"
+    assert verdict_on(STACK, own | {"forces": own["wrench"]}).field == "forces"
 
 
 def test_the_compliance_of_a_case_is_2_18_times_a_run_s():
-    (case,) = (one.input for one in cases("step") if one.id == "step/cloud/on_an_edge")
+    case = inputs_of("step/cloud/on_an_edge")
     posed = posed_case(case)
     (pair,) = with_compliance(case)["pairs"]
     assert pair["compliance"] == 2.0**18 * contact_forces(posed.step).compliance[0]
