@@ -12,7 +12,7 @@ import scipy.optimize
 import scipy.sparse
 
 import quasistatic_ref as qr
-from tests.optional.qp.test_exact import InRows, both_take
+from tests.optional.qp.test_exact import both_take, in_rows, inequalities
 from tests.oracles.lemke import least_norm
 from tests.oracles.rational_kkt import exact
 
@@ -47,7 +47,8 @@ def test_2000_programs_have_the_answers_of_lemkes_method_in_fractions(part, tmp_
     kinds = Counter()
     for seed in range(50 * part, 50 * (part + 1)):
         program = drawn(seed)
-        wanted = least_norm(*InRows(program).inequalities())
+        of, _, e = in_rows(program)
+        wanted = least_norm(*inequalities(of, e))
         if wanted is None:
             with pytest.raises((qr.QPInfeasible, qr.QPUnbounded)) as caught:
                 qr.exact_qp(**program)
