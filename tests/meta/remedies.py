@@ -1,19 +1,24 @@
 """What the tests of this folder say: a name, the file to change, and what to write or to run."""
 
 
-def assert_alike(these, those, missing, spare):
-    """Two sets of names are equal; if not, a sentence for each name that one of them has alone.
+def sentences(these, those, missing, spare=""):
+    """A sentence for each name of one set that the other has not.
 
     ``missing`` is said of a name of these that is not among those, ``spare`` of one of those that
-    is not among these; {} in it is the name.
+    is not among these, which nothing is said of by default; {} in it is the name.
     """
-    these = set(these)
-    those = set(those)
-    said = [missing.replace("{}", name) for name in sorted(these - those)]
-    said += [spare.replace("{}", name) for name in sorted(those - these)]
+    these, those = {*these}, {*those}
+    yield from (missing.replace("{}", name) for name in sorted(these - those))
+    if spare:
+        yield from (spare.replace("{}", name) for name in sorted(those - these))
+
+
+def assert_none(rows):
+    """Of each row of two sets the names are the same, or among the others if none can be spare."""
+    said = [sentence for row in rows for sentence in sentences(*row)]
     assert not said, "\n" + "\n".join(said)
 
 
-def assert_among(these, those, missing):
-    """All names of these are among those; if not, a sentence for each that is not."""
-    assert_alike(these, {*these} & {*those}, missing, "")
+def assert_alike(*row):
+    """The two sets of names of one row are as they should be."""
+    assert_none([row])

@@ -4,7 +4,7 @@ import ast
 import re
 from textwrap import dedent
 
-from tests.meta.remedies import assert_among
+from tests.meta.remedies import assert_alike
 from validation.tools.check_site import ROOT, markdown_faults
 
 
@@ -22,7 +22,7 @@ def test_pages_are_plain_markdown_on_a_code_host():
     pages = [path for path in ROOT.glob("docs/**/*.md") if "included" not in path.parts]
     raw = [f"{p.name} has {role}" for p in pages for role in ROLE.findall(p.read_text("utf-8"))]
     words = "{}: write a link or Eq. (N), which docs/conf.py makes a role for the site"
-    assert_among(raw, (), words)
+    assert_alike(raw, (), words)
 
 
 PYTHON = re.compile(

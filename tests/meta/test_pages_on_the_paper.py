@@ -4,7 +4,7 @@ import ast
 import re
 
 from quasistatic_ref.lab.claims.registry import BY_NAME
-from tests.meta.remedies import assert_alike, assert_among
+from tests.meta.remedies import assert_none
 from tests.pages import ROOT
 
 THEORY = ROOT / "docs" / "theory"
@@ -45,33 +45,29 @@ def test_every_row_ends_with_a_test_or_a_claim():
     assert [row for row in found if not evidence(row.rstrip("| ").rpartition(" | ")[2])] == []
 
 
-def test_every_file_that_the_page_links_is_there():
-    words = "docs/theory/errata.md links tests/{}, which is not there: link a file of tests"
-    assert_among(LINKED.findall(PAGE), evidence(PAGE), words)
-
-
-def test_every_file_that_shows_an_erratum_is_linked():
+def test_claims_and_files_that_show_errata_are_on_the_page_and_its_links_are_there():
     files = [path for path in TESTS.rglob("test_eq*.py") if shown_errata(path)]
+    about = [name for name, claim in BY_NAME.items() if claim.where.startswith("the paper")]
     assert files
-    words = "tests/{} shows an erratum that is not told: add a row to docs/theory/errata.md"
-    assert_among([f.relative_to(TESTS).as_posix() for f in files], LINKED.findall(PAGE), words)
-
-
-def test_every_claim_about_the_paper_is_on_its_page():
-    named = set(listed_names("claim", PAGE))
-    about = {name for name, claim in BY_NAME.items() if claim.where.startswith("the paper")}
     assert about
-    words = "The claim {} is about the paper: name it in docs/theory/errata.md"
-    assert_among(about, named, words)
-
-
-def test_every_claim_is_in_the_committed_results_and_holds():
-    page = (ROOT / "validation" / "results" / "claims.md").read_text("utf-8")
-    found = re.findall(r"^### (\w+): (.+)$", page, re.MULTILINE)
-    command = "run `quasistatic-ref validate NAME --out validation/results`"
-    assert_alike(
-        BY_NAME,
-        [name for name, verdict in found if verdict == "holds"],
-        f"The claim {{}} does not hold in validation/results/claims.md: {command}",
-        f"validation/results/claims.md has the claim {{}}, which is none: {command}",
+    links = LINKED.findall(PAGE)
+    page = "docs/theory/errata.md"
+    assert_none(
+        [
+            (
+                links,
+                evidence(PAGE),
+                f"{page} links tests/{{}}, which is not there: link a file of tests",
+            ),
+            (
+                [file.relative_to(TESTS).as_posix() for file in files],
+                links,
+                f"tests/{{}} shows an erratum that is not told: add a row to {page}",
+            ),
+            (
+                about,
+                listed_names("claim", PAGE),
+                f"The claim {{}} is about the paper: name it in {page}",
+            ),
+        ]
     )

@@ -9,22 +9,12 @@ from operator import attrgetter
 
 import quasistatic_ref as qr
 from quasistatic_ref.cli import main
-from quasistatic_ref.cli.main import _actions as leaves
-from quasistatic_ref.cli.main import command_parser
-from quasistatic_ref.files import solution, trajectory
-from quasistatic_ref.files.scenario import scenario_table
+from quasistatic_ref.files.scenario.scenario_table import TABLES
+from quasistatic_ref.lab.commands.schema import SCHEMAS
 from quasistatic_ref.lab.vectors import versions
-from quasistatic_ref.step import text as step
 from tests.meta.remedies import assert_alike
 from tests.pages import ROOT
 
-FORMATS = {
-    step.STEP_FORMAT: step.VERSION,
-    solution.SOLUTION_FORMAT: solution.VERSION,
-    scenario_table.FORMAT: scenario_table.VERSION,
-    trajectory.FORMAT: trajectory.VERSION,
-    versions.FORMAT: versions.FORMAT_VERSION,
-}
 LIST = ROOT / "tests" / "public_names.txt"
 
 
@@ -37,11 +27,15 @@ def frozen_lines():
         except ValueError:  # an error that is given a sentence
             parameters = ()
         yield f"qr.{name}({', '.join(parameters)})"
-    for name, version in FORMATS.items():
-        yield f"{name} {version}"
-    for table, own in scenario_table.TABLES.items():
+    for kind in ("step", "solution", "scenario", "header"):
+        stated = SCHEMAS[kind]()["properties"]
+        yield " ".join(str(*stated[name]["enum"]) for name in ("format", "version"))
+    yield f"{versions.FORMAT} {versions.FORMAT_VERSION}"
+    for table, own in TABLES.items():
         yield f"scenario, {table}: {' '.join(sorted(own))}"
-    for leaf in sorted(leaves(command_parser(main.COMMANDS)), key=lambda leaf: leaf.prog):
+    for leaf in sorted(
+        main._actions(main.command_parser(main.COMMANDS)), key=lambda leaf: leaf.prog
+    ):
         options = (word for action in leaf._actions for word in action.option_strings)
         yield " ".join([leaf.prog, *sorted(options)])
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.figures.clouds import rotations_by_case
-from tests.meta.remedies import assert_among
+from tests.meta.remedies import assert_alike
 from tests.pages import ROOT, fenced, flat, printed_blocks, shell_lines
 
 README = (ROOT / "README.md").read_text("utf-8")
@@ -45,7 +45,7 @@ def test_the_numbers_of_the_readme_are_those_of_the_committed_results():
     )
     text = flat(README)
     wrong = [sentence for sentence in sentences if sentence not in text]
-    assert_among(wrong, (), 'README.md does not say "{}": change its number there')
+    assert_alike(wrong, (), 'README.md does not say "{}": change its number there')
 
 
 def test_ci_runs_the_line_for_the_tests_as_it_is_printed():

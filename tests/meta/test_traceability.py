@@ -9,7 +9,7 @@ import ast
 import re
 
 from quasistatic_ref.lab.claims.registry import CLAIMS
-from tests.meta.remedies import assert_alike, assert_among
+from tests.meta.remedies import assert_alike
 from tests.pages import PACKAGE, ROOT
 
 EQUATIONS = ROOT / "tests" / "equations"
@@ -79,14 +79,14 @@ def test_every_result_is_derived_once_and_cited_ones_are():
         for n in RESULT.findall(path.read_text("utf-8"))
         if int(n) not in RESULTS
     }
-    assert_among(cited, (), "{} docs/derivations.md")
+    assert_alike(cited, (), "{} docs/derivations.md")
 
 
 def test_every_result_has_a_claim_or_a_test_by_random_instances():
     claims = CLAIMS["Closed forms"].values()
     tested = {int(n) for claim in claims for n in RESULT.findall(claim.where)}
     uncited = {claim.name for claim in claims if not RESULT.search(claim.where)}
-    assert_among(uncited, (), "claim {} cites no result: add its (R..) to `where`")
+    assert_alike(uncited, (), "claim {} cites no result: add its (R..) to `where`")
     for path in sorted((ROOT / "tests").rglob("test_*.py")):
         for found in RANDOM.finditer(path.read_text("utf-8")):
             assert re.search(r"\b(rng|seed)\b", found[0]), (path, found[1])

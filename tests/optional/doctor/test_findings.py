@@ -1,7 +1,7 @@
 """Each finding of the page has a scene and an end, and each note one that only just lacks it."""
 
 from quasistatic_ref.optional.doctor.texts import NAMES, NOTES
-from tests.meta.remedies import assert_alike, assert_among
+from tests.meta.remedies import assert_alike
 from tests.optional.doctor.case_scenes import ROWS
 from tests.optional.doctor.mistake_scenes import GRAVE, mistakes
 
@@ -9,7 +9,7 @@ from tests.optional.doctor.mistake_scenes import GRAVE, mistakes
 def test_each_finding_of_the_page_has_a_scene():
     of_rows = {name for case in ROWS for name in case["hand"]}
     of_mistakes = {name for one in mistakes() for name in one["finding"]}
-    assert_among(
+    assert_alike(
         GRAVE,
         of_rows | of_mistakes,
         'No scene has the finding "{}": add one to tests/optional/doctor/cases/findings.toml',
@@ -25,7 +25,7 @@ def test_each_finding_of_the_page_has_a_scene():
 def test_each_note_has_a_scene_that_only_just_lacks_it():
     notes = {name for name, grave in GRAVE.items() if grave is False}
     assert notes == NOTES
-    assert_among(
+    assert_alike(
         notes,
         {case.get("lacks") for case in ROWS},
         'No scene only just lacks "{}": add one with lacks = "{}" to '
@@ -42,7 +42,7 @@ def test_each_finding_ends_where_its_remedy_is_applied():
         if "after" in case and (len(case["hand"]) == 1 or hand.get("remedy") in case["after"])
     }
     undone = {one["finding"][0] for one in mistakes() if "remedy" in one}
-    assert_among(
+    assert_alike(
         GRAVE,
         ended | undone,
         'No remedy of "{}" is applied: write after."REMEDY" = { ... } into one of its cases in '
