@@ -6,6 +6,7 @@ import pytest
 from quasistatic_ref.model.joints import BY_ENTRIES
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.sums import MANY_JOINTS, Sums
+from tests.closeness import assert_same
 from tests.made import bits
 
 KINDS = sorted(BY_ENTRIES, key=lambda kind: kind.__name__)
@@ -49,11 +50,18 @@ def test_many_joints_at_once_are_each_by_itself(kind, rng):
 
 
 @pytest.mark.extra("compiled")
-@pytest.mark.parametrize("other", KINDS, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("other", [*KINDS, Odd], ids=lambda kind: kind.__name__)
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_joints_by_compiled_code_are_each_by_itself(kind, other, rng):
     check(joints_of(kind, other), rng)
     check(joints_of(*[kind] * (1 + 2 * MANY_JOINTS)), rng)
+
+
+def test_each_of_several_changes_of_a_kind_of_a_user_s_own_is_its_own(rng):
+    joints = joints_of(KINDS[0], Odd)
+    sums = Sums(joints)
+    q, delta_q = turned(joints, rng), rng.normal(size=(3, 6))
+    assert_same(sums.plus_each(q, delta_q), [sums.plus(q, one) for one in delta_q])
 
 
 def check(joints, rng):
@@ -62,12 +70,11 @@ def check(joints, rng):
     for size in (0.0, 1e-300, 1e-9, 1e-3, 1.0, 1e3, 1e8, 1e200):
         q, other = turned(joints, rng), turned(joints, rng)
         delta_q = size * rng.normal(size=joints[-1].v.stop) * (rng.random(joints[-1].v.stop) < 0.8)
-        pairs = [(q, other), (q, q), (q, sums.plus(q, delta_q))]
         each = [
             joint.integrated(q[joint.q].tolist(), delta_q[joint.v].tolist()) for joint in joints
         ]
         assert bits(sums.plus(q, delta_q)) == bits(np.concatenate(each))
-        for here, there in pairs:
+        for here, there in ((q, other), (q, q), (q, sums.plus(q, delta_q))):
             one = [
                 joint.change(here[joint.q].tolist(), there[joint.q].tolist()) for joint in joints
             ]

@@ -11,7 +11,6 @@ from quasistatic_ref import (
     ModelError,
     ScenarioError,
     System,
-    verify_answer,
 )
 from quasistatic_ref.optional.doctor.did.numbers import numbers_of
 from tests.closeness import assert_within
@@ -19,43 +18,12 @@ from tests.files.urdf.urdf_texts import collision, inertial, joint, link, mimic,
 from tests.scenes import scene
 from tests.tolerances import ROUNDING
 
-CENTRE = np.array([0.0, 0.05, -0.3])
-MOMENTS = np.array([0.02, 0.03, 0.04])
 BOB = link(
     "bob",
     collision('<sphere radius="0.1"/>', '<origin xyz="0 0.05 -0.3"/>'),
     inertial("2", ("0.02", "0.03", "0.04"), '<origin xyz="0 0.05 -0.3"/>'),
 )
 HANGING = robot(link("hook"), BOB, joint("ball", "hook", "bob", "ball", "1 0 0"))
-
-
-def pendulum(base):
-    """A pendulum on a ball joint: of its base, or between a hook that is fixed and its bob."""
-    urdf, kind = (robot(BOB), "ball") if base else (HANGING, "fixed")
-    return System([Body("arm", urdf, kind, xyz=(0.1, 0.2, 0.3), rpy=(0.4, 0.5, 0.6))])
-
-
-@pytest.mark.parametrize("base", [True, False])
-def test_a_link_on_a_ball_turns_about_its_point_with_its_inertia_there(base):
-    # About the joint, in the link's frame: I + m (c'c 1 - c c'); gravity's torque is c x m R'g.
-    system = pendulum(base)
-    w = np.array([0.7, -1.1, 0.3])
-    q = system.integrate(system.q_start, w)
-    R, t = system.pose(q, "arm/bob")
-    start = Rotation.from_euler("xyz", [0.4, 0.5, 0.6])
-    expected = (start * Rotation.from_rotvec(w)).as_matrix()
-    assert_within(R, expected, 8 * ROUNDING)
-    assert_within(t, [0.1, 0.2, 0.3])
-    inertia = np.diag(MOMENTS) + 2 * (CENTRE @ CENTRE * np.eye(3) - np.outer(CENTRE, CENTRE))
-    assert_within(system.M_u(q), inertia, 4 * ROUNDING)
-    gravity = np.array([1.0, -2.0, -9.0])
-    torque = np.cross(CENTRE, 2 * R.T @ gravity)
-    found = system.gravity_force(q, gravity)
-    assert_within(found, torque, 32 * ROUNDING)
-    names = [c.name.rpartition(".")[2] for c in system.coordinates]
-    entries = [p.heading.rpartition(".")[2] for j in system.joints for p in j.positions]
-    assert names == ["rx", "ry", "rz"]
-    assert entries == ["qx [-]", "qy [-]", "qz [-]", "qw [-]"]
 
 
 def leaning(base, **more):
@@ -70,16 +38,12 @@ def leaning(base, **more):
 def test_runs_are_exact_and_have_the_same_bits_at_both_speeds(base):
     plain = leaning(base).run()
     fast = replace(leaning(base), fast=True)
-    simulator = fast.simulator()
     run = fast.run()
     assert (plain["certificate"] == "exact").all()
     assert plain["q"].tobytes() == run["q"].tobytes()
-    assert np.abs(np.linalg.norm(run["q"], axis=1) - 1).max() < 4 * ROUNDING
     assert np.abs(np.diff(run["q"], axis=0)).max() > 1e-4  # it moves
-    step = simulator.step(simulator.system.q_start, np.zeros(0))
-    assert verify_answer(step.step, step.solution.delta_q, step.solution.certificate.active)
     assert (run.forces[:, 0, 2] > 0).all()  # the floor carries a part of the weight
-    ((name, numbers),) = numbers_of(run, simulator)["bodies"].items()
+    ((name, numbers),) = numbers_of(run, fast.simulator())["bodies"].items()
     assert name == ("arm" if base else "arm/ball")
     ends = Rotation.from_quat(run["q"][[0, -1]])
     turned = (ends[0].inv() * ends[1]).magnitude()
@@ -87,7 +51,7 @@ def test_runs_are_exact_and_have_the_same_bits_at_both_speeds(base):
 
 
 @pytest.mark.parametrize(("base", "name"), [(True, "base"), (False, "ball")])
-def test_a_target_turns_it_the_shorter_way(base, name):
+def test_a_target_turns_a_ball_the_shorter_way(base, name):
     roll = 0.9 if base else 0.0
     goal = [roll, 0.3, 0.1]
     targets = [{"t": 0.0, name: {"rpy": [roll, 0, 0]}}, {"t": 0.1, name: {"rpy": goal}}]
@@ -101,13 +65,17 @@ def test_a_target_turns_it_the_shorter_way(base, name):
 
 
 def test_positions_and_targets_that_a_ball_lacks_are_refused():
+    system = leaning(True).system
+    assert [c.name for c in system.coordinates] == ["arm/base.rx", "arm/base.ry", "arm/base.rz"]
+    headings = [p.heading for p in system.joints[0].positions]
+    assert headings == ["arm.qx [-]", "arm.qy [-]", "arm.qz [-]", "arm.qw [-]"]
     with pytest.raises(ModelError, match=r"arm\.positions: has no position that is one number"):
         System([Body("arm", HANGING, positions={"ball": 0.1})])
     away = [{"t": 0.0, "base": {"xyz": [0, 0, 1], "rpy": [0, 0, 0]}}]
     with pytest.raises(ScenarioError, match="moves or turns by x, y, z"):
         leaning(True, actuated=["base"], K_q={"base": 40}, targets=away)
     with pytest.raises(ModelError, match=r"arm\.xyz: is unknown"):
-        pendulum(True).placed({"arm": {"xyz": [0, 0, 1]}})
+        system.placed({"arm": {"xyz": [0, 0, 1]}})
 
 
 def test_a_file_may_have_balls_and_mimics():
