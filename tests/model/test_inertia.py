@@ -1,18 +1,24 @@
 """Inertias of bodies: which no rigid body can have, alone or welded to others."""
 
-import numpy as np
+from contextlib import nullcontext
+
 import pytest
 
 from quasistatic_ref import ModelError
-from quasistatic_ref.model.inertia import inertia_defect
 from tests.files.urdf.urdf_texts import inertial, joint, link, loaded_urdf, robot
 
 
 @pytest.mark.parametrize("moments", [(0.0, 0.0, 0.0), (1e-3, 1e-3, 0.0), (0.0, 0.0, 1e-3)])
 def test_the_remedy_for_a_rod_a_point_mass_or_a_puck_is_an_inertia(moments):
-    defect = inertia_defect(np.diag(moments))
-    assert defect is not None
-    assert "with a radius r write m r^2/2 about the axis of a rod or disk" in defect[1]
+    text = robot(link("a", inertial=inertial("1", moments)))
+    with pytest.raises(ModelError, match=r"r write m r\^2/2 about the axis of a rod or disk"):
+        loaded_urdf(text, base="floating")
+
+
+def refused(impossible):
+    """An error about the inertia of link a; nothing, if it is possible."""
+    says = r"link\[a\].inertial.inertia: is impossible"
+    return pytest.raises(ModelError, match=says) if impossible else nullcontext()
 
 
 def point_mass(centre):
@@ -32,7 +38,7 @@ def three_points(second):
 
 def test_point_masses_are_a_body_unless_they_are_in_a_line():
     # I = sum of m (d'd - d d') about the common centre: in a line, none about that line.
-    assert tuple(loaded_urdf(three_points("0 0 0"), base="floating").tree.links) == ("a", "b", "c")
+    loaded_urdf(three_points("0 0 0"), base="floating")
     with pytest.raises(ModelError, match=r"link\[a\].inertial.inertia: must be positive definite"):
         loaded_urdf(three_points("0 -1 0"), base="floating")
 
@@ -49,11 +55,8 @@ def test_point_masses_are_a_body_unless_they_are_in_a_line():
 )
 def test_rounding_of_the_last_printed_digit_makes_no_moments_impossible(moments, impossible):
     text = robot(link("a", inertial=inertial("1", moments)))
-    if impossible:
-        with pytest.raises(ModelError, match=r"link\[a\].inertial.inertia: is impossible"):
-            loaded_urdf(text, base="floating")
-    else:
-        assert tuple(loaded_urdf(text, base="floating").tree.links) == ("a",)
+    with refused(impossible):
+        loaded_urdf(text, base="floating")
 
 
 @pytest.mark.parametrize("moment", ["1e-9999999999999999999", "0e9999999999999999999", "0.0e-400"])
@@ -64,7 +67,7 @@ def test_a_moment_of_any_exponent_is_read(moment):
         loaded_urdf(text, base="floating")
     assert "must be positive definite" in loaded_urdf(text).notes[0]
     exact = robot(link("a", inertial=inertial("1", ("1e-0000000000000000001", "1", "1"))))
-    assert tuple(loaded_urdf(exact, base="floating").tree.links) == ("a",)
+    loaded_urdf(exact, base="floating")
 
 
 @pytest.mark.parametrize(("excess", "impossible"), [(0.01, False), (0.03, True)])
@@ -78,8 +81,5 @@ def test_a_welded_link_makes_up_for_an_inertia_as_far_as_parallel_axes_go(excess
         link("b", inertial=inertial("1", moments)),
         joint("weld", "a", "b", "fixed", more='<origin xyz="0 0 0.2"/>'),
     )
-    if impossible:
-        with pytest.raises(ModelError, match=r"link\[a\].inertial.inertia: is impossible"):
-            loaded_urdf(two, base="floating")
-    else:
+    with refused(impossible):
         assert len(loaded_urdf(two, base="floating").notes) == 2

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.model.rotation import quaternion, rotation
-from tests.closeness import assert_relative, assert_within
+from quasistatic_ref import Body, System
+from tests.closeness import assert_within
+from tests.scenes import BALL
 
 
 @pytest.mark.parametrize("rpy", np.random.default_rng(0).uniform(-3.0, 3.0, (20, 3)))
 def test_roll_pitch_yaw_turn_about_the_fixed_axes_in_that_order(rpy):
+    """As a matrix of a body that is held, and as a quaternion of one that is free."""
+    system = System([Body(base, BALL, base, rpy=rpy) for base in ("fixed", "floating")])
     R = Rotation.from_euler("xyz", rpy).as_matrix()
-    assert_within(rotation(rpy), R)
-    q = quaternion(rpy)
-    assert_relative(np.linalg.norm(q), 1.0)
-    assert_within(Rotation.from_quat(q).as_matrix(), R)
+    assert_within(system.kinematics(system.q_start).R[1:], [R, R])

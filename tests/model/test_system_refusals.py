@@ -21,16 +21,6 @@ def test_a_configuration_of_another_length_is_refused(scene):
         scene.integrate(scene.q_start, np.zeros(scene.n_v + 1))
 
 
-@pytest.mark.parametrize("length", [0.5, 2])
-@pytest.mark.parametrize("use", ["kinematics", "integrate", "difference"])
-def test_a_quaternion_of_another_length_is_refused_before_it_is_used(scene, use, length):
-    q = scene.q_start.copy()
-    q[scene.joint("box/base").q][3:] *= length
-    calls = {"integrate": [q, np.zeros(scene.n_v)], "difference": [scene.q_start, q]}
-    with pytest.raises(ModelError, match=rf"have length one, not {length}; system.normalised\(q\)"):
-        getattr(scene, use)(*calls.get(use, [q]))
-
-
 def test_unknown_names_are_answered_with_the_nearest(scene):
     with pytest.raises(ModelError, match="joint: is not a joint; did you mean 'arm/slide'"):
         scene.joint("arm/slid")

@@ -4,21 +4,17 @@ import pickle
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Body, Box, System
-from quasistatic_ref.files.urdf.file import urdf_tree
-from quasistatic_ref.model.solid import solid_inertia
 from quasistatic_ref.model.tree import LinkShape, Tree, TreeJoint, TreeLink
 from tests.closeness import assert_within
-from tests.files.urdf.urdf_texts import CHAIN
-
-SIZE = (0.1, 0.2, 0.3)
+from tests.files.urdf.urdf_texts import CHAIN, loaded_urdf
 
 
 def block(name):
-    box = Box(size=SIZE)
-    shape = LinkShape(f"{name}#0", box, np.eye(3), np.zeros(3))
-    return TreeLink(name, 1.5, np.zeros(3), np.diag(solid_inertia(box, 1.5)), (shape,))
+    shape = LinkShape(f"{name}#0", Box((0.1, 0.2, 0.3)), np.eye(3), np.zeros(3))
+    return TreeLink(name, 1.5, np.zeros(3), np.eye(3), (shape,))
 
 
 def test_a_body_may_be_made_of_a_tree_by_hand():
@@ -34,14 +30,12 @@ def test_a_body_may_be_made_of_a_tree_by_hand():
     kinematics = system.kinematics(system.q_start)
     assert system.links == ("world", "r/low", "r/high")
     assert_within(kinematics.t[2], at)
-    assert_within(
-        kinematics.R[2], [[c := np.cos(0.3), -(s := np.sin(0.3)), 0], [s, c, 0], [0, 0, 1]]
-    )
+    assert_within(kinematics.R[2], Rotation.from_euler("z", 0.3).as_matrix())
     assert [shape.name for shape in system.shapes] == ["r/low#0", "r/high#0"]
 
 
 def test_links_of_a_urdf_stand_parents_first_and_joints_as_q_has_them():
-    tree = urdf_tree(CHAIN)
+    tree = loaded_urdf(CHAIN).tree
     links = list(tree.links)
     assert tree.root == links[0] == "base_link"
     assert list(tree.moved_by) == links[1:]
@@ -50,7 +44,7 @@ def test_links_of_a_urdf_stand_parents_first_and_joints_as_q_has_them():
 
 
 def test_a_tree_is_plain_data():
-    tree = urdf_tree(CHAIN)
+    tree = loaded_urdf(CHAIN).tree
     copy = pickle.loads(pickle.dumps(tree))
-    assert copy == tree == urdf_tree(CHAIN)
-    assert tree != urdf_tree(CHAIN.replace("0.02", "0.03"))
+    assert copy == tree == loaded_urdf(CHAIN).tree
+    assert tree != loaded_urdf(CHAIN.replace("0.02", "0.03")).tree
