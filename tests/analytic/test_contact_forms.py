@@ -3,11 +3,10 @@
 import numpy as np
 
 from quasistatic_ref import convex_hull
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.step.standard_form import friction_rows
 from tests.analytic.instances import INFEASIBLE, INSTANCES, instances, near
-from tests.contact.still import in_world
+from tests.contact.still import in_world, solid_pair
 from tests.made import contacts_of, point_jacobian, random_frames
 from tests.oracles.random_steps import drawn
 

@@ -1,12 +1,24 @@
-"""Pairs of shapes on links that stand still."""
+"""Pairs of shapes on links that stand still, and searches of their contacts."""
 
 import numpy as np
 
-from quasistatic_ref import ContactPair, PlacedShape
+from quasistatic_ref import ContactError, ContactPair, PlacedShape
 from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.distance import joined_contacts, pair_closest_points
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.model.system import Kinematics
+
+__all__ = [
+    "found_for",
+    "in_world",
+    "one_by_one",
+    "pair",
+    "placed_shape",
+    "searched",
+    "solid_pair",
+    "standing_links",
+]
 
 
 def placed_shape(shape, link=0, R=None, t=(0.0, 0.0, 0.0), name="s"):
@@ -33,6 +45,14 @@ def one_by_one(pairs, kinematics):
     """The contacts of all pairs, each searched by itself."""
     R, t = kinematics.R, kinematics.t
     return joined_contacts([pair_closest_points(one, R, t) for one in pairs])
+
+
+def searched(search, *arguments):
+    """The contacts, or what is said instead."""
+    try:
+        return search(*arguments)
+    except ContactError as refused:
+        return str(refused)
 
 
 def found_for(alpha, beta, kinematics, k=1):

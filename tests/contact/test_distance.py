@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Box, ClosestPoints, ContactError, Sphere
-from quasistatic_ref.contact.all_pairs import closest_points
 from quasistatic_ref.contact.distance import joined_contacts
-from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.tolerances import FILLED
 from tests.contact.still import found_for, placed_shape, standing_links
 from tests.tolerances import EXACT
@@ -15,9 +13,10 @@ Z = np.array([0.0, 0.0, 1.0])
 
 
 def test_a_pose_that_is_not_finite_is_refused():
-    still = Kinematics(np.full((1, 3, 3), np.nan), np.zeros((1, 3)), np.zeros((6, 0)), None)
-    with pytest.raises(ContactError, match="poses: must be finite"):
-        closest_points([], still)
+    sides = placed_shape(Sphere(0.1), 1), placed_shape(Box(np.full(3, 0.2)))
+    for pose in ((np.nan * np.eye(3), np.zeros(3)), (np.eye(3), np.full(3, np.inf))):
+        with pytest.raises(ContactError, match="poses: must be finite"):
+            found_for(*sides, standing_links(pose))
 
 
 def test_zero_is_never_minus_zero():

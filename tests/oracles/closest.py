@@ -32,9 +32,16 @@ TABLES = {
 """One of each kind, of sizes that have nothing in common, as the vectors write it."""
 
 
-def solids():
-    """The same as shapes of the package."""
-    return {name: own_shape(table) for name, table in TABLES.items()}
+def solids(scale=1.0):
+    """The same as shapes of the package, all of their sizes times a number."""
+
+    def enlarged(key, size):
+        return size if key == "kind" else (scale * np.array(size)).tolist()
+
+    return {
+        name: own_shape({key: enlarged(key, size) for key, size in table.items()})
+        for name, table in TABLES.items()
+    }
 
 
 def pairs():

@@ -12,8 +12,7 @@
 import numpy as np
 
 from quasistatic_ref import ContactError
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from tests.contact.still import in_world
+from tests.contact.still import in_world, solid_pair
 from tests.oracles import closest
 
 STEP = 1e-3

@@ -8,11 +8,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Capsule, convex_hull
-from quasistatic_ref.contact.shape_in_world import Witness
 from quasistatic_ref.contact.solids.polytope import polytope
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from tests.closeness import assert_within
-from tests.contact.still import in_world
+from tests.contact.still import in_world, solid_pair
 from tests.tolerances import CLOSED_FORM, OF_DIFFERENCE
 
 SCALES = [1e-5, 1e3]
@@ -33,7 +31,8 @@ def moved_pair(a, R_a, b, R_b, t_b, seed):
     S = Rotation.random(rng=rng).as_matrix()
     s = np.abs(t_b).max() * rng.normal(size=3)
     found = solid_pair("p", in_world(a, s, S @ R_a), in_world(b, S @ t_b + s, S @ R_b))
-    return Witness(found.phi, S.T @ (found.alpha - s), S.T @ (found.beta - s), S.T @ found.n)
+    alpha, beta = ((point - s) @ S for point in (found.alpha, found.beta))
+    return found._replace(alpha=alpha, beta=beta, n=found.n @ S)
 
 
 @pytest.mark.parametrize("scale", SCALES)

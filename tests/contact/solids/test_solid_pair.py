@@ -1,12 +1,9 @@
 """Every pair of solids against another computation."""
 
-import numpy as np
 import pytest
 
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.lab.vectors.own.shapes import own_shape
 from tests.closeness import assert_within
-from tests.contact.still import in_world
+from tests.contact.still import in_world, solid_pair
 from tests.oracles import closest
 from tests.oracles.pair_errors import pair_errors
 from tests.tolerances import CLOSED_FORM, CURVED_PAIR, WAY_OUT
@@ -26,19 +23,12 @@ def test_a_pair_is_as_far_apart_as_another_computation_says(names, poses):
     assert all(error <= atol for error in worst.values())
 
 
-def enlarged(solid, scale):
-    return {
-        key: value if key == "kind" else (scale * np.array(value)).tolist()
-        for key, value in solid.items()
-    }
-
-
 @pytest.mark.parametrize("names", [("box", "cylinder"), ("mesh", "cone"), ("cone", "ellipsoid")])
 def test_a_curved_pair_that_is_made_smaller_has_a_smaller_distance(names):
     smaller = 2.0**-20
     for R, t in closest.poses(4, 23):
         phi = []
         for scale in (1.0, smaller):
-            a, b = (own_shape(enlarged(closest.TABLES[name], scale)) for name in names)
+            a, b = (closest.solids(scale)[name] for name in names)
             phi.append(solid_pair("p", in_world(a), in_world(b, scale * t, R)).phi)
         assert_within(phi[1] / smaller, phi[0], CURVED_PAIR)
