@@ -1,13 +1,13 @@
 """Eq. (1), tau_k = K_q delta_q_bar_a. Under test: step.problem.set_values."""
 
-from quasistatic_ref.step.problem import paper_problem, set_values
+import numpy as np
+
 from tests.closeness import assert_close
 from tests.helpers import random_step
+from tests.oracles.printed_rows import problem_at
 
 
 def test_the_parameter_tau_k_is_the_stiffness_times_the_desired_change(rng):
     step = random_step(rng, n_a=5)
-    problem = paper_problem(step)
-    set_values(problem, step)
-    tau_k = problem.problem.param_dict["tau_k"].value
-    assert_close(tau_k, step.K_q @ step.delta_q_bar_a)
+    page = problem_at(step, np.zeros(step.n_v))
+    assert_close(page.parameters["tau_k"].value, step.K_q @ step.delta_q_bar_a)

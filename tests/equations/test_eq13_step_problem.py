@@ -18,19 +18,14 @@ def objective(step, delta_q):
 
 
 @pytest.mark.parametrize(("n_a", "n_u"), [(3, 4), (0, 4), (3, 0), (1, 1)])
-def test_the_cvxpy_objective_is_the_printed_one(n_a, n_u, rng):
+def test_the_objective_of_cvxpy_and_of_H_and_g_is_the_printed_one(n_a, n_u, rng):
     step = random_step(rng, n_a, n_u)
     delta_q = rng.normal(size=step.n_v)
+    expected = objective(step, delta_q)
     found = problem_at(step, delta_q).problem.objective.value  # over h^3
-    assert_relative(found * step.h**3, objective(step, delta_q))
-
-
-def test_H_and_g_give_the_printed_objective(rng):
-    step = random_step(rng)
+    assert_relative(found * step.h**3, expected)
     form = standard_form(step)
-    delta_q = rng.normal(size=step.n_v)
-    actual = 0.5 * delta_q @ form.H @ delta_q - form.g @ delta_q
-    assert_relative(actual, objective(step, delta_q))
+    assert_relative(0.5 * delta_q @ form.H @ delta_q - form.g @ delta_q, expected)
 
 
 def test_no_feasible_neighbour_is_better(rng):

@@ -10,9 +10,8 @@ from quasistatic_ref.step.friction import contact_wrenches
 from tests.closeness import assert_close, assert_within
 from tests.helpers import random_step
 from tests.oracles.cones import COUNTS
+from tests.oracles.random_steps import POLYHEDRAL
 from tests.tolerances import EXACT
-
-POLYHEDRAL = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
 
 
 @pytest.mark.parametrize(("name", "counts"), COUNTS.items(), ids=COUNTS)

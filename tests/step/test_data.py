@@ -19,6 +19,8 @@ INF = float("inf")
 STEP_REFUSALS = {
     "h zero": ({"h": 0.0}, "h:"),
     "h NaN": ({"h": NAN}, "h:"),
+    "h a word": ({"h": "0.01"}, "h:"),
+    "h an integer beyond float": ({"h": 10**400}, "h:"),
     "cone unknown": ({"cone": "cube"}, "cone:"),
     "K_q of another size": ({"K_q": np.eye(3)}, "K_q:"),
     "K_q not symmetric": ({"K_q": [[2.0, 1.0], [0.0, 2.0]]}, "K_q: must be symmetric"),
@@ -40,6 +42,7 @@ CONTACT_REFUSALS = {
     "J of three rows": ({"J": np.zeros((2, 3, 5))}, "contacts.J:"),
     "mu_v negative": ({"mu_v": [0.5, -0.1]}, "contacts[c1].mu_v: must be >= 0"),
     "mu_omega negative": ({"mu_omega": [-1e-9, 0.1]}, "contacts[c0].mu_omega: must be >= 0"),
+    "rows ragged": ({"rows": [4, [6]]}, "contacts.rows:"),
     "five rows": ({"rows": [6, 5]}, "contacts.rows: must be 4 or 6"),
     "n not a unit vector": ({"n": 2 * CONTACTS.n}, "contacts[c0]: d1, d2, n must be"),
     "left-handed": ({"d1": -CONTACTS.d1}, "contacts[c0]: d1, d2, n must be"),
@@ -59,19 +62,10 @@ def test_contacts_refuse(changes, says):
         changed(CONTACTS, **changes)
 
 
-LEAKS = {
-    "h a word": lambda: STEP.replace(h="0.01"),
-    "h an integer beyond float": lambda: STEP.replace(h=10**400),
-    "rows ragged": lambda: changed(CONTACTS, rows=[4, [6]]),
-    "J without columns": lambda: Contacts((), [], [], [], [], [], [], [], []),
-    "extra.A without columns": lambda: Extra((), [], []),
-}
-
-
-@cases("build", LEAKS)
-def test_arguments_raise_the_package_s_own_error_alone(build):
-    with pytest.raises(StepDataError):
-        build()
+def test_arrays_without_columns_are_refused():
+    for build in (lambda: Contacts((), *[[]] * 8), lambda: Extra((), [], [])):
+        with pytest.raises(StepDataError):
+            build()
 
 
 def test_a_frame_passes_just_inside_the_tolerance_and_not_outside():
