@@ -2,12 +2,18 @@
 
 import numpy as np
 
+from quasistatic_ref import solve_step
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.closeness import assert_within
 
 INSTANCES = 40
 INFEASIBLE = {11, 12}
 """Seeds of mixed steps, of those below INSTANCES."""
+
+
+def exact(step):
+    """The optimum, without a solver."""
+    return solve_step(step, "none")
 
 
 def log(rng, low, high):

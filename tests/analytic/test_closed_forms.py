@@ -7,8 +7,7 @@ import quasistatic_ref as qr
 from quasistatic_ref import coulomb_step
 from quasistatic_ref.lab.claims.claim import HOLDS, claim_result
 from quasistatic_ref.lab.claims.registry import CLAIMS
-from quasistatic_ref.lab.thresholds import exact
-from tests.analytic.instances import INSTANCES, instances, log, near
+from tests.analytic.instances import INSTANCES, exact, instances, log, near
 from tests.made import X, Y, Z, contacts_of, free_step, rigid_step
 
 LONG = (
@@ -29,44 +28,40 @@ def test_a_claim_holds(name):
     assert claim.verdict == HOLDS, [c.what for c in claim.comparisons if not c.holds]
 
 
-def test_r39_given_equal_loads(rng, both):
+def ring_turns(slip, frames, share, rng):
+    """Whether points that springs press alike give way to a share of mu N r."""
+    _, h, mu, r = next(instances(rng))
+    N = log(rng, 0.1, 100)
+    n = len(slip)
+    J = np.zeros((n, 4, n + 1))  # how far each point has come off its spring, and the turn
+    J[np.arange(n), 2, np.arange(n)] = 1.0
+    J[:, :3, n] = r * slip
+    load = [*np.full(n, -N / n), share * mu * N * r]
+    step = free_step(np.eye(n + 1), load, contacts_of(0.0, frames, J, mu), h)
+    return bool(exact(step).delta_q[n])
+
+
+def test_r39_given_equal_loads(rng):
     """Mu N r times the mean of max(|cos|, |sin|) of the angles of the slips to the tangents."""
-    for _, h, mu, _ in instances(rng):
+    for _ in range(INSTANCES):
         n = 2 * int(rng.integers(1, 10))
-        slip = rng.uniform(0, 2 * np.pi) + 2 * np.pi * np.arange(n) / n
-        r = log(rng, 1e-3, 0.1)
-        N = log(rng, 0.1, 100)
-        J = np.zeros((n, 4, n + 1))  # how far each point has come off its spring, and the turn
-        J[np.arange(n), 2, np.arange(n)] = 1.0
-        J[:, :2, n] = r * np.column_stack([np.cos(slip), np.sin(slip)])
-        contacts = contacts_of(0.0, np.tile(np.eye(3), (n, 1, 1)), J, mu)
-        factor = np.maximum(np.abs(np.cos(slip)), np.abs(np.sin(slip))).mean()
-        assert 1 / np.sqrt(2) - 1e-9 <= factor <= 1
-        share = rng.choice([0.999, 1.001])
-        load = [*np.full(n, -N / n), share * mu * N * r * factor]
-        both(share > 1)
-        moved = exact(free_step(np.eye(n + 1), load, contacts, h)).delta_q
-        assert bool(moved[n]) == (share > 1)
+        angle = rng.uniform(0, 2 * np.pi) + 2 * np.pi * np.arange(n) / n
+        slip = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
+        held = np.abs(slip).max(axis=1).mean()
+        along_axes = np.tile(np.eye(3), (n, 1, 1))
+        for part in (0.999, 1.001):
+            assert ring_turns(slip, along_axes, part * held, rng) == (part > 1)
 
 
 @pytest.mark.parametrize(("points", "share"), [(8, 0.906), (16, 0.902), (64, 0.900)])
 def test_r15_needs_d1_along_the_slip(points, share, rng):
-    """A ring of preloaded points: of mu sum N r, all is held with d1 along the slip."""
-    _, h, mu, r = next(instances(rng))
-    N = log(rng, 0.1, 100)
+    """Then all of mu N r is held; by tangents along the world's axes, as of (R39), a share."""
     angle = 2 * np.pi * (np.arange(points) + 0.25) / points
     slip = np.column_stack([-np.sin(angle), np.cos(angle), 0 * angle])
-    J = np.zeros((points, 4, points + 1))  # each point's rise off its spring, and the turn
-    J[np.arange(points), 2, np.arange(points)] = 1.0
-    J[:, :3, points] = r * slip
-    up = np.tile([0.0, 0.0, 1.0], (points, 1))
-    along_slip = np.stack([slip, np.cross(up, slip), up], axis=1)
-    for frames, held in ((along_slip, 1.0), (np.tile(np.eye(3), (points, 1, 1)), share)):
-        contacts = contacts_of(0.0, frames, J, mu)
-        for factor in (0.999, 1.001):
-            load = [*np.full(points, -N / points), factor * held * mu * N * r]
-            turn = exact(free_step(np.eye(points + 1), load, contacts, h)).delta_q[points]
-            assert bool(turn) == (factor > 1)
+    assert np.abs(slip).max(axis=1).mean() == pytest.approx(share, abs=5e-4)
+    along_slip = np.stack([slip, np.cross(Z, slip), np.tile(Z, (points, 1))], axis=1)
+    for part in (0.999, 1.001):
+        assert ring_turns(slip, along_slip, part, rng) == (part > 1)
 
 
 def test_r17_the_height_of_the_centre_of_mass(rng):

@@ -3,9 +3,8 @@
 import numpy as np
 
 from quasistatic_ref import convex_hull
-from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.step.standard_form import friction_rows
-from tests.analytic.instances import INFEASIBLE, INSTANCES, instances, near
+from tests.analytic.instances import INFEASIBLE, INSTANCES, exact, instances, near
 from tests.contact.still import in_world, solid_pair
 from tests.made import contacts_of, point_jacobian, random_frames
 from tests.oracles.random_steps import drawn

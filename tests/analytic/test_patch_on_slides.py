@@ -5,6 +5,7 @@ import pytest
 
 import quasistatic_ref as qr
 from tests.files.urdf.urdf_texts import collision, inertial, joint, link, robot
+from tests.scenes import scene
 
 BOX = link(
     "box", collision('<box size="0.1 0.1 0.04"/>'), inertial("0.4", ("3.9e-4", "3.9e-4", "6.7e-4"))
@@ -17,8 +18,9 @@ SLIDES = robot(
     joint("z", "ly", "lz", "prismatic", "0 0 1"),
     joint("yaw", "lz", "box", "continuous", "0 0 1"),
 )
-FLAT = {"rows": 4, "k": 4}
-POINT = {"rows": 6, "k": 1, "mu_omega": 0.3 * 0.0707}
+FLAT = (4,)
+POINT = 1, 0.3 * 0.0707
+"""K and mu_omega [m] of what stands for the patch."""
 
 
 @pytest.mark.parametrize(
@@ -31,20 +33,12 @@ def test_a_box_that_is_pushed_beside_its_middle(base, patch, degrees):
     finger = qr.Body.of_shape(
         "f", qr.Sphere(0.01), 0.1, xyz=(-0.061, 0.03, 0.02), actuated=["base"]
     )
-    scene = {
-        "h": 0.02,
-        "steps": 20,
-        "bodies": {
-            "b": qr.Body("b", text, base=base, xyz=(0, 0, 0.02)),
-            "f": {"urdf": finger, "K_q": 2000.0, "targets": targets},
-        },
-        "shapes": {"floor": qr.HalfSpace((0, 0, 1), 0.0)},
-        "contacts": {
-            "floor": {"alpha": "floor", "beta": "b/box", "mu_v": 0.3, **patch},
-            "push": {"alpha": "f", "beta": "b/box", "mu_v": 0.2, "rows": 4},
-        },
+    bodies = {
+        "b": qr.Body("b", text, base=base, xyz=(0, 0, 0.02)),
+        "f": {"urdf": finger, "K_q": 2000.0, "targets": targets},
     }
-    scenario = qr.load_scenario(scene, backend="daqp")
+    contacts = {"floor": ("floor", "b/box", 0.3, *patch), "push": ("f", "b/box", 0.2, 1)}
+    scenario = scene(bodies, contacts, 20, h=0.02, fast=True)
     run = scenario.run(progress=False, findings=False)
-    R = scenario.system.kinematics(run.q[-1]).R[scenario.system.links.index("b/box")]
+    R, _ = scenario.system.pose(run.q[-1], "b/box")
     assert -np.degrees(np.arctan2(R[1, 0], R[0, 0])) == pytest.approx(degrees, abs=0.005)

@@ -10,7 +10,7 @@ from quasistatic_ref import Extra, StepDataError, StepProblem, load_scenario, so
 from quasistatic_ref.solve import step_problem
 from quasistatic_ref.solve.step_problem import CvxpySolver
 from quasistatic_ref.solve.units import ScaledStep, in_si
-from quasistatic_ref.step.problem import paper_problem, set_values
+from quasistatic_ref.step.problem import set_values
 from quasistatic_ref.step.standard_form import friction_rows, page_units, si_units
 from tests.closeness import assert_close, assert_relative, assert_within
 from tests.helpers import (
@@ -20,6 +20,7 @@ from tests.helpers import (
     random_step,
     with_mu_of,
 )
+from tests.oracles.printed_rows import problem_at
 from tests.tolerances import OPTIMUM, ROUNDING
 
 
@@ -46,8 +47,7 @@ def test_a_program_is_compiled_at_its_first_solve_alone(monkeypatch):
 def test_the_page_splits_J_to_the_bits_of_the_rows(n_a, n_u, rng):
     """J_n, J_1, J_2 and J_w combined as in Eqs. (5)-(7) are friction_rows."""
     step = random_step(rng, n_a, n_u)
-    page = paper_problem(step)
-    set_values(page, step)
+    page = problem_at(step, np.zeros(n_a + n_u))
     J_n, J_1, J_2, J_w = (page.parameters[name].value for name in ("J_n", "J_1", "J_2", "J_w"))
     mu_v, _, mu_omega = step.contacts.mu.T[..., None]
     parts = (mu_v * J_1, mu_v * J_2, -mu_v * J_1, -mu_v * J_2, mu_omega * J_w, -mu_omega * J_w)
@@ -106,7 +106,7 @@ def test_a_plain_step_is_the_page_filled_and_solved_in_public(name):
 
 
 def test_the_page_is_dpp_where_quadratic_forms_are_affine_in_their_matrix(rng):
-    page = paper_problem(random_step(rng)).problem
+    page = problem_at(random_step(rng), np.zeros(7)).problem
     assert not page.is_dpp()
     with quad_form_dpp_scope():
         assert page.is_dpp()
