@@ -278,12 +278,11 @@ def test_a_compliance_that_is_none_is_refused(compliance):
 
 def test_contact_forces_do_not_depend_on_backend_start_or_order(monkeypatch):
     """Random steps, one of them by fractions; and a planted fault."""
-    monkeypatch.setattr(checks, "BACKENDS", ("daqp", "none"))
     for _, step in checks.random_steps(5):
         assert not any(checks.differences(step, oracle=False).values())
     step = drawn(4)
     found = checks.differences(step, oracle=True)
-    assert set(found) >= {"backends", "fast", "permuted", "definition", "independent"}
+    assert set(found) >= {"backends", "permuted", "definition", "independent"}
     assert not any(found.values())
     wrong = np.nextafter(contact_forces(step).wrench, 1.0)
     monkeypatch.setattr(checks, "independent_forces", lambda *_: wrong)
