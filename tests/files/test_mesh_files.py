@@ -10,14 +10,13 @@ import pytest
 import trimesh
 
 from quasistatic_ref import Body, InputError, ModelError, System, load_scenario
-from quasistatic_ref.files.content import text_written
-from quasistatic_ref.files.mesh_files import loaded_mesh, mesh_hull, mesh_path
 from quasistatic_ref.files.urdf import shapes as urdf_shapes
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from tests.cases import cases
 from tests.closeness import assert_within
 from tests.files.urdf.urdf_texts import collision, link, loaded_urdf, robot, urdf_of_text
-from tests.oracles.shape_files import COLLADA, TETRAHEDRON, bytes_of, exported, plain_gltf
+from tests.made import loaded_mesh, mesh_hull, mesh_path, text_written
+from tests.oracles.shape_files import COLLADA, TETRAHEDRON, bytes_of, plain_gltf
 from tests.tolerances import CLOSED_FORM
 
 DENTED = TETRAHEDRON.replace("f 2 3 4", "v 0.2 0.2 0.2\nf 2 3 5\nf 3 4 5\nf 4 2 5")
@@ -158,27 +157,6 @@ def test_a_mesh_that_is_too_large_is_refused(tmp_path):
     assert caught.value.field == "link[a].collision[0].mesh.filename"
 
 
-# Each of these lost a triangle or a corner without a word, or took memory for what is not there.
-MALFORMED = {
-    "a letter for an index": ("0 3 2 1", "0 3 x 1"),
-    "a fraction": ("0 3 2 1", "0 3 2.5 1"),
-    "an index that is not there": ("0 3 2 1", "0 3 99 1"),
-    "another count": ('count="12"', 'count="15"'),
-    "another number of triangles": ('<triangles count="4">', '<triangles count="5">'),
-    "a part that is not there": ('url="#g"', 'url="#h"'),
-    "NaN, which pycollada takes for 0": ("0 0 0 1 0 0", "0 0 nan 1 0 0"),
-    "no XML": ("</COLLADA>", ""),
-}
-
-
-@cases("right, wrong", MALFORMED)
-def test_a_malformed_collada_mesh_is_refused_by_name(tmp_path, right, wrong):
-    assert COLLADA.count(right) == 1
-    path = urdf_of_text(tmp_path, COLLADA.replace(right, wrong), "a.dae")
-    with pytest.raises(ModelError, match=r"a\.dae: "):
-        mesh_hull(path, UNSCALED)
-
-
 @pytest.mark.parametrize(
     ("asset", "metres"),
     [('<unit name="u" meter="0.001"/>', 0.001), ('<unit name="inch" meter="0.0254"/>', 0.0254)],
@@ -244,15 +222,6 @@ def test_an_empty_mesh_is_left_out_of_a_urdf_and_noted(tmp_path):
         mesh_hull(tmp_path / "a.stl", UNSCALED)
 
 
-@pytest.mark.parametrize("kind", ["off", "ply", "glb", "stl"])
-def test_a_format_is_read_as_trimesh_wrote_it(tmp_path, kind):
-    path = tmp_path / f"a.{kind}"
-    path.write_bytes(exported(kind))
-    hull = mesh_hull(path, UNSCALED)
-    assert_within(hull.volume, 8.0, 1e-6)
-    assert hull.is_convex
-
-
 def test_a_mesh_that_is_named_five_times_is_read_once_and_has_one_hull(tmp_path, monkeypatch):
     urdf_of_text(tmp_path, TETRAHEDRON, "m.obj")
     mesh = collision('<mesh filename="m.obj" scale="{0} {0} {0}"/>')
@@ -266,130 +235,6 @@ def test_a_mesh_that_is_named_five_times_is_read_once_and_has_one_hull(tmp_path,
     assert len(counts) == 1
     assert len({id(placed.shape) for placed in same}) == 1
     assert np.ptp(larger.shape.vertices, axis=0).tolist() == [2, 2, 2]
-
-
-def gltf_at(uri):
-    """The same, whose buffer is elsewhere."""
-    return plain_gltf(buffers=[{"uri": uri, "byteLength": 72}])
-
-
-PLACED = '<instance_geometry url="#g"/>'
-STL = exported("stl_ascii")
-OFF = exported("off")
-PLY = exported("ply")
-PLY_TEXT = b"""ply
-format ascii 1.0
-element vertex 4
-property float x
-property float y
-property float z
-end_header
-0 0 0
-1 0 0
-0 1 0
-0 0 1
-"""
-FACE = PLY_TEXT.replace(
-    b"end_header", b"element face 1\nproperty list uchar int vertex_indices\nend_header"
-)
-LIES = {
-    "text for JSON": ("a.gltf", b"", "cannot be read as a mesh: it is malformed"),
-    "a pipe": ("a.gltf", gltf_at("pipe"), "a pipe, not"),
-    "a file elsewhere": ("a.gltf", gltf_at("../x"),
-                         "must be a file in the folder of this one"),
-    "a short buffer": ("a.gltf", gltf_at("data:,"),
-                       r"buffers\[0\]: must be 72, as the file states \(got 0\)"),
-    "long buffers": ("a.gltf", plain_gltf(buffers=5 * [{"uri": "zeros", "byteLength": 2**24}]),
-                     "unpacks to more than 64 MiB"),
-    "a view beyond its buffer": ("a.gltf", plain_gltf(
-        bufferViews=[{"buffer": 0, "byteLength": 99}]), r"Views\[0\]: is not within its buffer"),
-    "an array beyond its view": ("a.gltf", plain_gltf().replace(b'"count": 4', b'"count": 5'),
-                                 r"accessors\[0\]: is not within bufferViews\[0\]"),
-    "zeros without bytes": ("a.gltf", plain_gltf().replace(b'"bufferView": 0, ', b""),
-                            "is compressed, sparse or normalized"),
-    "a node in itself": ("a.gltf", plain_gltf(nodes=[{"mesh": 0, "children": [0]}]), "one place"),
-    "a fan": ("a.gltf", plain_gltf().replace(b'"indices": 1', b'"indices": 1, "mode": 6'), "a fan"),
-    "a GLB cut off": ("a.glb", exported("glb")[:-4], "bytes: must be"),
-    "a solid cut off": ("a.stl", STL + STL[: STL.rindex(b"outer")], "is cut off or not in"),
-    "a solid without its end": ("a.stl", STL.replace(b"endsolid", b""), "is cut off or not in"),
-    "a binary STL cut off": ("a.stl", exported("stl")[:-1], "must begin with solid, or hold 50"),
-    "a word of its own": ("a.stl", STL.replace(b"endloop", b"color", 1), "line 7: must begin with"),
-    "fewer faces": ("a.off", OFF[:-10], "line 2: must be the number of points and of faces"),
-    "a face cut short": ("a.off", OFF.rstrip()[:-1] + b"\n", "line 22: must have 3 corners"),
-    "a face of one": ("a.obj", TETRAHEDRON + "f 1\n", "line 9: must be a face of three corners"),
-    "a corner too many": ("a.obj", TETRAHEDRON + "f 1 2 9\n", "triangles: must be numbers of ver"),
-    "a line that is none": ("a.obj", TETRAHEDRON + "x 1 2\n", "line 9: is a line of an OBJ that"),
-    "a binary PLY cut off": ("a.ply", PLY[:-1], r"face\[11\].vertex_indices: must be 3.*got 2"),
-    "faces without corners": ("a.ply", PLY.replace(b"_indices", b"_numbers"), "must be faces with"),
-    "an empty face": ("a.ply", FACE + b"0\n", r"face\[0\]: must be a face of three corners"),
-    "two lines for a point": ("a.ply", PLY_TEXT.replace(b"0 0 1", b"0 0\n1"), "lines: must be 4"),
-    "a list of half a corner more": ("a.ply", FACE + b"3.5 0 1 2\n",
-                                     r"face\[0\].vertex_indices: must have a whole number of"),
-    "half a corner": ("a.ply", FACE + b"3 0 1.5 2\n",
-                      "face: must be whole numbers"),
-    "no such mesh": ("a.gltf", plain_gltf(nodes=[{"mesh": 1}]), r"nodes: is placed.*'meshes\[1\]'"),
-    "nothing placed": ("a.gltf", plain_gltf(nodes=[{}]), "places none of the triangles that it"),
-    "a longer PLY": ("a.ply", PLY + b"x", "holds more than its header says"),
-    "very many parts": ("a.dae", COLLADA.replace(PLACED, 10_000 * PLACED),
-                        "places more than 5000000 vertices and triangles"),
-    "an unknown extension": ("a.gltf", plain_gltf(extensionsRequired=["ACME_bent"]),
-                             "extensionsRequired: is an extension that is not read.*ACME_bent"),
-    "instances": ("a.gltf", plain_gltf(extensionsRequired=["EXT_mesh_gpu_instancing"]),
-                  "extensionsRequired: is an extension .*'EXT_mesh_gpu_instancing'"),
-    "meshopt": ("a.gltf", plain_gltf(bufferViews=[{"extensions": {"EXT_meshopt_compression": {}}}]),
-                r"bufferViews\[0\]: is compressed by EXT_meshopt_compression; export it without"),
-    "a buffer that only meshopt fills": (
-        "a.gltf", plain_gltf(buffers=[{"extensions": {"EXT_meshopt_compression": {}}}]),
-        r"buffers\[0\]: is compressed by EXT_meshopt_compression"),
-    "weights of a mesh": ("a.gltf", plain_gltf(meshes=[{"primitives": [], "weights": [0, 1.0]}]),
-                          r"meshes\[0\].weights: are of morph targets and not 0"),
-    "weights of a node": ("a.gltf", plain_gltf(nodes=[{"mesh": 0, "weights": [0.5]}]),
-                          r"nodes\[0\].weights: are of morph targets and not 0"),
-    "a skew": ("a.dae", COLLADA.replace("<node>", '<node id="n"><skew>45 1 0 0 0 1 0</skew>'),
-               r"node\[n\]: has a skew, which is not read"),
-    "far away": ("a.obj", TETRAHEDRON.replace("1 0 0", "1e200 0 0"), "must be at most 1e.15 m"),
-}  # fmt: skip
-
-
-@cases("name, content, words", LIES)
-def test_the_statements_of_a_mesh_file_are_compared_with_its_content(
-    tmp_path, name, content, words
-):
-    """Next to it lie a pipe, 16 MiB and a glTF of another shape."""
-    os.mkfifo(tmp_path / "pipe")
-    (tmp_path / "zeros").touch()
-    os.truncate(tmp_path / "zeros", 2**24)
-    for other, part in trimesh.creation.box().export(file_type="gltf").items():
-        (tmp_path / other).write_bytes(part)
-    (tmp_path / name).write_bytes(bytes_of(content))
-    with pytest.raises(ModelError, match=f"^{re.escape(str(tmp_path))}/.*{words}"):
-        loaded_mesh(tmp_path / name)
-
-
-SAME = {
-    "a Latin-1 letter in OBJ": ("a.obj", b"# K\xf6rper\n" + TETRAHEDRON.encode()),
-    "three dots of Windows": ("a.obj", b"o a\x85b\n" + TETRAHEDRON.encode()),
-    "a Latin-1 name in STL": ("a.stl", b"solid K\xf6rper\n" + STL.partition(b"\n")[2]),
-    "a Latin-1 comment in OFF": ("a.off", b"OFF # K\xf6rper\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1"),
-    "counts in the line of OFF": ("a.off", b"OFF4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"),
-    "a Latin-1 name in COLLADA": ("a.dae", COLLADA.replace('id="sc"', 'id="sc" name="\xf6"')
-                                  .encode("latin-1")),
-    "a header that begins with solid": ("a.stl", b"solid".ljust(80) + exported("stl")[80:]),
-    "a material that is not there": ("a.dae", COLLADA.replace(
-        '<instance_geometry url="#g"/>', '<instance_geometry url="#g"><bind_material>'
-        '<technique_common><instance_material symbol="m" target="#none"/></technique_common>'
-        "</bind_material></instance_geometry>")),
-    "a line as a face": ("a.obj", TETRAHEDRON + "f 1 2\n"),
-    "back from the last point": ("a.obj", TETRAHEDRON.replace("f 2 3 4", "f -3 -2 -1")),
-}  # fmt: skip
-
-
-@cases("name, content", SAME)
-def test_a_whole_mesh_file_is_read(tmp_path, name, content):
-    (tmp_path / name).write_bytes(bytes_of(content))
-    vertices = loaded_mesh(tmp_path / name).vertices
-    extent = np.ptp(vertices, axis=0)
-    assert extent.tolist() in ([1, 1, 1], [1, 2, 4], [0.001, 0.002, 0.004])
 
 
 def test_a_vertex_that_no_triangle_uses_is_in_no_hull(tmp_path):
