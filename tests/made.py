@@ -1,5 +1,7 @@
 """What tests make and read steps, files and bits with: this file alone knows where it is kept."""
 
+from quasistatic_ref.contact.crossings import crossings
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.files.clouds import point_cloud, seen_points
 from quasistatic_ref.files.content import text_written
 from quasistatic_ref.files.mesh_files import loaded_mesh, mesh_hull, mesh_path
@@ -43,6 +45,7 @@ __all__ = [
     "actuated_step",
     "bits",
     "contacts_of",
+    "crossings",
     "frames_about",
     "free_step",
     "infeasible_text",
@@ -59,6 +62,7 @@ __all__ = [
     "repeated",
     "rigid_step",
     "seen_points",
+    "solid_pair",
     "solution_text",
     "sphere_step",
     "spread_matrix",

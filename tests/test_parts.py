@@ -26,13 +26,12 @@ from quasistatic_ref import (
     save_trajectory,
     solve_step,
 )
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.files.mesh_files import loaded_mesh
 from quasistatic_ref.parts import is_there, needing
 from quasistatic_ref.step.cones import cone
 from tests.closeness import assert_relative
 from tests.contact.still import in_world
 from tests.helpers import random_step
+from tests.made import loaded_mesh, solid_pair
 from tests.pages import PACKAGE, ROOT
 from tests.processes import python
 

@@ -5,7 +5,6 @@ import json
 import numpy as np
 import pytest
 
-from quasistatic_ref.cli.options import WIDTH
 from quasistatic_ref.files.clouds import KINDS
 from quasistatic_ref.files.mesh_files import MESHES
 from quasistatic_ref.files.scenario.other_files import OTHER_FILES
@@ -111,7 +110,7 @@ def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, cli, insp
 
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_lines_of_inspect_fit_a_terminal(name, cli):
-    assert max(map(len, cli("inspect", name).out.splitlines())) <= WIDTH
+    assert max(map(len, cli("inspect", name).out.splitlines())) <= 120
 
 
 def test_inspect_names_links_that_nothing_can_touch(tmp_path, cli):

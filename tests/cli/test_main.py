@@ -8,7 +8,6 @@ import sys
 import pytest
 
 from quasistatic_ref import save_step
-from quasistatic_ref.cli import solve as solve_command
 from quasistatic_ref.cli.main import COMMANDS, main
 from tests.helpers import one_sentence, point_on_floor
 from tests.processes import python
@@ -18,7 +17,7 @@ def test_any_command_can_be_interrupted(tmp_path, cli, monkeypatch):
     def interrupted(*arguments, **options):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(solve_command, "solve_step", interrupted)
+    monkeypatch.setattr("quasistatic_ref.cli.solve.solve_step", interrupted)
     path = save_step(tmp_path / "step.json", point_on_floor())
     assert one_sentence(cli("solve", path, status=130).err) == "interrupted"
 
@@ -136,7 +135,7 @@ def test_a_library_that_the_system_lacks_is_named_with_what_installs_it(monkeypa
         message = "libgomp.so.1: cannot open shared object file: No such file or directory"
         raise ImportError(message)
 
-    monkeypatch.setattr(solve_command, "run", importing)
+    monkeypatch.setattr("quasistatic_ref.cli.solve.run", importing)
     assert cli("solve", "step.json", status=2).err == (
         "quasistatic-ref: libgomp.so.1, which a package needs, is not installed on this system; "
         "libgomp.so.1 comes by: apt-get install libgomp1\n"

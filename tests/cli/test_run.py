@@ -6,9 +6,7 @@ import sys
 
 import pytest
 
-from quasistatic_ref import load_step, load_trajectory, solve_step
-from quasistatic_ref.cli import extract
-from quasistatic_ref.simulate import simulator
+from quasistatic_ref import Simulator, load_step, load_trajectory, solve_step
 from tests.closeness import assert_same
 from tests.files.urdf.urdf_texts import joint, urdf_of_text
 from tests.scenes import RAIL, SWING, written_scenario
@@ -72,7 +70,7 @@ def test_options_change_the_scenario(scene, out, cli):
 
 
 def test_an_interrupted_run_leaves_its_steps(scene, out, cli, monkeypatch):
-    honest = simulator.Simulator.step
+    honest = Simulator.step
     calls = []
 
     def interrupted(*arguments, **options):
@@ -81,7 +79,7 @@ def test_an_interrupted_run_leaves_its_steps(scene, out, cli, monkeypatch):
             raise KeyboardInterrupt
         return honest(*arguments, **options)
 
-    monkeypatch.setattr(simulator.Simulator, "step", interrupted)
+    monkeypatch.setattr(Simulator, "step", interrupted)
     *_, last = cli("run", scene, "--out", out, status=130).err.splitlines()
     assert last.startswith("quasistatic-ref: step 2: interrupted; the first 2 steps")
     assert load_trajectory(out / "scene.npz").steps == 2
@@ -137,5 +135,5 @@ def test_the_step_of_one_body_s_group_is_extracted_and_proved(scene, tmp_path, c
     assert "verified" in cli("verify", step, answer).out
     asked = ("extract", path, "--step", "1")
     assert "did you mean 'ball'" in cli(*asked, "--body", "bal", status=2).err
-    monkeypatch.setattr(extract, "LARGEST_TEXT", 100)
+    monkeypatch.setattr("quasistatic_ref.cli.extract.LARGEST_TEXT", 100)
     assert "extract the group of one body, with --body" in cli(*asked, status=2).err

@@ -17,12 +17,11 @@ from quasistatic_ref import (
     verify_answer,
 )
 from quasistatic_ref.certify.verification import rounded_wrenches
-from quasistatic_ref.files.solution import infeasible_text, solution_text
 from tests.cases import cases, refusal
 from tests.closeness import assert_same, assert_within
 from tests.errors.scene import changed
 from tests.helpers import point_on_floor, random_step
-from tests.made import step_text
+from tests.made import infeasible_text, solution_text, step_text
 from tests.tolerances import ROUNDING
 
 PLAIN = random_step(11, n_a=2, n_u=3, rows=(6, 4))

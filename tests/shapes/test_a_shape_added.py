@@ -10,21 +10,18 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from quasistatic_ref import Box, ContactError, HalfSpace, Sphere, draw_scene, load_scenario
-from quasistatic_ref.contact import crossings as crossings_of
-from quasistatic_ref.contact.solids import solid_pair as solid_pair_of
+from quasistatic_ref import Box, ContactError, HalfSpace, Sphere, draw_scene, figures, load_scenario
 from quasistatic_ref.contact.solids.polytope import polytope
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.files.scenario.world_solids import SOLIDS, Kind
 from quasistatic_ref.optional.curved.faces import kinks
 from quasistatic_ref.optional.show.figures import panels
-from quasistatic_ref.optional.show.figures.moments import moment
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import dimensions
 from quasistatic_ref.text.declared import Field
 from tests.closeness import assert_relative, assert_within
 from tests.contact.still import in_world
 from tests.errors.scene import SCENE, changed, scene_written
+from tests.made import crossings, solid_pair
 from tests.tolerances import ROUNDING, SCENARIO
 
 HALF = np.array([0.2, 0.3, 0.04])
@@ -80,16 +77,17 @@ def test_edges_of_a_polytope_cross_outside_of_its_margin(monkeypatch):
     """A pad below a bar, crossed flat: each of four crossings has the gap of the faces."""
     pad = Pad(np.array([0.1, 0.02, 0.01]), 0.005)
     core = replace(polytope(Box(half_extents=pad.half_extents)), shape=pad, margin=pad.radius)
-    for module in (solid_pair_of, crossings_of):
+    for module in ("solids.solid_pair", "crossings"):
         monkeypatch.setattr(
-            module, "polytope", lambda shape: core if shape is pad else polytope(shape)
+            f"quasistatic_ref.contact.{module}.polytope",
+            lambda shape: core if shape is pad else polytope(shape),
         )
     low = in_world(pad)
     for turned in (np.eye(3), np.diag([1.0, -1.0, -1.0])):  # which is alpha, and the other way up
         top = in_world(Box(half_extents=(0.02, 0.1, 0.01)), [0, 0, 0.026], turned)
         for a, b in ((low, top), (top, low)):
             near = solid_pair("pair", a, b)
-            found = crossings_of.crossings(a, b, near.alpha, near.beta, near.n)
+            found = crossings(a, b, near.alpha, near.beta, near.n)
             gaps = (found.beta - found.alpha) @ near.n
             assert_within(gaps, [0.001] * 4)
             assert_relative(near.phi, 0.001, 1e-12)
@@ -114,7 +112,7 @@ def test_an_added_shape_is_drawn_and_inspected(scene, cli):
     scenario = load_scenario(scene)
     run = scenario.run()
     page, (axes,) = panels(4.6, 4.0)
-    draw_scene(axes, moment(scenario, run, 0))
+    draw_scene(axes, figures.moment(scenario, run, 0))
     reached = np.concatenate([patch.get_xy() for patch in axes.patches])
     assert np.ptp(reached[:, 0]) >= 2 * (HALF[0] + RADIUS) - ROUNDING
     plt.close(page)

@@ -17,20 +17,18 @@ from quasistatic_ref import (
     Sphere,
     convex_hull,
 )
-from quasistatic_ref.shapes.frozen import SHORT
-from quasistatic_ref.tolerances import ORTHONORMAL
 from tests.cases import cases
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import ROUNDING
 
-SHEARED = np.array([[1.0, 2 * ORTHONORMAL, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
-"""R with R'R - I = [0 by 0; by by^2 0; 0 0 0]."""
+SHEARED = np.array([[1.0, 2e-9, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+"""R with R'R - I = [0 by 0; by by^2 0; 0 0 0], by twice what may be."""
 REFUSED = {
     "zero radius": (lambda: Sphere(0.0), r"radius: must be a positive length \(got 0.0\)"),
     "radius too large to double": (lambda: Sphere(1.7e308), "radius: must be a positive length"),
-    "a radius below a proton's": (lambda: Sphere(0.9 * SHORT), "radius: must be at least 1e-15 m"),
+    "a radius below a proton's": (lambda: Sphere(0.9e-15), "radius: must be at least 1e-15 m"),
     "a length of which half is too short": (
-        lambda: Cylinder(1.0, length=1.5 * SHORT),
+        lambda: Cylinder(1.0, length=1.5e-15),
         "half_length: must be at least 1e-15 m",
     ),
     "flat box": (lambda: Box((1, 0, 1)), "half_extents: must be three positive lengths"),
@@ -66,7 +64,7 @@ def test_lengths_are_halves_or_wholes_of_at_least_a_proton_s():
     assert Capsule(0.1, length=0.4) == Capsule(0.1, 0.2)
     for shape in (Box, Ellipsoid):
         assert shape(size=(0.2, 0.4, 0.6)) == shape((0.1, 0.2, 0.3))
-    assert Sphere(SHORT).radius == SHORT
+    assert Sphere(1e-15).radius == 1e-15
 
 
 @pytest.mark.parametrize("scale", [1e-200, 1.0, 3.0, 1e200])

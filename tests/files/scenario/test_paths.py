@@ -2,55 +2,51 @@
 
 import pytest
 
-from quasistatic_ref import ScenarioError
-from quasistatic_ref.files.scenario.paths import path_in, shared_folders
-from quasistatic_ref.text.table_reader import TableReader
+from quasistatic_ref import ScenarioError, load_scenario
+from tests.files.urdf.urdf_texts import link, robot
+from tests.made import text_written
 
 
-def path_found(folder, address):
-    return path_in(folder, TableReader({"urdf": address}, "bodies.arm", ScenarioError), "urdf")
+def arm_of(address):
+    """The body of a scenario whose URDF has an address."""
+    arm = {"urdf": address, "base": "floating"}
+    return load_scenario({"h": 1, "steps": 1, "bodies": {"arm": arm}}).bodies["arm"]
 
 
 @pytest.fixture
 def share(tmp_path, monkeypatch):
     """A package `arms` with one file, and a file next to it, under a path of Python's."""
     folder = tmp_path / "site" / "cmeel.prefix" / "share"
-    (folder / "arms").mkdir(parents=True)
-    (folder / "arms" / "arm.urdf").write_text("<robot/>")
-    (folder / "secret.urdf").write_text("<robot/>")
+    for file in ("arms/arm.urdf", "secret.urdf"):
+        text_written(folder / file, robot(link("arm")))
+    (folder / "arms" / "link.urdf").symlink_to(folder / "secret.urdf")
     monkeypatch.syspath_prepend(tmp_path / "site")
     return folder
 
 
-def test_a_file_of_an_installed_package_is_found_from_any_folder(share, tmp_path):
-    path = path_found(tmp_path / "elsewhere", "package://arms/arm.urdf")
-    assert path == share / "arms" / "arm.urdf"
-    assert shared_folders(path) == [share]
+def test_a_file_of_an_installed_package_is_taken_with_the_folder_of_all_packages(share):
+    arm = arm_of("package://arms/arm.urdf")
+    assert arm.urdf == share / "arms" / "arm.urdf"
+    assert arm.package_dirs[1:] == (share,)
 
 
-def test_a_file_elsewhere_has_no_shared_folder(share, tmp_path):
-    assert shared_folders(tmp_path / "arm.urdf") == []
+INSIDE = "must be a path inside the package"
+PACKAGE = r"is not a file of an installed package; .* pip install 'quasistatic-ref\[robots\]'"
+REFUSED = {
+    "package://nowhere/arm.urdf": PACKAGE,
+    "package://arms/leg.urdf": PACKAGE,
+    "package://": PACKAGE,
+    "package://arms": PACKAGE,
+    "package://../share/secret.urdf": PACKAGE,
+    "package://./secret.urdf": PACKAGE,
+    "package://arms/../secret.urdf": INSIDE,
+    "package://arms/link.urdf": INSIDE,
+}
 
 
-@pytest.mark.parametrize(
-    "address",
-    ["package://nowhere/arm.urdf", "package://arms/leg.urdf", "package://", "package://arms"],
-)
-def test_a_scenario_that_is_not_installed_is_refused_with_the_remedy(share, tmp_path, address):
-    with pytest.raises(ScenarioError, match=r"pip install 'quasistatic-ref\[robots\]'") as caught:
-        path_found(tmp_path, address)
+@pytest.mark.usefixtures("share")
+@pytest.mark.parametrize("address", REFUSED)
+def test_an_address_that_leads_nowhere_or_out_of_its_package_is_refused(address):
+    with pytest.raises(ScenarioError, match=REFUSED[address]) as caught:
+        arm_of(address)
     assert (caught.value.field, caught.value.value) == ("bodies.arm.urdf", address)
-
-
-def test_a_path_does_not_leave_its_package(share, tmp_path):
-    with pytest.raises(ScenarioError, match="must be a path inside the package"):
-        path_found(tmp_path, "package://arms/../secret.urdf")
-    for address in ("package://../share/secret.urdf", "package://./secret.urdf"):
-        with pytest.raises(ScenarioError, match="installed package"):
-            path_found(tmp_path, address)
-
-
-def test_a_link_does_not_lead_out_of_its_package(share, tmp_path):
-    (share / "arms" / "link.urdf").symlink_to(share / "secret.urdf")
-    with pytest.raises(ScenarioError, match="must be a path inside the package"):
-        path_found(tmp_path, "package://arms/link.urdf")

@@ -8,14 +8,12 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref import InputError
-from quasistatic_ref.files.resources import scenario_path
-from quasistatic_ref.files.scenario.world_solids import SOLIDS, solid_table
-from quasistatic_ref.lab.made_steps.systems import RAIL
+from tests.scenes import RAIL
 
 
 @pytest.mark.parametrize("name", ["bunny_grasp", "door"])
 def test_the_tables_of_a_file_are_the_same_scene(monkeypatch, name):
-    path = scenario_path(name).resolve()
+    path = qr.load_scenario(name).path.resolve()
     monkeypatch.chdir(path.parent)
     tables = tomllib.loads(path.read_text())
     runs = [qr.load_scenario(scene, fast=True, steps=1).run() for scene in (tables, path)]
@@ -72,54 +70,39 @@ def test_the_scene_that_was_given_stays_as_it_was():
     assert "format" not in scene
 
 
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"shapes": {"floor": qr.PointCloud(np.eye(3))}}, "floor: is a PointCloud that no file"),
-        (
-            {"bodies": {"arm": {"urdf": RAIL, "q": {}}}},
-            "bodies.arm.q: is unknown; did you mean 'pos",
-        ),
-        ({"bodies": {"arm": {"urdf": "<robot"}}}, "not well-formed|malformed"),
-        (
-            {"bodies": {"arm": {"body": "arm.urdf"}}},
-            "arm.body: must be a Body, in the place",
-        ),
-    ],
-)
-def test_mistakes_are_answered_as_in_a_file(change, words):
+MISTAKES = {
+    r"floor: is a PointCloud that no file": {"shapes": {"floor": qr.PointCloud(np.eye(3))}},
+    r"bodies\.arm\.q: is unknown; did you mean 'pos": {"bodies": {"arm": {"urdf": RAIL, "q": {}}}},
+    "not well-formed|malformed": {"bodies": {"arm": {"urdf": "<robot"}}},
+    r"arm\.body: must be a Body, in the place": {"bodies": {"arm": {"body": "arm.urdf"}}},
+    r"beta: has no collision shape; .*known: hand/\*, hand/plate": {
+        "contacts": {"floor": {"alpha": "floor", "beta": "hand", "mu_v": 0.5, "rows": 4}}
+    },
+}
+
+
+@pytest.mark.parametrize("words", MISTAKES)
+def test_mistakes_are_answered_as_in_a_file(words):
     with pytest.raises(InputError, match=words):
-        qr.load_scenario(with_objects() | change)
+        qr.load_scenario(with_objects() | MISTAKES[words])
 
 
-def test_a_body_whose_root_link_has_no_shape_is_answered_with_the_shapes_that_it_has():
-    pad = '<collision><geometry><sphere radius="0.01"/></geometry></collision>'
-    scene = with_objects()
-    scene["bodies"]["hand"] = {
-        "urdf": RAIL.replace('<link name="finger">', f'<link name="finger">{pad}', 1),
-        "actuated": ["slide"], "K_q": {"slide": 100.0},
-    }  # fmt: skip
-    scene["contacts"]["floor"]["beta"] = "hand"
-    with pytest.raises(InputError, match=r"beta: has no collision shape; .*known: hand/\*, hand/"):
-        qr.load_scenario(scene)
-
-
-@pytest.mark.parametrize(
-    "solid",
-    [
-        qr.HalfSpace((0, 0, 2), 0.1),
-        qr.Box((0.05, 0.06, 0.07)),
-        qr.Sphere(0.1),
-        qr.Cylinder(0.02, 0.1),
-        qr.Capsule(0.02, 0.1),
-        qr.Cone(0.02, 0.1),
-        qr.Ellipsoid((0.01, 0.02, 0.03)),
-    ],
+SOLIDS = (
+    qr.HalfSpace((0, 0, 2), 0.1),
+    qr.Box((0.05, 0.06, 0.07)),
+    qr.Sphere(0.1),
+    qr.Cylinder(0.02, 0.1),
+    qr.Capsule(0.02, 0.1),
+    qr.Cone(0.02, 0.1),
+    qr.Ellipsoid((0.01, 0.02, 0.03)),
 )
+
+
+@pytest.mark.parametrize("solid", SOLIDS)
 def test_a_solid_is_itself_in_the_words_of_a_table(solid):
-    kind, sizes = solid_table(solid, "solid")
-    fields = {name: np.array(x) if isinstance(x, list) else x for name, x in sizes.items()}
-    assert SOLIDS[kind].made(**fields) == solid
+    scene = with_objects()
+    scene["shapes"]["floor"] = solid
+    assert qr.load_scenario(scene).pairs[0].alpha.shape == solid
 
 
 FINGER = """<link name="{0}"><inertial><mass value="0.1"/>

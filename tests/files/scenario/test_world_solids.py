@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Box
-from quasistatic_ref.contact.crossings import crossings
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.files.scenario.world_solids import SOLIDS
 from tests.closeness import assert_relative, assert_within
 from tests.contact.still import in_world
+from tests.made import crossings, solid_pair
 
 UNBOUNDED = {"halfspace"}
 BOUNDED = sorted(SOLIDS.keys() - UNBOUNDED)

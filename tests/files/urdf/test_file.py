@@ -3,8 +3,7 @@
 import pytest
 
 from quasistatic_ref import ModelError
-from quasistatic_ref.files.urdf.file import urdf_tree
-from tests.files.urdf.urdf_texts import joint, link, robot
+from tests.files.urdf.urdf_texts import joint, link, robot, urdf_tree
 
 
 def star(count, kind):
