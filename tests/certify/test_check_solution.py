@@ -6,14 +6,15 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, QuasistaticError, StepInfeasible, solve_step
+from quasistatic_ref import Extra, QuasistaticError
 from tests.cases import cases, first
 from tests.helpers import verify_refusal
-from tests.made import infeasible_text, solution_text, step_sha256, step_text
+from tests.made import step_sha256, step_text
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import good_file
 from tests.oracles.random_steps import drawn, steps
 from tests.oracles.records import places, value_at, with_value
+from tests.oracles.solution_truth import solution_file
 from validation import check_solution as checker
 from validation.tools.scripts import ROOT
 
@@ -38,13 +39,6 @@ def outcome(tmp_path, capsys):
     return status_and_line
 
 
-def solved_text(step):
-    try:
-        return solution_text(solve_step(step))
-    except StepInfeasible as proof:
-        return infeasible_text(step, proof.farkas.exact)
-
-
 def test_the_checker_is_short_and_imports_the_standard_library_alone():
     lines = CHECKER.read_text().splitlines()
     imported = {line for line in lines if line.startswith(("import ", "from "))}
@@ -61,7 +55,7 @@ def test_degenerate_steps_hold_in_each_cone_and_a_last_bit_does_not(outcome, see
         A = np.random.default_rng(seed).standard_normal((2, step.n_v))
         A[1] = -A[0]
         step = step.replace(extra=Extra(("a", "b"), A, np.zeros(2)))
-    text, right = step_text(step), solved_text(step)
+    text, right = step_text(step), solution_file(step)
     assert outcome(text, right)[0] == 0
     record = json.loads(right)
     if record["status"] == "optimal":
@@ -76,7 +70,7 @@ def test_answers_to_strange_steps_hold(outcome, tmp_path, family):
     def files():
         for step in steps(family):
             try:
-                yield step_text(step), solved_text(step)
+                yield step_text(step), solution_file(step)
             except QuasistaticError:
                 continue
 
@@ -158,7 +152,7 @@ NO_FILE = {
 def test_a_file_of_no_known_format_is_refused_by_the_checker_and_by_verify(
     outcome, tmp_path, file, where, value, words
 ):
-    texts = {"step": step_text(STICKS), "solution": solved_text(STICKS)}
+    texts = {"step": step_text(STICKS), "solution": solution_file(STICKS)}
     texts[file] = json.dumps(with_value(json.loads(texts[file]), where, value))
     status, line = outcome(*texts.values())
     assert (status, words in line) == (2, True), line
@@ -166,7 +160,7 @@ def test_a_file_of_no_known_format_is_refused_by_the_checker_and_by_verify(
 
 
 def test_a_field_that_is_there_twice_and_files_that_are_none_are_refused(outcome, capsys):
-    solution = solved_text(STICKS)
+    solution = solution_file(STICKS)
     for text in (
         '{"cone": "pyramid", ' + solution[1:],
         solution.replace('{"kind"', '{"kind": 1, "kind"'),

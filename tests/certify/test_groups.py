@@ -1,5 +1,7 @@
 """Groups: what of a step is coupled, and the same optimum from its parts."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -8,23 +10,29 @@ from quasistatic_ref import (
     StepIllPosed,
     StepInfeasible,
     contact_forces,
+    solve_step,
 )
-from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.certify.groups import group_steps, groups
+from quasistatic_ref.certify.degeneracy import form_degeneracy
+from quasistatic_ref.certify.groups import flat_rows, group_steps, groups
 from quasistatic_ref.certify.norm import ILL_POSED
-from quasistatic_ref.certify.optimum import step_optimum
+from quasistatic_ref.certify.step_form import StepForm
 from tests.helpers import two_bodies
-from tests.made import X, contacts_of, free_step
-from tests.oracles.grouped import faults
+from tests.made import X, contacts_of, free_step, infeasible_text
 from tests.oracles.random_steps import drawn
+from tests.oracles.solution_truth import refuted, solution_file
 
 
 def test_random_steps_without_some_couplings_have_the_optimum_of_their_groups():
+    """As a checker proves that knows no groups; what is unique of them is so of the whole."""
     several = 0
     for seed in range(25):
         step = drawn(seed, "mixed classes")
-        assert faults(step) == [], seed
         several += len(groups(step)) > 1
+        text = solution_file(step)
+        assert refuted(step, text) == [], seed
+        if claims := json.loads(text).get("certificate"):
+            facts = form_degeneracy(StepForm(step), flat_rows(step, claims["active"]))
+            assert facts._asdict().items() <= claims.items(), seed
     assert several > 12
 
 
@@ -49,12 +57,12 @@ def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():
 
 def test_a_group_without_solution_is_named_by_its_contacts():
     step = two_bodies([X, -X], [-1e-3, -1e-3], np.ones(6))
-    for solved in (step_optimum, contact_forces):
+    for solved in (solve_step, contact_forces):
         with pytest.raises(StepInfeasible) as failure:
             solved(step)
         farkas = failure.value.farkas
         assert set(farkas.owners) == {"c0", "c1"}
-        assert farkas_refutation(step, farkas.exact) is None
+        assert refuted(step, infeasible_text(step, farkas.exact)) == []
         assert failure.value.step is step
 
 
@@ -68,7 +76,7 @@ def test_a_wedged_light_body_is_ill_posed_also_next_to_a_heavy_one_that_falls():
     unit = np.linalg.norm(n)
     step = two_bodies([n / unit, m / unit], -1e-3, [0, 0, -1e8, 0, 0, 0])
     with pytest.raises(StepIllPosed) as failure:
-        step_optimum(step)
+        solve_step(step, "none")
     assert failure.value.length > ILL_POSED
     assert abs(failure.value.delta_q[4]) > 1e-3 * 2**19
     assert np.abs(failure.value.delta_q[:3]).max() > 1e3

@@ -12,8 +12,9 @@ from fractions import Fraction
 import numpy as np
 from flint import arb
 
+from quasistatic_ref import StepInfeasible, solve_step
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
-from tests.made import step_text
+from tests.made import infeasible_text, solution_text, step_text
 from tests.oracles.rational_kkt import exact, fractions, on_rows, solution
 from validation import check_solution as checker
 
@@ -28,25 +29,34 @@ ROUNDING = 1 + Fraction(1, 10**30)
 """The optimum in the ellipsoid is known to 40 digits here."""
 
 
+def solution_file(step, solver=None, certify="full"):
+    """The file of a step's solution, or of the proof that it has none."""
+    try:
+        return solution_text(solve_step(step, solver, certify=certify))
+    except StepInfeasible as proof:
+        return infeasible_text(step, proof.farkas.exact)
+
+
 def record_of(step):
     """What the checker reads of a step's file."""
     return checker.step_read(json.loads(step_text(step)))
 
 
-def problem(record):
-    """H, g, A and b of what the checker reads, as arrays of fractions."""
-    H, g, A, b, _ = checker.problem(record)
-    n_v = len(g)
-    shapes = (n_v, n_v), n_v, (len(b), n_v), len(b)
-    both = zip((H, g, A, b), shapes, strict=True)
-    return tuple(np.array(part, dtype=object).reshape(shape) for part, shape in both)
+def refuted(step, text):
+    """The claims of a solution file that the checker refutes."""
+    claims = checker.verdicts(record_of(step), checker.solution_read(json.loads(text)))
+    return [claim for claim, holds in claims if not holds]
 
 
 def program(step):
     """H, g, A and b, without rounding."""
     if step.cone != "ellipsoid":
-        return problem(record_of(step))
-    H, g, A, b = problem(record_of(step.replace(cone="frictionless")))
+        H, g, A, b, _ = checker.problem(record_of(step))
+        n_v = len(g)
+        shapes = (n_v, n_v), n_v, (len(b), n_v), len(b)
+        both = zip((H, g, A, b), shapes, strict=True)
+        return tuple(np.array(part, dtype=object).reshape(shape) for part, shape in both)
+    H, g, A, b = program(step.replace(cone="frictionless"))
     c = step.contacts
     rows = [A[c.n_c :]]
     for j in reversed(range(c.n_c)):
@@ -75,69 +85,56 @@ def truth_of(step, good):
     kind = good["certificate"]["kind"] if good["status"] == "optimal" else "infeasible"
     if step.cone == "ellipsoid" and kind == "exact":
         kind += " in the ellipsoid"
-    known = ("exact in the ellipsoid", "enclosure")
-    judged = Judge(step, good) if kind in known else None
+    free = MAY_CHANGE.get(kind, ())
+    in_ellipsoid = near_optimum(step, good["certificate"]) if "lam" in free else None
+
+    def fixed(record):
+        """A record without what may change."""
+        kept = {k: v for k, v in record.items() if k not in free}
+        if "certificate" in kept:
+            kept["certificate"] = {k: v for k, v in kept["certificate"].items() if k not in free}
+        return kept
 
     def holds(forged):
         try:
-            if _fixed_fields(forged, kind) != _fixed_fields(good, kind):
+            if fixed(forged) != fixed(good):
                 return False
-            return _holds(forged)
+            if in_ellipsoid is None:
+                return kind != "infeasible" or not refuted(step, json.dumps(forged))
+            return forged["wrench"] == wrenches(step, forged["lam"]) and in_ellipsoid(forged)
         except (ArithmeticError, LookupError, TypeError, ValueError, AttributeError):
             return False
-
-    def _holds(forged):
-        if kind == "infeasible":
-            return proof(step, forged["farkas"])
-        if judged is None or forged["wrench"] != wrenches(step, forged["lam"]):
-            return judged is None
-        claims = forged["certificate"]
-        bound = Fraction(claims.get("error_bound", 0))
-        near = judged.off(forged) <= bound**2 * ROUNDING and bound <= Fraction(1e-13)
-        held = judged.gap(forged) <= Fraction(claims["gap"]) * ROUNDING <= judged.rounding
-        return (near or kind != "enclosure") and held and _inside(step, judged.lam(forged))
 
     return holds
 
 
-class Judge:
-    """The optimum of a step in the ellipsoid, and how far answers are from it.
+def near_optimum(step, true):
+    """Whether claims of a record hold in the ellipsoid, where those of a certificate are true.
 
-    Parameters
-    ----------
-    step : StepData
-    good : object
-        A solution file of it that tells the truth.
+    Impulses are in their cones, and the gap f(x*) - d(lam) [N m s] and the error of delta_q are
+    within what is claimed.
     """
+    H, g, _, _ = of = program(step)
+    if true["kind"] == "enclosure":
+        best = exact(fractions(point(checked_pair(step, arb(2) ** -280, 1536))))
+    else:  # every loaded contact sticks
+        best, _ = on_rows(of, [4 * j + i for j, i in true["active"]])
+    free = g @ solution(H, g)
+    rounding = Fraction(1e-9) * (free + best @ H @ best) / 2 * ROUNDING
 
-    def __init__(self, step, good):
-        self.program = program(step)
-        H, g, _, _ = self.program
-        self.free = g @ solution(H, g)
-        self.x = self._optimum(step, good["certificate"])
-        taken = self.x @ H @ self.x
-        self.rounding = Fraction(1e-9) * (self.free + taken) / 2 * ROUNDING
+    def holds(record):
+        claims = record["certificate"]
+        lam = exact([v for part in record["lam"] for v in part] + record["lam_extra"])
+        if not gap(of, best, lam) <= Fraction(claims["gap"]) * ROUNDING <= rounding:
+            return False
+        if true["kind"] == "enclosure":
+            bound = Fraction(claims["error_bound"])
+            off = exact(record["delta_q"]) - best
+            if off @ H @ off > bound**2 * ROUNDING * free or bound > Fraction(1e-13):
+                return False
+        return inside(step, lam)
 
-    def _optimum(self, step, claims):
-        if claims["kind"] == "enclosure":
-            found = checked_pair(step, arb(2) ** -280, 1536)
-            assert found is not None
-            return exact(fractions(point(found)))
-        working = [4 * j + i for j, i in claims["active"]]  # where every loaded contact sticks
-        return on_rows(self.program, working)[0]
-
-    def lam(self, record):
-        """All multipliers of a record, the user's own rows last."""
-        return exact([v for part in record["lam"] for v in part] + record["lam_extra"])
-
-    def off(self, record):
-        """The square of the error of delta_q."""
-        away = exact(record["delta_q"]) - self.x
-        return away @ self.program[0] @ away / self.free
-
-    def gap(self, record):
-        """f(x*) - d(lam) [N m s]."""
-        return gap(self.program, self.x, self.lam(record))
+    return holds
 
 
 def gap(of, x, lam):
@@ -147,27 +144,12 @@ def gap(of, x, lam):
     return left @ solution(H, left) / 2 + lam @ (A @ x - b)
 
 
-def proof(step, y):
-    """Whether y, fractions as text, proves that a step has no solution."""
-    _, _, A, b, _ = checker.problem(record_of(step))
-    return checker.infeasible(A, b, list(y))
-
-
-def _fixed_fields(record, kind):
-    """A record without what may change."""
-    free = MAY_CHANGE.get(kind, ())
-    kept = {k: v for k, v in record.items() if k not in free}
-    if "certificate" in kept:
-        kept["certificate"] = {k: v for k, v in kept["certificate"].items() if k not in free}
-    return kept
-
-
-def _inside(step, lam):
+def inside(step, lam):
     """Whether impulses (n, d1, d2, spin) are inside of their cones."""
-    for j, mu in enumerate(exact(step.contacts.mu)):
-        f_n, *f = lam[4 * j : 4 * j + 4]
+    own = 4 * step.contacts.n_c
+    for mu, (f_n, *f) in zip(exact(step.contacts.mu), lam[:own].reshape(-1, 4), strict=True):
         if any(v and not m for m, v in zip(mu, f, strict=True)):
             return False
         if f_n < 0 or f_n**2 < sum((v / m) ** 2 for m, v in zip(mu, f, strict=True) if m):
             return False
-    return all(v >= 0 for v in lam[4 * step.contacts.n_c :])
+    return all(v >= 0 for v in lam[own:])
