@@ -2,12 +2,12 @@
 
 from quasistatic_ref.optional.doctor.texts import NAMES, NOTES
 from tests.meta.remedies import assert_alike
-from tests.optional.doctor.case_scenes import ROWS
 from tests.optional.doctor.mistake_scenes import GRAVE, mistakes
+from tests.optional.rows import CASES
 
 
 def test_each_finding_of_the_page_has_a_scene():
-    of_rows = {name for case in ROWS for name in case["hand"]}
+    of_rows = {name for case in CASES for name in case["hand"]}
     of_mistakes = {name for one in mistakes() for name in one["finding"]}
     assert_alike(
         GRAVE,
@@ -27,7 +27,7 @@ def test_each_note_has_a_scene_that_only_just_lacks_it():
     assert notes == NOTES
     assert_alike(
         notes,
-        {case.get("lacks") for case in ROWS},
+        {case.get("lacks") for case in CASES},
         'No scene only just lacks "{}": add one with lacks = "{}" to '
         "tests/optional/doctor/cases/findings.toml",
     )
@@ -37,7 +37,7 @@ def test_each_finding_ends_where_its_remedy_is_applied():
     """By `after` of a case, or by a mistake that is undone."""
     ended = {
         name
-        for case in ROWS
+        for case in CASES
         for name, hand in case["hand"].items()
         if "after" in case and (len(case["hand"]) == 1 or hand.get("remedy") in case["after"])
     }

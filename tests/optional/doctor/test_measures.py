@@ -1,8 +1,5 @@
 """What happened in a run: its numbers by hand."""
 
-import tomllib
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -15,11 +12,11 @@ from quasistatic_ref import (
 from quasistatic_ref.optional.doctor.did.lines import in_words, lines, pair_rows
 from quasistatic_ref.optional.doctor.did.numbers import by_name, numbers_of, resolved, rounding_of
 from tests.closeness import assert_relative
-from tests.optional.doctor.case_scenes import made as made_of_case
+from tests.optional.rows import made as made_of_case
+from tests.optional.rows import params, rows_of
 from tests.optional.words import driven, slides
 from tests.scenes import scene
 
-ROWS = tomllib.loads(Path(__file__).with_name("numbers.toml").read_text("utf-8"))["row"]
 PAD = '<box size="0.02 0.02 0.02"/>'
 HIGH, DOWN, ALONG = 5.5e-3, 1e-2, 5e-3
 """Of a pad above the floor; how far its targets then go down, and along it [m]."""
@@ -85,7 +82,7 @@ def test_a_shape_that_is_not_of_a_pair_is_answered_by_the_pairs(made):
         run.pair_forces()["nothing"]
 
 
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: row["what"])
+@pytest.mark.parametrize("row", params(rows_of("doctor/numbers.toml")))
 def test_numbers_are_those_by_hand(row):
     scenario = made_of_case(row)
     said = by_name(numbers_of(scenario.run(progress=False, findings=False), scenario))
