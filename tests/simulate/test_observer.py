@@ -5,7 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, InputError, Observer, Recorder, RunFailed, load_scenario
+from quasistatic_ref import (
+    Extension,
+    Extra,
+    InputError,
+    Observer,
+    Recorder,
+    RunFailed,
+    load_scenario,
+    rollout,
+)
 from quasistatic_ref.simulate.recorder import PACKED
 from tests.cases import cases
 
@@ -138,17 +147,13 @@ def test_an_observer_that_fails_in_a_block_leaves_all_steps(note, says):
 
 
 def test_rows_of_an_extension_that_change_are_refused(scenario):
-    simulator = scenario.simulator()
-    q = scenario.system.q_start
-    result = simulator.step(q, np.zeros(0))
-    limits = Extra(("ceiling", "wall"), np.zeros((2, 6)), np.zeros(2))
-    other = replace(result, step=result.step.replace(extra=limits))
-    recorder = Recorder(simulator, q)
-    recorder.add(np.zeros(0), result)
+    limits = Extra(("ceiling", "wall"), np.eye(6)[:2], [-1.0, -1.0])
+    extensions = iter([Extension(), Extension(rows=limits)])
+    simulator = scenario.simulator(lambda q: next(extensions))
     says = "extension: has ceiling in step 1, where the step before has no row; give the same rows"
-    with pytest.raises(InputError, match=says):
-        recorder.add(np.zeros(0), other)
-    assert len(recorder.trajectory()) == 1
+    with pytest.raises(RunFailed, match=says) as caught:
+        rollout(simulator, scenario.system.q_start, [], 2)
+    assert caught.value.trajectory.steps == 1
 
 
 def test_a_recorder_of_one_s_own_knows_the_waypoints_of_its_targets():

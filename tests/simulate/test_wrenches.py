@@ -28,13 +28,6 @@ def run(scenario):
     return done
 
 
-@pytest.fixture(scope="module")
-def pinch():
-    """Two fingers on a bar: a body of three links, whose fingers are alpha."""
-    scenario = load_scenario("two_finger_pinch", steps=10, fast=True)
-    return scenario, scenario.run()
-
-
 def test_a_wrench_does_to_the_coordinates_what_the_rows_did(scenario, run):
     """J' w = A' lam / h: the ball is beta of the floor and of the plate, the plate is alpha."""
     system = scenario.system
@@ -112,11 +105,9 @@ def test_a_trajectory_from_a_file_or_a_pickle_is_given_its_scene(scenario, run, 
     assert copy.copy(run)["q"] is run["q"]
 
 
-def test_other_names_and_scenes_are_refused(run, pinch, tmp_path):
+def test_other_names_and_scenes_are_refused(run, tmp_path):
     with pytest.raises(ModelError, match="link: is not a link; did you mean 'ball'"):
         run.wrench_on("bal")
-    with pytest.raises(InputError, match="scene: must be that of the steps"):
-        run.wrench_on("held", pinch[0])
-    swing = load_scenario(written_scenario(tmp_path, SWING), fast=True)
-    with pytest.raises(InputError, match="scene: must be that of the steps"):
-        run.wrench_on("post", swing)
+    for body, other in (("held", "two_finger_pinch"), ("post", written_scenario(tmp_path, SWING))):
+        with pytest.raises(InputError, match="scene: must be that of the steps"):
+            run.wrench_on(body, load_scenario(other))

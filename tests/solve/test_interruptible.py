@@ -5,13 +5,12 @@ import signal
 import threading
 import time
 
-import cvxpy as cp
-import numpy as np
 import pytest
 
-from quasistatic_ref import StandardForm
+from quasistatic_ref import StepProblem, standard_form
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.step_problem import cvxpy_reply
+from tests.helpers import random_step
 
 ENDLESS = {
     "osqp": {"eps_abs": 1e-18, "eps_rel": 1e-18, "max_iter": 10**8, "time_limit": 60.0},
@@ -20,27 +19,8 @@ ENDLESS = {
 """Options with which a solver does not end before its limit of time."""
 
 
-@pytest.fixture
-def form(rng):
-    """A program of 40 unknowns and 150 rows."""
-    return StandardForm(np.eye(40), rng.normal(size=40), rng.normal(size=(150, 40)), -np.ones(150))
-
-
-class Program:
-    """A form as a CVXPY problem."""
-
-    def __init__(self, form):
-        self.x = cp.Variable(len(form.g))
-        cost = cp.Minimize(cp.sum_squares(self.x) / 2 - form.g @ self.x)
-        self.problem = cp.Problem(cost, [form.A @ self.x >= form.b])
-
-    def primal(self):
-        """The unknowns of the last solve."""
-        return self.x.value
-
-    def dual(self):
-        """Its multipliers."""
-        return self.problem.constraints[0].dual_value
+STEP = random_step(0, 20, 20, (6,) * 25)
+"""40 unknowns and 150 rows."""
 
 
 @pytest.fixture
@@ -60,18 +40,18 @@ def interrupted():
 
 
 @pytest.mark.parametrize("name", ENDLESS)
-def test_an_interrupt_ends_a_solve_through_cvxpy(form, interrupted, name):
-    program = Program(form)
-    cvxpy_reply(program, name, {})  # compiled here, so that the signal comes during the solve
+def test_an_interrupt_ends_a_solve_through_cvxpy(interrupted, name):
+    page = StepProblem(STEP)
+    cvxpy_reply(page, name, {})  # compiled here, so that the signal comes during the solve
     interrupted()
     begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
-        cvxpy_reply(program, name, ENDLESS[name])
+        cvxpy_reply(page, name, ENDLESS[name])
     assert time.monotonic() - begin < 50.0
 
 
 @pytest.mark.parametrize("name", ENDLESS)
-def test_an_interrupt_ends_a_solve_through_qpsolvers(form, interrupted, name):
+def test_an_interrupt_ends_a_solve_through_qpsolvers(interrupted, name):
     interrupted()
     with pytest.raises(KeyboardInterrupt):
-        qpsolvers_reply(form, name, ENDLESS[name])
+        qpsolvers_reply(standard_form(STEP), name, ENDLESS[name])

@@ -4,19 +4,23 @@ import pytest
 
 from quasistatic_ref.optional.compiled import build, library
 
-NO_COMPILERS = {
-    "gcc '": "$CC cannot be read as a command: No closing quotation",
-    "/nowhere/cc": "/nowhere/cc cannot be run: No such file or directory",
-    "false": "false could not compile it: exit status 1",
-    r"""sh -c 'printf "\377 an error\n" >&2; exit 1'""": "sh could not compile it: \ufffd an error",
-    "true": "true could not compile it: exit status 0",
+AN_ERROR = r"""sh -c 'printf "\377 an error\n" >&2; exit 1'"""
+REASONS = {
+    "$CC cannot be read as a command: No closing quotation": {"CC": "gcc '"},
+    "/nowhere/cc cannot be run: No such file or directory": {"CC": "/nowhere/cc"},
+    "false could not compile it: exit status 1": {"CC": "false"},
+    "sh could not compile it: \ufffd an error": {"CC": AN_ERROR},
+    "true could not compile it: exit status 0": {"CC": "true"},
+    "there was no C compiler, cc or $CC": {"PATH": "/nowhere"},
+    "QUASISTATIC_REF_COMPILED was 0": {build.VARIABLE: "0"},
 }
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """A folder in which libraries are made and sought in the place of the package's."""
-    monkeypatch.delenv(build.VARIABLE, raising=False)
+    for name in ("CC", build.VARIABLE):
+        monkeypatch.delenv(name, raising=False)
     for module in (build, library):
         monkeypatch.setattr(module, "LIBRARY", tmp_path / "compiled.so")
         monkeypatch.setattr(module, "PROBLEM", tmp_path / "not_compiled.txt")
@@ -25,27 +29,15 @@ def folder(tmp_path, monkeypatch):
     library._loaded.cache_clear()
 
 
-@pytest.mark.parametrize(("command", "reason"), NO_COMPILERS.items(), ids=NO_COMPILERS.values())
-def test_a_compiler_that_fails_leaves_the_reason(folder, monkeypatch, command, reason):
-    monkeypatch.setenv("CC", command)
-    assert build.build() == folder / "not_compiled.txt"
+@pytest.mark.parametrize("reason", REASONS)
+def test_what_is_not_compiled_leaves_the_reason(folder, reason):
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in REASONS[reason].items():
+            patch.setenv(name, value)
+        assert build.build() == folder / "not_compiled.txt"
     assert [file.name for file in folder.iterdir()] == ["not_compiled.txt"]
     when = "it was not compiled when the package was installed: "
     assert library.missing() == when + reason
-
-
-def test_without_a_compiler_the_reason_says_so(folder, monkeypatch):
-    monkeypatch.delenv("CC", raising=False)
-    monkeypatch.setenv("PATH", str(folder))
-    build.build()
-    assert library.missing().endswith("there was no C compiler, cc or $CC")
-
-
-def test_a_variable_asks_for_none(folder, monkeypatch):
-    monkeypatch.setenv(build.VARIABLE, "0")
-    assert build.build() == folder / "not_compiled.txt"
-    monkeypatch.delenv(build.VARIABLE)
-    assert library.missing().endswith("installed: QUASISTATIC_REF_COMPILED was 0")
 
 
 @pytest.mark.extra("compiled")

@@ -1,8 +1,6 @@
 """When compiled functions stand in the place of NumPy's, and when they do not."""
 
 import os
-import subprocess
-import sys
 from inspect import unwrap
 
 import pytest
@@ -14,6 +12,7 @@ from quasistatic_ref.model.sums import Sums
 from quasistatic_ref.optional.compiled import leaves
 from quasistatic_ref.solve.units import step_sizes
 from quasistatic_ref.step.standard_form import contact_inequalities
+from tests.processes import python
 
 pytestmark = pytest.mark.extra("compiled")
 
@@ -29,6 +28,10 @@ FUNCTIONS = [
         step_sizes,
     )
 ]
+
+
+def ball():
+    return System([Body.of_shape("ball", Sphere(0.05), mass=0.3)])
 
 
 @pytest.mark.parametrize("function", FUNCTIONS, ids=lambda function: function.__qualname__)
@@ -47,7 +50,7 @@ def test_a_leaf_with_other_bits_is_left_out(monkeypatch, capfd):
 
     monkeypatch.setattr(leaves, "leaf", lambda function: (wrong, trials))
     leaves.is_right.cache_clear()
-    system = System([Body.of_shape("ball", Sphere(0.05), mass=0.3)])
+    system = ball()
     assert system.integrate(system.q_start, [0.1, 0, 0, 0, 0, 0]).tolist()[0] == 0.1
     assert capfd.readouterr().err == "compiled code is left out: Sums.plus has other bits\n"
     leaves.is_right.cache_clear()
@@ -60,12 +63,8 @@ def test_all_functions_are_those_that_the_core_names():
 @pytest.mark.parametrize("value", ["0", "1"])
 def test_a_variable_of_the_environment_turns_all_off(value):
     code = (
-        "import quasistatic_ref as qr\n"
-        "s = qr.System([qr.Body.of_shape('b', qr.Sphere(0.05), mass=0.3)]).sums\n"
-        "print(hasattr(s.plus, 'func'))"  # a partial: NumPy's
+        "from tests.optional.compiled.test_leaves import ball\n"
+        "print(hasattr(ball().sums.plus, 'func'))"  # a partial: NumPy's
     )
-    environment = os.environ | {"QUASISTATIC_REF_COMPILED": value}
-    done = subprocess.run(
-        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
-    )
+    done = python("-c", code, env=os.environ | {"QUASISTATIC_REF_COMPILED": value})
     assert done.stdout.split() == [str(value == "0")]
