@@ -1,7 +1,5 @@
 """The rule for positive definite matrices, against exact pivots in fractions."""
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 from scipy.linalg import block_diag
@@ -12,7 +10,7 @@ from quasistatic_ref.numbers.pivots import DEFINITE, MANY_ROWS, positive_pivots
 from tests.closeness import assert_relative
 from tests.made import no_contacts
 from tests.oracles.random_steps import nearly_singular
-from tests.oracles.rational_kkt import exact
+from validation import check_solution as checker
 
 LOWER = np.array([[1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [1.0, -1000.0, 1.0]])
 PIVOTS = 3 * np.array([1.0, 2.0**-20, 2.0**-44])
@@ -28,17 +26,8 @@ def with_stiffness(K_q, tau_a, h=1.0):
 
 
 def positive_definite(S):
-    """Whether all pivots are above their share of the diagonal, in fractions."""
-    rest = exact(S)
-    diagonal = [row[i] for i, row in enumerate(rest)]
-    for k, entry in enumerate(diagonal):
-        pivot = rest[k]
-        if pivot[k] <= 0 or pivot[k] <= Fraction(1e-14) * entry:
-            return False
-        for i in range(k + 1, len(rest)):
-            factor = rest[i][k] / pivot[k]
-            rest[i] = [v - factor * w for v, w in zip(rest[i], pivot, strict=True)]
-    return True
+    """Whether the checker for sceptics, in fractions, takes a matrix."""
+    return checker.definite(checker.fractions(S.tolist()))
 
 
 def test_the_rule_is_that_of_exact_pivots():

@@ -1,7 +1,7 @@
 """Boxes on each other, and what their contacts bear: weights, and the force of a spring."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,8 +12,7 @@ SIDE = 0.1
 """Of a box [m]."""
 
 
-@dataclass(frozen=True)
-class Loaded:
+class Loaded(NamedTuple):
     """A step in which everything stands, and what contacts bear.
 
     Parameters
@@ -52,36 +51,30 @@ def loaded_pile(
         The unit of length in which the step is written [m].
     """
     n_a = 0 if spring is None else 1
+    n_u = len(masses)
+    levels = n_u + n_a
     side = SIDE / unit
     corners = side / 2 * np.array([[x, y, 0.0] for x in (-1, 1) for y in (-1, 1)])
     up = np.array([0.0, 0.0, side / 2])
-    at_bottom, at_top = (point_jacobian(corners + z, [0.0, 0.0, 1.0]) for z in (-up, up))
-    levels = len(masses) + n_a
-    J = np.zeros((levels, 4, 4, n_a + 6 * len(masses)))
-    for i in range(levels):
-        above, below = (slice(n_a + 6 * k, n_a + 6 * k + 6) for k in (i, i - 1))
-        if i < len(masses):
-            J[i, :, :, above] += at_bottom
-        else:
-            J[i, :, 2, 0] = 1.0
-        if i:
-            J[i, :, :, below] -= at_top
-    M_u = np.zeros((6 * len(masses), 6 * len(masses)))
-    tau_u = np.zeros(6 * len(masses))
-    for i, m in enumerate(masses):
-        block = np.arange(6 * i, 6 * i + 6)
-        M_u[block, block] = m * np.array([1.0, 1.0, 1.0, *[side * side / 6] * 3])
-        tau_u[block[2]] = -m * GRAVITY / unit
-    stiffness = 0.0 if spring is None else spring
+    at_bottom, at_top = (point_jacobian(corners + z, up / up[2]) for z in (-up, up))
+    J = np.zeros((levels, 4, 4, n_a + 6 * n_u))
+    J[n_u:, :, 2, :n_a] = 1.0
+    of_bodies = J[..., n_a:].reshape(levels, 4, 4, n_u, 6)
+    each = np.arange(n_u)
+    of_bodies[each, :, :, each] = at_bottom
+    below = np.arange(levels - 1)
+    of_bodies[below + 1, :, :, below] = -at_top
+    J[..., n_a:] = of_bodies.reshape(levels, 4, 4, 6 * n_u)
+    stiffness = spring or 0.0
     step = StepData(
         h=h,
         K_q=stiffness * np.eye(n_a),
-        M_u=M_u,
+        M_u=np.kron(np.diag(masses), np.diag([1.0] * 3 + [side * side / 6] * 3)),
         tau_a=np.zeros(n_a),
-        tau_u=tau_u,
+        tau_u=np.kron(masses, -GRAVITY / unit * np.eye(6)[2]),
         delta_q_bar_a=np.full(n_a, -press / unit / (stiffness or 1.0)),
         contacts=contacts_of(
-            0.0, np.tile(np.eye(3), (4 * levels, 1, 1)), J.reshape(-1, 4, J.shape[-1]), 0.5
+            0.0, np.tile(np.eye(3), (4 * levels, 1, 1)), J.reshape(4 * levels, 4, -1), 0.5
         ),
     )
     weights = GRAVITY * np.cumsum([*masses][::-1])[::-1]

@@ -56,39 +56,21 @@ def on_rows(of, working):
     return both[: len(g)], both[len(g) :]
 
 
-def refutation(H, g, A, b, x, net, slack, lam):
+def refutation(H, g, A, b, lam, **claims):
     """Why numbers in float64 are not the correctly rounded answer; None if they are.
 
-    `lam` is read for which rows bear.
+    `lam` is read for which rows bear. Claims are x, net and slack.
     """
     W = np.flatnonzero(lam).tolist()
     of = exact(H), exact(g), exact(A), exact(b)
-    exact_x, exact_lam = on_rows(of, W)
-    if min(exact_lam, default=1) <= 0:
+    x, on_working = on_rows(of, W)
+    if min(on_working, default=1) <= 0:
         return "a multiplier is not positive"
-    exact_slack = of[2] @ exact_x - of[3]
-    if min(exact_slack, default=0) < 0:
+    slack = of[2] @ x - of[3]
+    if min(slack, default=0) < 0:
         return "a row is violated"
-    exact_net = exact_lam @ of[2][W]
-    pairs = {"x": (exact_x, x), "net": (exact_net, net), "slack": (exact_slack, slack),
-             "lam": (exact_lam, lam[W])}  # fmt: skip
-    for name, (value, said) in pairs.items():
-        if [float(v) for v in value] != said.tolist():
+    right = {"x": x, "net": on_working @ of[2][W], "slack": slack, "lam": on_working}
+    for name, said in {**claims, "lam": lam[W]}.items():
+        if [float(v) for v in right[name]] != said.tolist():
             return f"{name} is not rounded correctly"
-    return None
-
-
-def farkas_refutation(A, b, y):
-    """Why y, fractions by row as text, does not prove that A x >= b has no solution; else None.
-
-    It does if y > 0, A'y = 0 and b'y > 0: then 0 = (A'y)'x >= b'y > 0 for any x.
-    """
-    rows = [int(i) for i in y]
-    weights = exact(list(y.values()))
-    if min(weights) <= 0:
-        return "a weight is not positive"
-    if any(weights @ exact(A[rows])):
-        return "A'y is not zero"
-    if weights @ exact(b[rows]) <= 0:
-        return "b'y is not positive"
     return None

@@ -17,8 +17,10 @@ from quasistatic_ref.lab.folders import contact_qp_folder
 from quasistatic_ref.lab.study.problems.checking import refutation
 from quasistatic_ref.lab.study.problems.folder import FACTS, NUMBERS, manifest, set_read
 from quasistatic_ref.lab.study.problems.problem import EXACT
-from tests.oracles import rational_kkt
+from tests.oracles.rational_kkt import exact
+from tests.oracles.rational_kkt import refutation as refuted_answer
 from tests.tolerances import ROUNDING
+from validation import check_solution as checker
 
 FOLDER = contact_qp_folder()
 PROVED = [name for name in manifest(FOLDER)["families"] if name != "sparse"]
@@ -123,8 +125,10 @@ def readme_reader():
 
 def refuted_in_fractions(facts, numbers):
     """Why an answer is wrong; None if it is proved in Python's integers."""
-    A = numbers["A"].toarray()
+    A, b = numbers["A"].toarray(), numbers["b"]
     if facts["farkas"]:
-        return rational_kkt.farkas_refutation(A, numbers["b"], facts["farkas"])
-    answer = (numbers[name] for name in ("x", "net", "slack", "lam"))
-    return rational_kkt.refutation(numbers["H"].toarray(), numbers["g"], A, numbers["b"], *answer)
+        y = [facts["farkas"].get(str(i), "0") for i in range(len(b))]
+        proved = checker.infeasible(exact(A).tolist(), exact(b).tolist(), y)
+        return None if proved else "its rows have a solution"
+    claims = {name: numbers[name] for name in ("lam", "x", "net", "slack")}
+    return refuted_answer(numbers["H"].toarray(), numbers["g"], A, b, **claims)

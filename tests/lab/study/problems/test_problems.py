@@ -14,5 +14,5 @@ def test_steps_are_evenly_spaced_and_their_answers_are_proved_by_other_arithmeti
     assert [name.rpartition("/")[0] for name in steps[3:]] == ["scenarios/block_push"] * 2
     for one in made:
         answer = one.answer
-        x = answer.x, answer.net, answer.slack, answer.lam
-        assert refutation(one.form.H, one.g, one.form.A, one.b, *x) is None
+        claims = {"x": answer.x, "net": answer.net, "slack": answer.slack}
+        assert refutation(one.form.H, one.g, one.form.A, one.b, answer.lam, **claims) is None
