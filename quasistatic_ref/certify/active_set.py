@@ -135,7 +135,7 @@ def dual_active_set(
 
 
 def _start(form: ExactForm, warm: Sequence[int], bits: int | None = None) -> Minimiser:
-    """A minimiser with positive multipliers: equations, and any of the warm rows that have them.
+    """The minimiser on equations and warm rows, less the rows whose multipliers are not positive.
 
     In balls of some bits, by default those of the form.
     """
@@ -218,7 +218,7 @@ def _first_to_vanish(minimiser: Minimiser, line: Line) -> int | None:
 
 
 def _difference(minimiser: Minimiser, line: Line, j: int, k: int) -> arb:
-    """Negative where l_j / -u_j < l_k / -u_k, both u being negative."""
+    """A number with the sign of l_j / -u_j - l_k / -u_k, where both u are negative."""
     l_balls = minimiser.balls.y
     u = line.ends
     with working_precision(minimiser.bits):

@@ -443,7 +443,7 @@ def sums(held: Sequence[Sequence[fmpz]], rows: Sequence[Sequence[fmpz]]) -> list
 
 
 def sums_of_halves(form: ExactForm, held: Sequence[int], some: Sequence[int]) -> list[int]:
-    """Those of some rows [a, c] that are sums of rows `held`, each some halves of times: exactly.
+    """Which of some rows [a, c] are exactly sums of rows `held`, times multiples of a half.
 
     Most rows of a face's fourth corner are. Float64 guesses how many halves, so that a row that is
     not named may be such a sum, too.

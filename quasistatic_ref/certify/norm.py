@@ -184,7 +184,7 @@ def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()
 
 
 def _length(moved: float, moved_by: Iterable[float], softest: float) -> float:
-    """The length that errors are divided by, from lengths of the optimum and of single loads."""
+    """The length that errors are divided by: the largest of the optimum's and of single loads'."""
     length = max(moved, *moved_by, UNMOVED * math.sqrt(softest))
     return length if length < math.inf else math.nan
 

@@ -43,10 +43,10 @@ class BearingRows(Protocol):
 
 
 class Start(Protocol):
-    """A function that finds, among some rows, those that bear, and the minimiser on them."""
+    """A function that picks the rows that bear among some, and gives the minimiser on them."""
 
     def __call__(self, form: ExactForm, warm: Sequence[int], bits: int) -> Minimiser:
-        """The minimiser on those that bear, in balls of some bits."""
+        """The minimiser on the rows among `warm` that bear, in balls of `bits` bits."""
 
 
 def refined(minimiser: Minimiser, bearing: BearingRows, start: Start) -> Minimiser:

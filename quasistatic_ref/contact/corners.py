@@ -34,7 +34,7 @@ AROUND = np.column_stack([np.cos(EIGHTHS), np.sin(EIGHTHS)])
 
 
 def least_distances(shape: Shape, x: Array, n: Array, near: float) -> Array:
-    """Lower bounds of the distances of corners as candidates, infinite of those that are none.
+    """Lower bounds of the distances of corners; infinity for a corner that is no candidate.
 
     Parameters
     ----------

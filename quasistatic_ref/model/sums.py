@@ -16,7 +16,7 @@ MANY_JOINTS: Final = 12
 
 
 class Sums:
-    """Sums and differences of the entries of some joints, which have the first ones of q.
+    """q (+) delta_q and q_next (-) q of some joints, whose entries stand first in q.
 
     Parameters
     ----------

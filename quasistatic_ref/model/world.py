@@ -215,7 +215,7 @@ def _prefixed(model: pin.Model, name: str) -> pin.Model:
 
 
 def _anchor(body: Body) -> pin.SE3:
-    """Pose of a body's model in the world, where q does not hold it."""
+    """Pose in the world of a body's model; zero along coordinates that q has."""
     xyz = np.array(body.xyz)
     if body.base == FIXED:
         return pin.SE3(rotation(np.asarray(body.rpy)), xyz)

@@ -80,7 +80,7 @@ class BodyEntry(Plain):
         return {joint.name.removeprefix(prefix): joint for joint in of_body}
 
     def actuated(self, system: System) -> dict[str, Joint]:
-        """The actuated ones of its joints."""
+        """The body's actuated joints, by name."""
         return {name: joint for name, joint in self.joints(system).items() if joint.actuated}
 
 

@@ -96,7 +96,7 @@ def _by_step(answers: Mapping[int, Standings]) -> Iterator[list[tuple[int, Stand
 
 
 def over_steps(rows: Sequence[tuple[int, Standing]]) -> dict[str, Any]:
-    """One row of a body from those of the steps that were asked.
+    """One row for a body, made of its rows in all steps that were asked.
 
     Where it lacks something in any step it does not stand: since the first of these, and as far as
     it lacks most.

@@ -45,7 +45,10 @@ def point_on(shape, p):
 
 
 def point_on_ellipsoid(a, p):
-    """The root s of sum (a_i p_i / (a_i^2 - a_min^2 + s))^2 = 1, s >= 0, by bisection."""
+    """Signed distance of a point p from an ellipsoid of half-axes a, and the normal there.
+
+    By bisection for the root s >= 0 of sum (a_i p_i / (a_i^2 - a_min^2 + s))^2 = 1.
+    """
     above = a * a - a.min() ** 2
     least = int(np.argmin(a))
     low = 0.0

@@ -15,7 +15,7 @@ EPS = 1e-5
 
 
 def case_with_tau(case):
-    """The case with its wrenches as the generalised force that they are at its q."""
+    """The case, its wrenches replaced by their generalised force at q."""
     at = kinematics(case["mechanism"], np.array(case["q"]))
     _, tau = loads({**case, "gravity": NONE}, at)
     return {**case, "wrenches": [], "tau": tau}

@@ -59,7 +59,7 @@ def known_to(door: str) -> list[str]:
 
 
 def installed_here(door: str) -> tuple[str, ...]:
-    """The installed ones of the solvers that an interface offers."""
+    """Names of the solvers of an interface that are installed here."""
     others = [name for name in known_to(door) if name not in BACKENDS and find_spec(name)]
     return (*installed(door), *others)
 

@@ -175,7 +175,7 @@ def _rims(on_a: Curves, on_b: Curves, n: Array, least: float) -> Crossings:
 
 
 def _numbered(alpha: Array, beta: Array, number: Indices, good: Mask) -> Crossings:
-    """The good ones of crossings (2, N), two for each number."""
+    """The crossings, of N pairs of two each, that a mask (2, N) calls good, with their numbers."""
     numbers = np.stack([number, number + 1])
     return Crossings(alpha[good], beta[good], numbers[good])
 

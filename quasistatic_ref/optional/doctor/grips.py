@@ -110,7 +110,7 @@ def _stays(run: Run, name: str, on: Mask, slip: float) -> bool:
 
 
 def _missing(run: Run, k: int, name: str, on: Mask, held: Mask) -> Standing | None:
-    """What is missing of a body the way that it slips: by all contacts, or by its grip alone."""
+    """The force that a slipping body lacks along its slip, from all contacts or its grip alone."""
     others = run.of_body(name) & ~held
     for only in [None, ~others] if run.touches[k, others].any() else [None]:
         lacks = _lacking(run, k, name, only)
@@ -120,7 +120,7 @@ def _missing(run: Run, k: int, name: str, on: Mask, held: Mask) -> Standing | No
 
 
 def _lacking(run: Run, k: int, name: str, only: Mask | None) -> Standing | None:
-    """What a body lacks after step k, if anything, by all contacts or some: a free one at once."""
+    """What a body lacks after step k, from all contacts or some; None if it lacks nothing."""
     stands: Callable[..., Standings] = part("stands")
     kept: Callable[..., Array] = part("kept_loads")
     q = run["q"][k + 1]

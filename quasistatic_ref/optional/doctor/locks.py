@@ -73,7 +73,7 @@ def guided(start: Start) -> Iterator[Finding | Undecided]:
 
 
 def _remedy(start: Start, first: str, joints: str, tables: list[str]) -> str:
-    """What lets joints move, the first of which is a joint of the system."""
+    """The remedy of a lock: what to change so that the joints can move."""
     names = " or ".join(tables)
     joint = start.system.joint(first)
     of_mjcf = start.system.of_mjcf

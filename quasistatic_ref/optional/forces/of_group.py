@@ -90,7 +90,7 @@ def group_compliance(step: StepData) -> float:
 
 
 def counted(b: Array, largest: Array) -> Array:
-    """Mobilities b, shape (k, 3) [-]; those far below the largest count as large ones.
+    """Mobilities b, shape (k, 3) [-], so changed that one near zero counts as a large one.
 
     Below, small^2 / b, which grows to the largest again; shape (k, 3). `largest` has shape (k, 1),
     or () for one of all [-].
@@ -100,7 +100,7 @@ def counted(b: Array, largest: Array) -> Array:
 
 
 def sides(step: StepData) -> list[Indices]:
-    """Coordinates of what moves by itself: all actuated ones, and each other body or mechanism.
+    """Coordinates of each side of a contact: all actuated ones, and each other body or mechanism.
 
     Two coordinates of a mechanism are coupled by M_u, or they move the same contacts, as the six of
     a free body do. Two bodies that touch each other alone count as one.

@@ -136,7 +136,7 @@ def moving(movers: Sequence[Mover], v: Array) -> Iterator[Named]:
 
 
 def not_unique(contacts: Sequence[Contact], bodies: Sequence[Body], weight: float) -> Iterator[str]:
-    """Which normal forces of MuJoCo's are others than the exact ones, and balance the loads.
+    """Which contacts have other normal forces in MuJoCo, which balance the loads as well.
 
     `weight` is that of the whole model [N].
     """

@@ -283,7 +283,7 @@ def _proof(program: QuadraticProgram, block: Block, end: Contradiction) -> dict[
 def _unbounded(
     program: QuadraticProgram, blocks: Sequence[Block], endless: Block, end: Endless
 ) -> QPUnbounded:
-    """The proof of one block, at a feasible point of all."""
+    """The proof that a program is unbounded: a direction of one block, at a feasible point."""
     x = [fmpq(0)] * len(program.q)
     for block in blocks:
         point = end.x if block is endless else without_warnings(feasible_point, block)

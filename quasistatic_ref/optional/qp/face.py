@@ -191,7 +191,7 @@ class Face:
         return self._with(X=[*X], d=self.d * factor, Y=Y)
 
     def without(self, rows: Sequence[int]) -> Face:
-        """The face of fewer rows, whose point is the same: the others have no multipliers."""
+        """The face without some rows that have no multiplier; its point is the same."""
         if not rows:
             return self
         Y = {i: v for i, v in self.Y.items() if i not in {*rows}}

@@ -17,7 +17,7 @@ from quasistatic_ref.optional.qp.face import Face, along
 
 
 class LeastNorm:
-    """min |x + N w|^2 on a face, subject to the rows that do not hold it.
+    """min |x + N w|^2 over w: the point of a face nearest to zero that no other row forbids.
 
     Parameters
     ----------

@@ -161,7 +161,7 @@ class Rows:
     exact: Mapping[str, Mapping[int, Fraction]]
 
     def others(self, i: int, columns: Sequence[int]) -> dict[int, Fraction]:
-        """What float64 does not hold of row i, by place in `columns`; its side comes last."""
+        """Exact entries of row i that float64 rounds, by place in `columns`; its side is last."""
         row = self.exact.get(self.names[i], {})
         places = (*columns, self.a.shape[1]) if row else ()
         return {t: row[j] for t, j in enumerate(places) if j in row}

@@ -244,7 +244,7 @@ def _endless(block: Block, convex: Convex, held: Sequence[int]) -> list[fmpq] | 
 def _nearer(
     block: Block, convex: Convex, held: Sequence[int], rows: Sequence[int], centre: Array
 ) -> Iterator[BlockOptimum | None]:
-    """What the rows prove that bear with ever less of |x - x'|^2 added to the cost."""
+    """What bearing rows prove, found with ever less of |x - x'|^2 added to the cost."""
     n, e = block.n, block.equations
     some = [*held, *range(e, block.m)]
     at = {i: t for t, i in enumerate(some)}

@@ -190,7 +190,7 @@ class SlowGroup:
         return slow_step(part or self.part, T, s, self.solvers, self.certify, least)
 
     def _starts(self, first: Slow, last: Slow) -> Array:
-        """What goes with T^2, over T^2, turned round, (n_u,) [m/s^2, rad/s^2]."""
+        """Minus the part of delta_q that grows with T^2, over T^2, (n_u,) [m/s^2, rad/s^2]."""
         return (first.delta_q - last.delta_q)[self.part.n_a :] / (last.T**2 - first.T**2)
 
     def _ways(self, x: Array) -> Array:
@@ -203,7 +203,7 @@ class SlowGroup:
         return self.masses * self._ways(starts)
 
     def _least(self, slow: Slow) -> Array:
-        """What is little on each body [N]: of its own load, or if it has none of what presses."""
+        """A small force for each body [N]: a share of its load, or of what presses on it."""
         pressed = slow.wrench[:, 2] @ self.touches
         loads = np.where(self.loads > self.none, self.loads, pressed)
         return np.maximum(LITTLE * loads, self.none)
@@ -293,7 +293,7 @@ class SlowGroup:
         return pairs[1 + int((off / np.maximum(amounts[1:].max(axis=1), NO_FORCE)).argmin())]
 
     def _one_verdict(self, slow: Slow, starts: Array) -> Indices:
-        """A label of each body, (bodies,): one of those that press without slipping, and move."""
+        """A label for each body, (bodies,): equal for moving bodies that stick to each other."""
         contacts = self.part.contacts
         _, J_1, J_2, *_ = frame_jacobian(contacts, contacts.J)
         slips = np.maximum(np.abs(J_1 @ slow.delta_q), np.abs(J_2 @ slow.delta_q))
@@ -303,7 +303,7 @@ class SlowGroup:
         return components(self.touches[sticks] & (ways > STILL * ways.max()))[0]
 
     def _clamped(self, i: int, steps: list[Slow]) -> Standing:
-        """What a clamp on a body alone would bear: its inertia is made large.
+        """What a clamp that holds one body would bear, found with a large inertia of that body.
 
         It begins where all has landed and given way, by the motion that does not go with T^2.
         """

@@ -111,7 +111,7 @@ class LayerReport:
         return self._named([v.extra for v in self.verdicts], words)
 
     def _named(self, fields: Sequence[tuple[str, ...]], words: str) -> str:
-        """How many answers have such fields, and which; empty if none has."""
+        """How many answers have some of `fields`, and which; empty if none has."""
         names = ", ".join(dict.fromkeys(name for of_one in fields for name in of_one))
         count = f"{sum(map(bool, fields))} of {len(fields)} answers"
         return f"{self.layer}: {count} {words} {names}" if names else ""

@@ -62,7 +62,7 @@ def witness_problem(
 
 
 def each_solid(sides: Sides) -> list[Sides]:
-    """The sides themselves, or those of each point of a cloud."""
+    """Both sides of a pair; for a cloud, one pair of sides for each of its points."""
     for name, (shape, (R, t)) in sides.items():
         if shape["kind"] == "cloud":
             points = np.array(shape["points"]) @ R.T + t

@@ -154,7 +154,7 @@ def _pair(pair: Json, shapes: Json, mine: OwnSystem) -> ContactPair:
 
 
 def wrench_force(case: Json, mine: OwnSystem, q: Array) -> Array:
-    """Generalised force of the wrenches, shape (n_v,); what holds a fixed body is none."""
+    """Generalised force of the wrenches, shape (n_v,); one on a fixed body has no effect."""
     system = mine.system
     force = np.zeros(system.n_v)
     for wrench in case.get("wrenches", []):

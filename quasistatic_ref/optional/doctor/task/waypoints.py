@@ -75,7 +75,7 @@ def still(run: Run) -> Iterator[Finding]:
 
 
 def short(run: Run) -> Iterator[Finding]:
-    """Joints and sprung bases that end far from their targets: a note of those that press.
+    """Joints and sprung bases that end far from their targets; only a note if they press.
 
     What contacts stop is where it is to be, unless it was to push what has not moved.
     """
