@@ -152,7 +152,7 @@ def _checked_sizes(archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
     unpacked = sum(member.file_size for member in members)
     if unpacked > LARGEST_UNPACKED:
         most = LARGEST_UNPACKED / 2**30
-        raise InputError(f"unpacks to more than {most:g} GiB", field="its arrays", value=unpacked)
+        raise InputError(f"unpack to more than {most:g} GiB", field="its arrays", value=unpacked)
     return members
 
 

@@ -105,7 +105,7 @@ CAUSES = {
         {"t": npy(np.array([{}]), pickled=True)},
         f"{NOT_ONE}: t.npy is a pickle, which is never opened",
     ),
-    "a bomb": (bomb, "its arrays: unpacks to more than 1 GiB (got 3221225472)"),
+    "a bomb": (bomb, "its arrays: unpack to more than 1 GiB (got 3221225472)"),
     "an array twice": (twice, "t.npy: is given twice"),
     "a spoilt member of LZMA": (lzma_spoilt, NOT_ONE),
     "a member that begins beyond any file": (far_away, NOT_ONE),

@@ -10,7 +10,7 @@ import numpy as np
 ACTIVE = 1e-14
 """A gradient below this, in a problem scaled to one, is rounding."""
 NOTHING = 1e-7
-"""A residual below this is none: the rows contradict each other. It is 1 / |u| otherwise."""
+"""A residual below this counts as zero: the rows contradict each other. Else it is 1 / |u|."""
 
 
 def least_squares(E, f, limit=1e-15):

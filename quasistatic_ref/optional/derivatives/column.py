@@ -21,7 +21,7 @@ SHARES: Final = (1e-3, 1e-4, 1e-5, 1e-6)
 """Sizes of the differences, of a parameter's own size [-]."""
 
 EQUAL: Final = 1e-6
-"""Difference of two slopes that is none, relative to the larger one [-]: what is left of the third
+"""Relative difference up to which two slopes count as equal [-]: what is left of the third
 derivative, of bodies of a millimetre and more."""
 
 OPEN: Final = 1e-4

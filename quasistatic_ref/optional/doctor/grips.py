@@ -30,7 +30,7 @@ STAYS = 0.1
 AGREES = 0.5
 """Cosine between a slip and what is missing against it from which they agree [-]."""
 LIGHT = 0.01
-"""Force that is none, over a body's weight [-]."""
+"""Share of a body's weight [-] below which a force counts as zero."""
 PRESSES = 1e-3
 """Normal force that grips, over the largest of the run [-]: less is a solver's noise."""
 

@@ -314,7 +314,8 @@ def _pose(where: str, placement: pin.SE3) -> tuple[Array, Array]:
     R, t = np.array(placement.rotation), np.array(placement.translation)
     _check_finite(where, R, t)
     if not np.abs(R.T @ R - np.eye(3)).max() <= ORTHONORMAL or np.linalg.det(R) < 0:
-        raise ModelError("must have a rotation", field=where, value=R.tolist())
+        problem = "must have a rotation R with R'R = 1 and det R = 1"
+        raise ModelError(problem, field=where, value=R.tolist())
     return R, t
 
 

@@ -159,7 +159,7 @@ def exact_ls(
     of_s = fmpq_mat(of_s.nrows() * of_s.ncols(), 1, of_s.entries())
     of_W = None if W is None else fraction_matrix(W, "W")
     if of_s.nrows() != r or (of_W is not None and (of_W.nrows(), of_W.ncols()) != (r, r)):
-        raise InputError(f"must be of {r} residuals, as R says", field="s or W")
+        raise InputError(f"must be of {r} residuals, as many as R has rows", field="s or W")
     weighed = of_R.transpose() if of_W is None else of_R.transpose() * of_W
     P, slope = weighed * of_R, weighed * of_s
     size = (of_s.transpose() * (of_s if of_W is None else of_W * of_s))[0, 0]

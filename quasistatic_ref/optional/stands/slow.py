@@ -49,9 +49,9 @@ SHORTER = 6
 SAME = 0.01
 """Difference of what two pairs of times say is missing [-], up to which they agree."""
 LITTLE = 1e-3
-"""Force that is none, over the load of a body [-]."""
+"""Share of a body's load [-] below which a force counts as zero."""
 ROUNDING = 1e-9
-"""Load that is none, over the weight of a body [-]."""
+"""Share of a body's weight [-] below which a load counts as zero."""
 STRAIGHT = 0.1
 """Motion of a body over its size [-] up to which a step is straight."""
 OWN = 1e-9

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.optional.doctor.frame.run import Run
 
 LIGHT = 1e-3
-"""Force that is none, over the weight of a scene's bodies or its largest load [-]."""
+"""Share of a scene's weight or largest load [-] below which a force counts as zero."""
 
 
 def quotient(over: ArrayLike, under: ArrayLike, none: float = 0.0) -> Array:

@@ -31,9 +31,9 @@ if TYPE_CHECKING:
 NOTED = ("tau", "moved", "momentum", "gives")
 """What of a recorder, which may go, is kept: loads of each step, and what the observer notes."""
 HELD = 1e-9
-"""Change of a target that is none [m, rad, -]."""
+"""Below this a change of a target counts as zero [m, rad, -]."""
 SAME = 1e-6
-"""Change of a load that is none, over the largest of its body [-]."""
+"""Share of a body's largest load [-] below which a change of load counts as zero."""
 
 
 def in_world(quaternions: Array, vectors: Array) -> Array:

@@ -26,7 +26,7 @@ from quasistatic_ref.step.extension import StepExtension
 FARTHEST = 1.0
 """Size that stands for that of a half-space [m]."""
 SHORT = 1e-6
-"""Motion that is none, over the size of the smaller shape of a pair [-]."""
+"""Share of the size of a pair's smaller shape [-] below which a motion counts as zero."""
 SAMPLED = 50_000
 """Points of a cloud, every so manyth, of which its hull is formed for findings, at most."""
 SEARCHED = 200_000

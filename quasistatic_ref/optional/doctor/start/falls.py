@@ -21,7 +21,7 @@ from quasistatic_ref.text.quoting import listed
 ROUNDS = 100
 """Advances until a falling body touches; corners take one, round surfaces some ten."""
 CLOSE = 1e-9
-"""Gap that counts as none [m]."""
+"""Up to this a gap counts as zero [m]."""
 LEVEL = 1e-9
 """Cosine between a fall and a normal up to which the fall goes past a surface [-]."""
 

@@ -95,8 +95,8 @@ def inside(start: Start) -> Iterator[Finding]:
             middle = R[other] @ farthest_points(side).mean(axis=0) + t[other]
             depth = -float(hull.signed_distance((middle - t[link])[None] @ R[link])[0][0])
             if depth > 0:
-                cause = f"the middle of {side.name} is {distance(depth)} inside of the hull of "
-                cause += f"{name}, none of which it touches: what is between the points or shapes "
-                cause += "of a body is empty"
+                cause = f"the middle of {side.name} is {distance(depth)} inside the hull of {name}"
+                cause += f", and {side.name} touches no part of {name}: what is between the points "
+                cause += "or shapes of a body is empty"
                 remedy = f"start {side.name} outside of {name}"
                 yield finding("starts-inside", cause, remedy, side.name, depth_mm=1e3 * depth)

@@ -18,8 +18,8 @@ from quasistatic_ref.step.standard_form import frame_jacobian
 from quasistatic_ref.text.quoting import listed
 
 LAGS: Final = 0.1
-"""Distance of a joint from its last target, over the way that its target went [-], that is none of
-a spring's usual lag."""
+"""Distance of a joint from its last target, over the way that its target went [-], that is more
+than a spring's usual lag."""
 
 STALLED: Final = 0.25
 """Distance of a joint from its last target over the shape that presses [-], of what is to push."""

@@ -15,7 +15,7 @@ from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
 
 ROUGH: Final = 5.0
-"""Friction coefficient above which a number is none [-]: racing tyres have 1.7."""
+"""Above this a number is no friction coefficient [-]: racing tyres have 1.7."""
 TIMES_TOO_MANY = 10
 """Times as many contacts as a pair has candidates [-] that no one means by k."""
 LONGEST = 1.0
