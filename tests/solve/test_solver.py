@@ -20,41 +20,43 @@ from tests.closeness import assert_same
 from tests.helpers import (
     changed,
     error,
-    first_step,
+    planted_step,
     point_on_floor,
     random_step,
+    results_of,
 )
 from tests.made import repeated
 from tests.solvers import BACKENDS, ScaledStep, installed_backends, solver_for
 from tests.tolerances import OPTIMUM
 
+STEP = planted_step(0)[0]
+ROW = Extra(("stop",), np.ones((1, 7)), [-1.0])
 
-def with_mu(step, **mu):
-    return step.replace(contacts=changed(step.contacts, **mu))
+
+def with_half(mu):
+    contacts = STEP.contacts
+    return STEP.replace(contacts=changed(contacts, **{mu: getattr(contacts, mu) / 2}))
 
 
 OTHERS = {
-    "n_a": (lambda s, rng: random_step(rng, n_a=2), "CD"),
-    "n_u": (lambda s, rng: random_step(rng, n_u=5), "CD"),
-    "cone": (lambda s, rng: s.replace(cone="facets-8"), "CDQ"),
-    "contacts.rows": (lambda s, rng: random_step(rng, rows=(4, 6, 6)), "CD"),
-    "extra": (
-        lambda s, rng: s.replace(extra=Extra(("a",), np.ones((1, 7)), [-1.0])), "CD",
-    ),
-    "h": (lambda s, rng: s.replace(h=2 * s.h), "C"),
-    "contacts.mu_v": (lambda s, rng: with_mu(s, mu_v=0.5 * s.contacts.mu_v), "C"),
-    "contacts.mu_omega": (lambda s, rng: with_mu(s, mu_omega=0.5 * s.contacts.mu_omega), "C"),
-}  # fmt: skip
+    "n_a": (random_step(0, n_a=2), "CD"),
+    "n_u": (random_step(0, n_u=5), "CD"),
+    "cone": (STEP.replace(cone="facets-8"), "CDQ"),
+    "contacts.rows": (random_step(0, rows=(4, 6, 6)), "CD"),
+    "extra": (STEP.replace(extra=ROW), "CD"),
+    "h": (STEP.replace(h=2 * STEP.h), "C"),
+    "contacts.mu_v": (with_half("mu_v"), "C"),
+    "contacts.mu_omega": (with_half("mu_omega"), "C"),
+}
 """Steps of another kind, and who cannot take them: (C)vxpy, (D)aqp, (Q)psolvers."""
 
 
 @pytest.mark.parametrize("name", ["piqp", "qpsolvers:piqp", "daqp"])
 @pytest.mark.parametrize("what", OTHERS)
-def test_a_solver_refuses_a_step_that_does_not_fit_and_says_what_differs(what, name, step, rng):
-    solver = solver_for(step, name)
+def test_a_solver_refuses_a_step_that_does_not_fit_and_says_what_differs(what, name):
+    solver = solver_for(STEP, name)
     other, who = OTHERS[what]
-    other = other(step, rng)
-    assert solver.fits(step)
+    assert solver.fits(STEP)
     letter = type(solver).__name__[0]
     refused = letter in who
     assert solver.fits(other) == (not refused)
@@ -68,34 +70,34 @@ def test_a_solver_refuses_a_step_that_does_not_fit_and_says_what_differs(what, n
     else:
         answer = solve_step(other, solver, certify="off").delta_q
         assert error(other, answer, solve_step(other, "none").delta_q) <= OPTIMUM
-    assert solver.fits(step)
+    assert solver.fits(STEP)
 
 
-def test_rows_of_an_extension_count_as_rows_of_the_step(step):
-    floor = Extension(lambda s: [s.delta_q >= -1.0])
-    for name in ("osqp", "daqp"):
-        with pytest.raises(InputError, match="in extra; make"):
-            solve_step(step, solver_for(step, name), extension=floor)
+@pytest.mark.parametrize("name", ["osqp", "daqp"])
+def test_rows_of_an_extension_count_as_rows_of_the_step(name):
+    with pytest.raises(InputError, match="in extra; make"):
+        solve_step(STEP, solver_for(STEP, name), extension=Extension(rows=ROW))
 
 
-def test_no_solver_gives_no_answer_of_its_own(step):
-    none = solver_for(step, "none")
+def test_no_solver_gives_no_answer_of_its_own():
+    none = solver_for(STEP, "none")
     with pytest.raises(BackendError, match="has no answer of its own"):
-        solve_step(step, none, certify="residual")
+        solve_step(STEP, none, certify="residual")
     with pytest.raises(StepNotSolved, match="not called"):
-        none.answer(ScaledStep(step), 1e-9)
+        none.answer(ScaledStep(STEP), 1e-9)
 
 
 @pytest.mark.parametrize(("fast", "interface"), [(False, "cvxpy"), (True, "native")])
 def test_a_simulator_keeps_its_solver_while_steps_fit(fast, interface):
     some = load_scenario("two_finger_pinch", ["solver.certify=off"], fast=fast)
     run = some.simulator()
-    result = first_step(some, run)
+    results = results_of(some, run)
+    step = next(results).step
     first = run.solver
-    run.step(result.q, some.targets(2 * some.h))
+    next(results)
     assert run.solver is first
-    extra = Extra(("stop",), np.ones((1, result.step.n_v)), [-1.0])
-    solution = run.solution(result.step.replace(extra=extra))
+    extra = Extra(("stop",), np.ones((1, step.n_v)), [-1.0])
+    solution = run.solution(step.replace(extra=extra))
     assert run.solver is not first
     assert type(run.solver) is type(first)
     assert solution.statistics.interface == interface
@@ -107,32 +109,31 @@ def test_a_simulator_keeps_its_solver_while_steps_fit(fast, interface):
         ("osqp", "cvxpy"), ("qpsolvers:piqp", "qpsolvers"), ("daqp", "native"), ("none", "none"),
     ],
 )  # fmt: skip
-def test_a_solver_that_was_pickled_or_copied_starts_afresh(name, interface, step):
-    solver = solver_for(step, name)
-    expected = solve_step(step, solver)
+def test_a_solver_that_was_pickled_or_copied_starts_afresh(name, interface):
+    solver = solver_for(STEP, name)
+    expected = solve_step(STEP, solver)
     for again in (pickle.loads(pickle.dumps(solver)), copy.copy(solver)):
         assert type(again) is type(solver)
         assert (again.name, again.interface) == (name, interface)
-        assert again.fits(step)
-        found = solve_step(step, again)
+        assert again.fits(STEP)
+        found = solve_step(STEP, again)
         assert_same(found.delta_q, expected.delta_q)
         assert found.statistics.status == expected.statistics.status
 
 
-def test_a_backend_that_raises_is_set_up_again_for_the_next_step(step, monkeypatch):
-    solver = solver_for(step, "daqp")
-    honest = Workspaces.reply
+def test_a_backend_that_raises_is_set_up_again_for_the_next_step(monkeypatch):
+    solver = solver_for(STEP, "daqp")
 
     def broken(*_):
         raise RuntimeError("out of order")
 
-    monkeypatch.setattr(Workspaces, "reply", broken)
-    with pytest.raises(StepNotSolved, match="the solver failed: out of order") as caught:
-        solve_step(step, solver, certify="off")
+    with monkeypatch.context() as patch:
+        patch.setattr(Workspaces, "reply", broken)
+        with pytest.raises(StepNotSolved, match="the solver failed: out of order") as caught:
+            solve_step(STEP, solver, certify="off")
     assert isinstance(caught.value.__cause__, RuntimeError)
-    monkeypatch.setattr(Workspaces, "reply", honest)
-    answer = solve_step(step, solver, certify="off").delta_q
-    assert error(step, answer, solve_step(step, "none").delta_q) <= OPTIMUM
+    answer = solve_step(STEP, solver, certify="off").delta_q
+    assert error(STEP, answer, solve_step(STEP, "none").delta_q) <= OPTIMUM
 
 
 def test_a_backend_of_studies_only_is_no_backend_of_steps():

@@ -19,12 +19,15 @@ from tests.made import bits, free_step, no_contacts
 from tests.solvers import ScaledStep
 from tests.tolerances import NATURAL_HIGH, NATURAL_LOW
 
+
+def own_row(entry):
+    return Extra(("a",), np.full((1, 7), entry), [-0.3])
+
+
 STEPS = {
     "random": random_step(1, *PAPER),
-    "own rows": random_step(2).replace(extra=Extra(("a",), np.ones((1, 7)), [-0.3])),
-    "own rows alone": random_step(2, rows=()).replace(
-        extra=Extra(("a",), np.full((1, 7), 64.0), [-0.3])
-    ),
+    "own rows": random_step(2).replace(extra=own_row(1.0)),
+    "own rows alone": random_step(2, rows=()).replace(extra=own_row(64.0)),
     "no q_a": random_step(3, 0, 4),
     "no q_u": random_step(4, 3, 0),
     "no contacts": random_step(5, rows=()),
@@ -108,8 +111,7 @@ def test_without_load_and_penetration_the_size_is_a_length_that_counts_as_unmove
     coordinate, length, size = ScaledStep(step).units
     assert (coordinate.tolist(), length) == ([1.0, 1.0], 64.0)
     assert size == 2.0**-20
-    still = step.replace(extra=Extra((), np.zeros((0, 2)), []))
-    assert ScaledStep(still).units.size == size
+    assert ScaledStep(with_own_rows(np.zeros((0, 2)), [])).units.size == size
 
 
 @pytest.mark.parametrize("depth", [1e-3, 1.0])
