@@ -67,8 +67,10 @@ def results_of(scenario, simulator=None):
     """The results of the steps of a scenario, which some simulator takes, one after the other."""
     simulator = simulator or scenario.simulator()
     q = scenario.system.q_start
+    force = scenario.force or (lambda t, q: None)
     for k in range(scenario.steps):
-        result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
+        t = scenario.h * (k + 1)
+        result = simulator.step(q, scenario.targets(t), force(t, q))
         q = result.q
         yield result
 

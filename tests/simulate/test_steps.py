@@ -1,11 +1,14 @@
 """Many steps from one state: each is the step that a cold simulator takes."""
 
+from itertools import islice
+
 import numpy as np
 import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.simulate.steps import Ways
 from tests.cases import cases
+from tests.helpers import results_of
 from tests.made import bits
 from tests.model.mechanisms import every_joint
 
@@ -16,9 +19,8 @@ def place(name, *settings, extension=None):
     """A simulator some steps into a scene, the state there, N targets and N loads."""
     scenario = qr.load_scenario(name, settings)
     simulator = scenario.simulator(extension)
-    here = scenario.system.at(scenario.system.q_start)
-    for k in range(3):
-        here = simulator.step(here, scenario.targets((k + 1) * simulator.h)).end
+    *_, last = islice(results_of(scenario, simulator), 3)
+    here = last.end
     rng = np.random.default_rng(0)
     moves = 1e-4 * rng.normal(size=(N, scenario.system.n_v))
     targets = here.plus_each(moves)[:, : scenario.system.n_q_a]
