@@ -1,5 +1,7 @@
 """The numbers that pages state of their figures, computed by the modules that draw them."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -49,3 +51,12 @@ def test_an_optimal_answer_of_clarabel_in_displacements_is_half_a_per_cent_off()
     worst = max(metres.errors(scene, "clarabel")[0] for scene in metres.SCENES)
     assert f"{100 * worst:.1g}" == "0.5"
     assert "has 0.5 % in the figure" in page("exactness.md")
+
+
+def test_no_picture_is_on_two_slides():
+    lectures = [path.read_text("utf-8") for path in sorted(DOCS.glob("slides/*.md"))]
+    shown = re.findall(r"!\[[^\]]*\]\(([^)]*)\)", "".join(lectures))
+    assert len(shown) == len({*shown}) > 20
+    assert {path.name for path in DOCS.glob("slides/figures/*.png")} <= {
+        name.rpartition("/")[2] for name in shown
+    }
