@@ -70,17 +70,12 @@ def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario
 def test_a_run_whose_steps_are_packed_one_by_one_is_the_same(name):
     """In all arrays, notes and findings."""
     scene = load_scenario(name, steps=PACKED + 5, record="full", fast=True)
-    of_whole = Witness(every_step=False)
-    whole = scene.run(observers=[of_whole])
-    witness = Witness(every_step=True)
-    single = scene.run(observers=[witness])
-    assert len(witness.asked) == 2 * len(whole) + 1
-    assert witness.noted == of_whole.noted
-    witness = Witness(every_step=False)
-    some = scene.run(observers=[witness])
-    assert len(witness.asked) == len(whole) + 2 + 1
-    assert witness.noted == of_whole.noted
-    assert single == some == whole
+    of_each, of_packs = Witness(), Witness(every_step=False)
+    single, whole = (scene.run(observers=[one]) for one in (of_each, of_packs))
+    assert len(of_each.asked) == 2 * len(whole) + 1
+    assert len(of_packs.asked) == len(whole) + 2 + 1
+    assert of_each.noted == of_packs.noted
+    assert single == whole
 
 
 def test_an_observer_ends_a_run_as_any_failure_does(scenario):
@@ -93,7 +88,7 @@ def test_an_observer_ends_a_run_as_any_failure_does(scenario):
 
 
 class Failing(Observer):
-    """Returns a note, or raises it, where it is asked for the second time; keeps what it found."""
+    """Returns a note of so many steps where it is asked for the second time; keeps its numbers."""
 
     notes = ("note",)
 
@@ -109,27 +104,28 @@ class Failing(Observer):
         assert len(recorder.trajectory()) == recorder.steps
         self.found.append((recorder.steps, len(recorder.noted("note"))))
         arrays.clear()
-        if len(self.found) == 1:
-            return {"note": np.zeros(len(results))}
-        if isinstance(self.note, Exception):
-            raise self.note
-        if callable(self.note):
-            return {"note": self.note(len(results))}
-        return self.note
+        first = len(self.found) == 1
+        return {"note": np.zeros(len(results))} if first else self.note(len(results))
+
+
+def low(n):
+    raise InputError("low", field="x", value=1)
 
 
 FAILS = {
-    "an error": (InputError("low", field="x", value=1), r"x: low \(got 1\)"),
+    "an error": (low, r"x: low \(got 1\)"),
     "a number": (
-        {"note": 3.0},
+        lambda n: {"note": 3.0},
         r"note note: must be an array of . rows of numbers, .* \(got 3.0\)",
     ),
     "another shape": (
-        lambda n: np.zeros((n, 3)),
+        lambda n: {"note": np.zeros((n, 3))},
         r"note note: must have shape \(\) in each step, as in those before \(got \(3,\)\)",
     ),
-    "a name of the record's": ({"lam": np.zeros(7)}, "note lam: is a name that the recording uses"),
-}
+    "a name of the record's": (
+        lambda n: {"lam": np.zeros(n)}, "note lam: is a name that the recording uses",
+    ),
+}  # fmt: skip
 
 
 @cases("note, says", FAILS)
