@@ -75,19 +75,28 @@ def test_a_point_less_its_distance_along_the_normal_is_on_the_surface(kind, tmp_
 
 
 @pytest.mark.parametrize("kind", SOLIDS)
-def test_heights_over_faces_grow_along_their_normals_and_are_no_larger_than_the_distance(
+def test_heights_over_faces_grow_along_normals_and_the_highest_is_the_distance_inside(
     kind, tmp_path
 ):
+    """Outside none is larger than the distance; each face is the nearest of some point inside."""
     rng = np.random.default_rng(2)
+    nearest = set()
     for _ in range(10):
         solid = drawn(kind, rng, tmp_path)
-        p = rng.uniform(-0.4, 0.4, (100, 3))
-        phi, _ = solid.signed_distance(p)
+        p = rng.uniform(-0.4, 0.4, (1000, 3)) * rng.uniform(size=(1000, 1))
+        phi, n = solid.signed_distance(p)
         heights, normals = solid.faces(p)
         assert (heights <= phi[:, None] + REFINED).all()
         for k in range(heights.shape[1]):
             higher, _ = solid.faces(p + 0.1 * normals[:, k])
             assert_within(higher[:, k], heights[:, k] + 0.1, REFINED)
+        if heights.shape[1]:
+            inside = np.flatnonzero(phi < 0)
+            highest = heights[inside].argmax(axis=1)
+            assert_within(heights[inside, highest], phi[inside])
+            assert_within(normals[inside, highest], n[inside])
+            nearest |= set(highest)
+    assert len(nearest) == heights.shape[1]
 
 
 @pytest.mark.parametrize("kind", BOUNDED)
