@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from tests.cases import cases
@@ -15,6 +16,8 @@ RANGE = "products of them exceed the range of float64; look for a wrong unit"
 CAUSES = {
     # name: (change to the step, words of the sentence)
     "n_a without end": (("n_a", 10**12), "K_q: must be 1000000000000 x 1000000000000 numbers"),
+    "a list of 40 axes": (("tau_a", np.zeros((1,) * 40).tolist()), "tau_a: must be 3 finite num"),
+    "a ragged matrix": (("K_q", [[1], [1, 2], [3]]), "K_q: must be 3 x 3 finite numbers, in lists"),
     "five rows": (("contacts/1/rows", 5), "contacts[1].rows: must be 4 or 6 (got 5)"),
     "J of another unit": (("contacts/0/J/2/0", 1e200), RANGE),
     "a target of another unit": (("delta_q_bar_a/0", 1e308), RANGE),
