@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from quasistatic_ref.errors import InputError, check_kind
-from quasistatic_ref.numbers.arrays import Array, read_only
+from quasistatic_ref.numbers.arrays import Array, read_only, with_shape
 from quasistatic_ref.parts import is_there, part
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record.header import RECORDS, Header, Record
@@ -155,28 +155,30 @@ class Recorder:
         """End of the step that comes next [s]."""
         return (self.steps + 1) * self.simulator.h
 
-    def add(self, q_bar_a: Array, result: StepResult) -> None:
+    def add(self, q_bar_a: ArrayLike, result: StepResult) -> None:
         """Record one step that succeeded.
 
         Parameters
         ----------
-        q_bar_a : ndarray, shape (n_q_a,)
+        q_bar_a : array_like, shape (n_q_a,)
             Its target.
         result : StepResult
 
         Raises
         ------
         InputError
-            If the record holds forces and they are not known, or an extension's rows are not those
-            of the step before, or one of the two alone has a quadratic cost.
+            If the target has another shape, the record holds forces and they are not known, an
+            extension's rows are not those of the step before, or one of the two alone has a
+            quadratic cost.
         """
         check_kind(result, StepResult, "result", "a StepResult, as step returns it")
+        target = with_shape(q_bar_a, "q_a", (self.system.n_q_a,), InputError)
         self._check(result)
         if result.solution.statistics.unanswered:
             self.unanswered.append(self.steps)
         self.q = read_only(result.q)  # a function of (t, q) cannot change where it starts
         self._latest.append(result)
-        self._targets.append(q_bar_a)
+        self._targets.append(target.copy())
         self.steps += 1
         contacts = result.step.contacts
         most = min(PACKED, 1 + LARGEST // max(1, 4 * contacts.n_c * contacts.n_v))

@@ -101,20 +101,13 @@ MISTAKES = {
     "simulator.h: is fixed when a simulator is made": lambda: setattr(SIMULATOR, "h", 0.02),
     "limits.reach: must be a number greater than 0": lambda: Limits(reach=np.nan),
     "limits.penetration: must be a number greater than 0": lambda: Limits(penetration=True),
-    "accuracy: must be a number greater than 0": (
-        lambda: simulator(accuracy=True),
-        lambda: qr.StepProblem(STEP).solve(accuracy="1"),
-    ),
+    "accuracy: must be a number greater than 0": lambda: simulator(accuracy=True),
     "cone: must be the name of a cone": lambda: STEP.replace(cone=["pyramid"]),
     "law: is not a choice": lambda: simulator(law=["convex"]),
-    "backend: must be the name of a backend": lambda: qr.StepProblem(STEP).solve(3),
     r"bodies: must be a list of bodies: System\(\[body\]\)": lambda: qr.System(BLOCK),
     "bodies: must be a list of bodies, each as Body makes it": lambda: qr.System(["block"]),
     "b.package_dirs: must be a list of": lambda: qr.Body("b", "b.urdf", package_dirs="x"),
-    "step: must be a StepData": (
-        lambda: qr.verify(qr.SolutionFile(3)),
-        lambda: qr.StepProblem(STEP).fill(RUN),
-    ),
+    "step: must be a StepData": lambda: qr.verify(qr.SolutionFile(3)),
     "extension: must be an Extension": lambda: qr.solve_step(STEP, extension=3),
     "solver: is no argument of .*; did you mean 'backend'": (
         lambda: qr.solve_step(STEP, solver="osqp"),
@@ -131,14 +124,10 @@ MISTAKES = {
     "contacts: must be Contacts": lambda: STEP.replace(contacts=3),
     "extra: must be an Extra": lambda: STEP.replace(extra=3),
     r"delta_q: must have shape \(12,\)": lambda: qr.optimality_residuals(FORM, 3, []),
-    "result: must be a StepResult": lambda: qr.Recorder(SIMULATOR, Q).add(Q_A, STEP),
     "observers: must be a list of Observer": lambda: run(observers=[3]),
     "ignore: must be a list of names": lambda: run(ignore=[3]),
-    "step: must be a whole number": lambda: RUN.step_data("0"),
-    "scene: must be a Scenario or Simulator": lambda: RUN.forces_on("block", BLOCK),
     "is not an array of this trajectory": lambda: RUN[["phi"]],
     "name: must be a name": lambda: SYSTEM.of(Q, ["block"]),
-    "values: must be a mapping of names": lambda: SYSTEM.placed(3),
     "model: must be a mujoco.MjModel": lambda: qr.mujoco_step(3, 3, 0.01),
     "tolerance: must be a number greater than 0": lambda: qr.mujoco_opinion(3, 3, "1"),
     "of: must be a Moment, as figures.moment makes it": lambda: qr.draw_scene(None, 3),
@@ -172,6 +161,13 @@ def test_a_function_of_q_cannot_change_where_its_step_starts():
 
     with pytest.raises(ValueError, match="read-only"):
         run(target=changing)
+
+
+def test_a_target_that_is_changed_after_its_step_stays_recorded():
+    recorder, target = qr.Recorder(SIMULATOR, Q), Q_A.copy()
+    recorder.add(target, SIMULATOR.step(Q, target))
+    target[0] = 1.0
+    assert_same(recorder.trajectory()["q_bar_a"], [Q_A])
 
 
 def test_a_target_by_names_holds_all_other_joints():

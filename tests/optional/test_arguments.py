@@ -3,6 +3,7 @@
 import inspect
 import re
 from functools import partial
+from operator import attrgetter
 
 import numpy as np
 import pytest
@@ -59,9 +60,17 @@ GOOD = {
     "standard_form": (STEP,),
     "step_jax": (SIMULATOR,),
     "verify": (SOLUTION,),
+    "Recorder.add": (qr.Recorder(SIMULATOR, Q), Q_A, SIMULATOR.step(Q, Q_A)),
+    "Simulator.step": (SIMULATOR, Q, Q_A),
+    "StepProblem.fill": (qr.StepProblem(STEP), STEP),
+    "StepProblem.solve": (qr.StepProblem(STEP),),
+    "System.of": (SYSTEM, Q, "block"),
+    "System.placed": (SYSTEM, {}),
+    "Trajectory.forces_on": (RUN, "block", SCENARIO),
+    "Trajectory.step_data": (RUN, 0),
     "verify_answer": (STEP, np.zeros(12), []),
 }
-"""Public callables that people call, with good arguments."""
+"""Public callables that people call, with good arguments, of methods an object first."""
 ELSEWHERE = {
     *("draw_scene", "draw_scenes"),  # tests/optional/show
     *("exact_lp", "exact_ls", "exact_qp"),  # tests/optional/qp
@@ -70,7 +79,7 @@ ELSEWHERE = {
 OTHERS = {"scanned_body": {"mass": 1.0}, "Simulator": {"h": 0.01, "K_q": 100.0}}
 ANY = {
     *("extension", "progress", "findings", "of_others", "hull", "target", "notes", "size"),
-    *("additions", "judge", "options", "fields", "name"),
+    *("self", "additions", "judge", "options", "fields", "name"),
 }  # fmt: skip
 """Arguments that may be of many kinds: truths, functions, names."""
 CALLED = {
@@ -79,20 +88,21 @@ CALLED = {
     "q_bar_a": "q_a",
     "scenario": "scene",
     "convex_hull.points": "vertices",
+    "Trajectory.step_data.k": "step",
 }
 """Arguments that a sentence names in another way."""
 
 
 def arguments():
     for name, good in GOOD.items():
-        for parameter in inspect.signature(getattr(qr, name)).parameters:
+        for parameter in inspect.signature(attrgetter(name)(qr)).parameters:
             if parameter not in ANY:
                 yield pytest.param(name, good, parameter, id=f"{name}-{parameter}")
 
 
 @pytest.mark.parametrize(("name", "good", "parameter"), [*arguments()])
 def test_an_argument_of_another_kind_is_refused_by_its_name(name, good, parameter):
-    function = partial(getattr(qr, name), **OTHERS.get(name, {}))
+    function = partial(attrgetter(name)(qr), **OTHERS.get(name, {}))
     bound = inspect.signature(function).bind(*good)
     bound.arguments[parameter] = object()
     with pytest.raises(qr.QuasistaticError) as refused:
