@@ -14,7 +14,7 @@ from quasistatic_ref.files.finding import FINDING, finding_read, finding_table
 from quasistatic_ref.files.finding import TABLES as TABLES_OF_FINDING
 from quasistatic_ref.files.npz import json_array, npz_record
 from quasistatic_ref.files.record import check_arrays, check_needed, without_steps
-from quasistatic_ref.simulate.distances import CLOSED, DISTANCES
+from quasistatic_ref.simulate.distance_source import CLOSED, DISTANCES
 from quasistatic_ref.simulate.law import CONVEX, LAWS
 from quasistatic_ref.simulate.record.header import RECORDS, Header
 from quasistatic_ref.simulate.record.trajectory import Trajectory

@@ -5,7 +5,7 @@ from typing import Any
 
 from quasistatic_ref.errors import check_kind
 from quasistatic_ref.numbers.arrays import Array, Mask, freeze_copies, positive_number
-from quasistatic_ref.simulate.distances import CLOSED, Distances, measured_pairs
+from quasistatic_ref.simulate.distance_source import CLOSED, Distances, measured_pairs
 from quasistatic_ref.simulate.law import CONVEX, Law, check_law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.scene import Scene

@@ -21,7 +21,7 @@ from quasistatic_ref.model.state import State
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Mask, checked_array, without_warnings
 from quasistatic_ref.parts import part
-from quasistatic_ref.simulate.distances import Distances
+from quasistatic_ref.simulate.distance_source import Distances
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX, Law
 from quasistatic_ref.simulate.limits import Limits

@@ -26,7 +26,7 @@ from quasistatic_ref.numbers.arrays import (
     read_only,
 )
 from quasistatic_ref.numbers.pivots import positive_definite
-from quasistatic_ref.simulate.distances import measured_pairs
+from quasistatic_ref.simulate.distance_source import measured_pairs
 from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.solve.by_group import GroupLayout
 from quasistatic_ref.solve.units import ScaledStep

@@ -27,7 +27,7 @@ from quasistatic_ref.optional.qpsolvers import through_qpsolvers
 from quasistatic_ref.optional.show import pages, table
 from quasistatic_ref.optional.stands import after, slow, stands
 from quasistatic_ref.parts import PARTS, is_there, part
-from quasistatic_ref.simulate import distances, recorder, simulator, step_solver
+from quasistatic_ref.simulate import distance_source, recorder, simulator, step_solver
 from quasistatic_ref.simulate.record import trajectory
 from quasistatic_ref.solve import backends, choice, many, solve
 from quasistatic_ref.step import cones, extension, solution
@@ -47,7 +47,7 @@ class Expected:
     known_gaps: normals.KnownGaps = ways_out.known_gaps
     is_compiled: compiled.IsCompiled = leaves.is_compiled
     compiled_function: compiled.CompiledFunction = leaves.compiled_function
-    pairs_by_coal: distances.ChangedPairs = clouds_by_coal.pairs_by_coal
+    pairs_by_coal: distance_source.ChangedPairs = clouds_by_coal.pairs_by_coal
     ellipsoid: cones.FrictionCone = ELLIPSOID_CONE
     coulomb: step_solver.CoulombSolution = fixed_point.simulated_solution
     coulomb_from: Callable[..., fixed_point.CoulombSolution] = fixed_point.fixed_point_from

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.files.scenario.world_solids import SOLIDS
 from quasistatic_ref.model.body import BASE_WORDS
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.simulate.distances import DISTANCES
+from quasistatic_ref.simulate.distance_source import DISTANCES
 from quasistatic_ref.simulate.law import LAWS
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.record.header import RECORDS

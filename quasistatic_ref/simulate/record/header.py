@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from quasistatic_ref.simulate.distances import CLOSED
+from quasistatic_ref.simulate.distance_source import CLOSED
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.text.plain import Plain
