@@ -1,7 +1,9 @@
-"""Records of JSON and TOML: their places, other values there, and TOML as text."""
+"""Records of JSON and TOML: their places, other values there, TOML as text, headers of files."""
 
 import copy
 import json
+
+import numpy as np
 
 
 def places(value, above=()):
@@ -45,3 +47,18 @@ def _toml(value):
     if isinstance(value, list):
         return "[" + ", ".join(map(_toml, value)) + "]"
     return repr(value) if isinstance(value, float) else json.dumps(value)
+
+
+def header_in(path):
+    """The header of a trajectory's file."""
+    with np.load(path) as file:
+        return json.loads(file["header"].tobytes())
+
+
+def change_header(path, **changes):
+    """Some fields of the header of a trajectory's file become others, or leave by `...`."""
+    with np.load(path) as file:
+        arrays = dict(file)
+    header = {k: v for k, v in (header_in(path) | changes).items() if v is not ...}
+    arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
+    np.savez(path, **arrays)

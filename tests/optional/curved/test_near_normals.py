@@ -5,10 +5,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Cone, Cylinder, convex_hull
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.optional.curved.faces import face, placed_kinks
 from tests.closeness import assert_within
-from tests.contact.still import in_world
+from tests.contact.still import in_world, solid_pair
 from tests.processes import printed_text
 from tests.tolerances import CURVED_PAIR
 
@@ -67,21 +66,18 @@ ASKED = """
 import numpy as np
 from scipy.spatial.transform import Rotation
 from quasistatic_ref import Box, Cone, Cylinder, Ellipsoid
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
+from tests.contact.still import in_world, solid_pair
 
 box = Box((0.05, 0.035, 0.025))
 if turned:  # coal is first asked along a direction without zeros in the box's frame
-    can = ShapeInWorld(Cylinder(0.03, 0.05), np.eye(3), np.zeros(3))
     R = Rotation.from_rotvec([0.3, 0.4, 0.5]).as_matrix()
-    solid_pair("p", can, ShapeInWorld(box, R, np.array([0.3, 0.2, 0.1])))
+    solid_pair("p", in_world(Cylinder(0.03, 0.05)), in_world(box, [0.3, 0.2, 0.1], R))
 rng = np.random.default_rng(5)
 for _ in range(4):
     for shape in (Cylinder(0.03, 0.05), Cone(0.03, 0.05), Ellipsoid((0.02, 0.03, 0.05))):
         R = Rotation.random(rng=rng).as_matrix()
         t = 0.1 * rng.normal(size=3) + 0.1
-        one = ShapeInWorld(box, np.eye(3), np.zeros(3))
-        found = solid_pair("p", one, ShapeInWorld(shape, R, t))
+        found = solid_pair("p", in_world(box), in_world(shape, t, R))
         print(np.hstack([found.phi, found.alpha, found.beta, found.n]).tobytes().hex())
 """
 

@@ -5,7 +5,6 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Cone, Cylinder
-from quasistatic_ref.contact.crossings import Crossings
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.optional.curved.rims import curve_crossings
 from quasistatic_ref.tolerances import SKEW
@@ -27,7 +26,8 @@ def moved_crossings(a, b, x, n=UP):
     a, b = (in_world(one.shape, WORLD @ one.t + AT, WORLD @ one.R) for one in (a, b))
     there = WORLD @ x + AT
     found = curve_crossings(a, b, there, there, WORLD @ n)
-    return Crossings((found.alpha - AT) @ WORLD, (found.beta - AT) @ WORLD, found.number)
+    alpha, beta = ((of - AT) @ WORLD for of in (found.alpha, found.beta))
+    return found._replace(alpha=alpha, beta=beta)
 
 
 def holds(found, expected):

@@ -4,18 +4,15 @@ import copy
 import json
 import pickle
 
-import numpy as np
 import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref import RunFailed, load_scenario, load_trajectory
-from quasistatic_ref.files.finding import finding_read, finding_table
-from quasistatic_ref.files.npz import json_array
-from quasistatic_ref.files.trajectory import header_table
 from quasistatic_ref.optional.doctor import checks, observer
 from quasistatic_ref.simulate.finding import told
 from tests.extras import SCENARIOS_TO_RUN
 from tests.optional.doctor.mistake_scenes import scenes_written
+from tests.oracles.records import change_header, header_in
 from tests.scenes import written_scenario
 
 
@@ -29,9 +26,8 @@ def test_findings_are_printed_and_strict_fails_on_grave_ones(tmp_path, cli):
     assert printed[: len(grave)] == grave
     assert grave[0].startswith("quasistatic-ref: grave: a friction coefficient is the ratio")
     assert grave[0].endswith("; check mu_v of contacts.rest [no-friction-coefficient]")
-    assert json.loads(cli(*arguments, "--strict", "--json", status=1).out)["findings"] == [
-        finding_table(f) for f in run.findings
-    ]
+    printed = json.loads(cli(*arguments, "--strict", "--json", status=1).out)["findings"]
+    assert printed == header_in(tmp_path / "push.npz")["findings"]
     assert str(run.findings[0])[:40] in repr(run)
 
 
@@ -75,11 +71,17 @@ def test_findings_that_are_ignored_do_not_count_and_are_named(tmp_path, cli):
         load_scenario(scene, {"findings.ignore": ["leaps"]})
 
 
-def test_a_file_whose_sentences_begin_with_the_remedy_is_read():
+def test_files_whose_sentences_begin_with_the_remedy_or_without_findings_are_read(tmp_path):
+    run = load_scenario("block_push", steps=1).run(progress=False)
+    path = qr.save_trajectory(tmp_path / "old.npz", run)
     old = {"name": "free fall", "grave": True, "remedy": "hold it", "numbers": {"fallen_mm": 3.0}}
-    found = finding_read(old | {"sentence": "hold it: it falls"})
+    change_header(path, findings=[old | {"sentence": "hold it: it falls"}])
+    read = load_trajectory(path)
+    (found,) = read.findings
     assert str(found) == "grave: it falls; hold it [free fall]"
-    assert finding_read(finding_table(found)) == found
+    assert load_trajectory(qr.save_trajectory(path, read)).findings == (found,)
+    change_header(path, findings=..., warnings=["a sentence"])
+    assert load_trajectory(path).findings == ()
 
 
 def fails(*_):
@@ -140,14 +142,6 @@ def test_findings_are_silenced_by_their_own_argument_alone(capsys, progress):
     run = qr.rollout(simulator, system.q_start, [], 1, progress=progress, findings=False)
     assert run.findings
     assert "ball" not in capsys.readouterr().err
-
-
-def test_a_file_from_before_there_were_findings_has_none(tmp_path):
-    run = load_scenario("block_push", steps=1).run(progress=False)
-    header = header_table(run.header) | {"warnings": ["a sentence"]}
-    del header["findings"]
-    np.savez(tmp_path / "old.npz", header=json_array(header), **run.arrays)
-    assert load_trajectory(tmp_path / "old.npz").findings == ()
 
 
 def test_a_check_that_fails_costs_its_finding_and_not_the_run(monkeypatch):

@@ -22,10 +22,8 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.certify.groups import groups
 from quasistatic_ref.files.step import step_from_record
-from quasistatic_ref.optional.extensions.extended import posed
-from quasistatic_ref.solve.backends import REQUIRED
 from tests.closeness import assert_relative, assert_same
-from tests.helpers import pinch, point_on_floor, random_step, verify_refusal
+from tests.helpers import REQUIRED, pinch, point_on_floor, random_step, verify_refusal
 from tests.made import free_step, no_contacts, solution_text, step_text
 from tests.oracles.rational_kkt import exact
 from tests.oracles.records import value_at, with_value
@@ -93,8 +91,7 @@ NAMES = tuple(quadratic_terms(point_on_floor()))
 def test_a_quadratic_cost_is_data_of_the_step(rng, name):
     step = random_step(rng)
     terms, H_cost, g_cost = quadratic_terms(step)[name]
-    full, whole = posed(step, Extension(terms))
-    assert whole
+    full = solve_step(step, extension=Extension(terms)).step
     assert_same(full.extra.H, H_cost)
     assert_same(full.extra.g, g_cost)
     form, plain = qr.standard_form(full), qr.standard_form(step)
@@ -132,10 +129,10 @@ NOT_QUADRATIC = {
 @pytest.mark.parametrize("terms", NOT_QUADRATIC.values(), ids=NOT_QUADRATIC)
 def test_other_costs_and_variables_are_solved_as_conic_programs(rng, terms):
     step = random_step(rng)
-    assert posed(step, Extension(terms)) == (step, False)
-    claims = solve_step(step, extension=Extension(terms)).certificate
-    assert claims.kind == "residual"
-    assert max(claims.residuals.values()) < OPTIMUM
+    found = solve_step(step, extension=Extension(terms))
+    assert found.step == step
+    assert found.certificate.kind == "residual"
+    assert max(found.certificate.residuals.values()) < OPTIMUM
     with pytest.raises(BackendError, match="constraints or costs needs one of clarabel, scs"):
         solve_step(step, "piqp", extension=Extension(terms))
 
@@ -166,11 +163,8 @@ def test_a_cost_couples_two_bodies():
     assert len(groups(two_points(0.0))) == 6
 
 
-def bounded_pinch():
-    step = pinch(grip=5.0, offset=0.2)
-    return posed(step, Extension(lambda s: [
-        s.delta_q_u[2] >= -1e-4, 50.0 * cp.sum_squares(s.delta_q_u[:3] - s.delta_q_u[3:])
-    ]))[0]  # fmt: skip
+def bounded_pinch(s):
+    return [s.delta_q_u[2] >= -1e-4, 50.0 * cp.sum_squares(s.delta_q_u[:3] - s.delta_q_u[3:])]
 
 
 def refused_by(folder, step, solution):
@@ -183,9 +177,10 @@ def refused_by(folder, step, solution):
 
 
 def test_verify_and_the_checker_read_the_cost(tmp_path):
-    step = bounded_pinch()
+    solved = solve_step(pinch(grip=5.0, offset=0.2), extension=Extension(bounded_pinch))
+    step = solved.step
     record = json.loads(step_text(step))
-    solution = json.loads(solution_text(solve_step(step)))
+    solution = json.loads(solution_text(solved))
     assert list(record["extra"]) == ["names", "A", "b", "H", "g"]
     assert step_from_record(record) == step
     assert refused_by(tmp_path, record, solution) == (False, False)
@@ -229,7 +224,7 @@ def test_a_cost_too_large_for_float64_beside_h_is_solved_as_before():
     """1e14 (x + y / 3)^2 leaves of m / h = 30 nothing along (1, -3)."""
     step = point_on_floor(force=FORCE)
     steep = Extension(lambda s: [1e17 * cp.square(s.delta_q[0] + s.delta_q[1] / 3)])
-    assert posed(step, steep) == (step, False)
+    assert solve_step(step, extension=steep).step == step
 
 
 def spring(q):
