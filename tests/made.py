@@ -1,5 +1,6 @@
 """What tests make and read steps, files and bits with: this file alone knows where it is kept."""
 
+from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.files.clouds import point_cloud, seen_points
@@ -39,6 +40,7 @@ __all__ = [
     "GRAVITY",
     "Plain",
     "Rng",
+    "StepForm",
     "X",
     "Y",
     "Z",

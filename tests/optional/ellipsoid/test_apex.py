@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.step_form import StepForm
 from quasistatic_ref.optional.ellipsoid.apex import apex
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
-from tests.made import contacts_of, free_step
+from tests.made import StepForm, contacts_of, free_step
 
 
 def body_on_one_place(force, mu_v, mu_omega=0.0, h=0.5, lever=1.0):

@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 from flint import arb_mat
 
-from quasistatic_ref.certify.step_form import StepForm
-from quasistatic_ref.optional.ellipsoid.enclosure import checked
+from quasistatic_ref import verify
+from quasistatic_ref.optional.ellipsoid.enclosure import GAP, RESERVE, checked, checked_pair
 from quasistatic_ref.optional.ellipsoid.interior import Pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from tests.closeness import assert_relative
-from tests.helpers import point_on_floor
+from tests.helpers import point_on_floor, results_of
+from tests.made import StepForm
+from tests.optional.pushed_block import FACE, TIP_RADIUS, pushed_block
 
 M, MU, PHI, H_STEP = 0.3, 0.5, 2e-3, 0.01
 """Mass [kg], friction [-], gap [m] and time step [s] of the point."""
@@ -42,3 +44,17 @@ def test_the_gap_of_a_pair_is_the_distance_to_the_optimum_of_its_lagrangian_and_
     expected = M / (2 * H_STEP) * off @ off + lam[:3] @ s
     gap = checked(frame, frame.start(x, lam)).gap / FORM.h
     assert_relative(float(gap), expected)
+
+
+def test_claims_of_a_push_are_proved_by_the_interior_point():
+    # The two pairs may be on opposite sides of the optimum: sqrt(2 RESERVE) is as long as the
+    # interior point's own bound twice over, as long as its gap is below RESERVE / 4.
+    scenario = pushed_block(-(FACE + TIP_RADIUS), 0.02, cone="ellipsoid")
+    for result in results_of(scenario):
+        step = result.step
+        pair = checked_pair(step)
+        size = scaled_blocks(step, StepForm(step)).size
+        assert pair.gap < RESERVE / 4 * size * size
+        assert verify(result.solution)
+    assert result.solution.certificate.kind == "enclosure"
+    assert RESERVE > 4 * GAP

@@ -11,18 +11,16 @@ from quasistatic_ref import (
     InputError,
     StepNotSolved,
     contact_forces,
+    save_step,
     solve_step,
     verify,
     verify_answer,
 )
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.optimum import step_optimum
-from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.optional.ellipsoid import enclosure as of_enclosure
 from quasistatic_ref.optional.ellipsoid import forces as of_forces
-from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.ellipsoid.interior import interior_point
-from quasistatic_ref.optional.ellipsoid.tolerances import ENCLOSED
 from quasistatic_ref.optional.friction import cone_matrix
 from tests.closeness import assert_relative, assert_same, assert_within
 from tests.helpers import (
@@ -73,7 +71,7 @@ def test_a_grasp_is_enclosed_and_every_backend_gives_the_same_bits(rng):
     answers = [solve_step(step, backend) for backend in (*CONED, "none")]
     for answer in answers:
         assert answer.certificate.kind == "enclosure"
-        assert answer.certificate.error_bound < ENCLOSED
+        assert answer.certificate.error_bound < ROUNDING / 10
         assert max(answer.certificate.residuals.values()) < ROUNDING
         assert_same(answer.delta_q, answers[0].delta_q)
     assert verify(answers[0])
@@ -86,14 +84,14 @@ def test_without_multipliers_nothing_is_proved():
     assert "nothing is proved without lam" in without.reason
 
 
-def test_a_set_without_interior_is_reported_as_uncertified():
+def test_a_set_without_interior_is_reported_as_uncertified(tmp_path, cli):
     # Two walls without friction, opposite, both touching: only the plane between them is left.
     step = round_step(point_between_walls([EAST, WEST], 0.0, force=(1.0, 2.0, 3.0)))
     answer = solve_step(step)
-    assert enclosure(step) is None
     assert answer.certificate.kind == "residual"
     assert answer.certificate.error_bound is None
-    assert in_words(answer.certificate).startswith("not proved: worst residual")
+    path = save_step(tmp_path / "step.json", step)
+    assert "not proved: worst residual" in cli("solve", path).err
     assert_within(answer.delta_q[0], 0.0, 1e-12)
     # Compliance c gives it an interior; the wall that is pressed bears 1 N / (1 + m c / h^2).
     assert sorted(answer.forces[:, 2]) == pytest.approx([0.0, 1.0], rel=1e-3, abs=0.0)

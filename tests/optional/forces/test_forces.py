@@ -11,11 +11,7 @@ from quasistatic_ref import (
     contact_forces,
     solve_step,
 )
-from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.optional.forces.of_group import COMPLIANCE, HARDLY_MOVES, group_compliance
-from quasistatic_ref.optional.friction import scaled_by
-from quasistatic_ref.step.friction import contact_wrenches
-from quasistatic_ref.step.standard_form import frame_jacobian
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import EAST, WEST, changed, point_between_walls, point_on_floor, two_bodies
 from tests.made import X, Y, Z, contacts_of, free_step, repeated, rigid_step
@@ -132,7 +128,7 @@ def test_noise_of_phi_changes_forces_by_no_more_than_its_length_over_the_complia
 
 def scaled_forces(step, wrench):
     """The p of forces: f_n, the others over their coefficients."""
-    mu = scaled_by(step.contacts)
+    mu = np.pad(step.contacts.mu, ((0, 0), (1, 0)), constant_values=1.0)
     return wrench[:, [2, 0, 1, 3]] / np.where(mu > 0, mu, np.inf)
 
 
@@ -143,9 +139,8 @@ def length(step, x):
 
 def rigid_optimum(step):
     """An exact optimum: delta_q and the wrenches of contacts that do not give way."""
-    rigid = step_optimum(step)
-    own = rigid.lam[: step.offsets[-1]]
-    return rigid.delta_q, contact_wrenches(step.contacts, own, step.h, step.cone)
+    rigid = solve_step(step, "none")
+    return rigid.delta_q, rigid.wrench
 
 
 SLIGHT = 1 + 1e-6
@@ -191,8 +186,10 @@ def test_r43_the_loss_at_random(rng):
         rounded = 1e-13 * most + 1e-30
         assert lost <= SLIGHT * first + rounded
         assert first <= SLIGHT * most / 4 + rounded
-        J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
-        exerted = step.h * np.einsum("ji,jiv->v", found.wrench, np.stack([J_1, J_2, J_n, J_w], 1))
+        k = step.contacts
+        axes = np.stack([k.d1, k.d2, k.n], axis=1)
+        J = np.concatenate([axes @ k.J[:, :3], k.J[:, 3:]], axis=1)
+        exerted = step.h * np.einsum("ji,jiv->v", found.wrench, J)
         load = np.sqrt(exerted @ np.linalg.solve(step.H, exerted))
         assert_relative(found.imbalance * load, np.sqrt(lost), 1e-9)
 
