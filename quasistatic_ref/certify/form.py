@@ -307,12 +307,12 @@ class MatrixForm(ExactForm):
         return rows[:, :-1], -rows[:, -1]
 
     def sizes(self, most: Array) -> Array:
-        """The bound `|a|` `most` + `|b|` of each row, (m,); `most` (n,) bounds x [any unit]."""
+        """An upper bound of `|A x - b|` of each row, (m,), if `|x|` <= `most`, (n,) [any unit]."""
         return row_sizes(*self.inequalities, most)
 
 
 def row_sizes(A: Array, b: Array, most: Array) -> Array:
-    """`|a|` `most` + `|b|` of rows of A, (m, n), and b, (m,) [m]; `most` is (n,) [m, rad]."""
+    """`|A|` `most` + `|b|`, (m,) [m]: bounds of `|A x - b|` if `|x|` <= `most`, (n,) [m, rad]."""
     sizes: Array = (np.abs(A) + UNDERFLOW) @ most + np.abs(b)
     return sizes
 

@@ -100,12 +100,12 @@ class StepForm(ExactForm):
         return inequalities(self._step, self._own)
 
     def sizes(self, most: Array) -> Array:
-        """The bound `|phi|` + F R of a contact's rows, (m,) [m]; `most` (n,) bounds x [m, rad].
+        """An upper bound of `|A x - b|` of each row, (m,) [m], if `|x|` <= `most`, (n,) [m, rad].
 
-        R is the largest entry of `|J|` `most`, and more than what underflows in it; F is more than
-        the sum of the sizes of the frame with friction. An entry of a row combines four products of
-        frame and J, with coefficients of at most one: it is off by 3 u of three products summed,
-        2 u of the friction, 4 u of combining them.
+        Of a contact's rows it is `|phi|` + F R. R is the largest entry of `|J|` `most`, and more
+        than what underflows in it; F is more than the sum of the sizes of the frame with friction.
+        An entry of a row combines four products of frame and J, with coefficients of at most one:
+        it is off by 3 u of three products summed, 2 u of the friction, 4 u of combining them.
         """
         contacts = self._step.contacts
         axes = np.concatenate([contacts.n, contacts.d1, contacts.d2], axis=1)
