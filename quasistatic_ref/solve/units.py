@@ -103,7 +103,7 @@ class Sizes(NamedTuple):
 
 
 def sizes_of(squares: Array, b: Array, free_length: float) -> Sizes:
-    """The sizes of a step from squared lengths of rows and ends b, shapes (m,).
+    """The sizes from which natural units follow, from squared lengths of rows and b, (m,) each.
 
     `squares` (m,) are lengths of rows squared, `free_length` that of the free step [-].
     """
@@ -113,7 +113,7 @@ def sizes_of(squares: Array, b: Array, free_length: float) -> Sizes:
 
 @compiled
 def step_sizes(A: Array, b: Array, g: Array, H: NaturalHessian) -> Sizes:
-    """The sizes of a step from its rows by own columns, (m, w), b and g."""
+    """The sizes from which natural units follow, from rows by own columns, (m, w), b and g."""
     return sizes_of(squared_lengths(A, H.own_unit), b, float(H.free_lengths(g)))
 
 

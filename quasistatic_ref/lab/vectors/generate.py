@@ -92,7 +92,7 @@ def generate_folder(source: Path, out: Path, progress: bool = True) -> dict[str,
 
 
 def own_written(source: Path, out: Path, names: Sequence[str], progress: bool = True) -> list[Path]:
-    """Write the package's own float64 answers, as anybody else's: a folder of answers.
+    """Write a folder of the package's own float64 answers, as of any other implementation.
 
     Parameters
     ----------
