@@ -3,8 +3,8 @@
 import numpy as np
 
 from quasistatic_ref import solve_step
-from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.closeness import assert_within
+from tests.tolerances import CLOSED_FORM
 
 INSTANCES = 40
 INFEASIBLE = {11, 12}

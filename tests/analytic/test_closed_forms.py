@@ -122,15 +122,17 @@ def test_as_h_goes_to_0_a_free_body_becomes_a_wall():
     assert block < 1e-8
 
 
-def test_r38_coulombs_law_leaves_a_rigid_guide_open(rng, both):
+def test_r38_coulombs_law_leaves_a_rigid_guide_open(rng):
     """On a rail whose pressure nothing else fixes, every slip up to h^2 F / m is a solution."""
+    slides = set()
     for m, h, mu, _ in instances(rng, INSTANCES // 2):
         F = log(rng, 0.1, 1e3)
         start = mu * h**2 * F / m * rng.choice([0.0, 0.3, 2.0])
         rail = contacts_of(0.0, np.eye(3), [[[1.0], [0.0], [0.0], [0.0]]], mu)
         answer = coulomb_step(free_step([[m]], [F], rail, h), "daqp", start=[start])
         slid = min(start / mu, h**2 * F / m)
-        both(slid > 0)
+        slides.add(slid > 0)
         assert answer.converged
         near(answer.delta_q, [slid], h**2 * F / m)
         near(answer.wrench[0, 0], -(F - m * slid / h**2), F)
+    assert len(slides) == 2

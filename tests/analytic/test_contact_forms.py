@@ -41,11 +41,10 @@ def test_r37_convex_bodies_share_a_normal(rng):
         assert moved.phi >= (1 - k % 2) * apart.phi - 1e-12
 
 
-def test_r19_the_gap_of_a_loaded_contact(rng, both):
+def test_r19_the_gap_of_a_loaded_contact():
     """Phi + n'nu = max(mu_v |nu_1|, mu_v |nu_2|, mu_omega |omega_n|): zero where it sticks."""
-    for seed in range(INSTANCES):
-        if seed in INFEASIBLE:
-            continue
+    slides = set()
+    for seed in set(range(INSTANCES)) - INFEASIBLE:
         step = drawn(seed)
         answer = exact(step)
         c = step.contacts
@@ -55,4 +54,5 @@ def test_r19_the_gap_of_a_loaded_contact(rng, both):
             slips = np.abs([c.mu_v[j] * c.d1[j] @ nu[:3], c.mu_v[j] * c.d2[j] @ nu[:3], spin])
             size = np.abs(c.J[j]) @ np.abs(answer.delta_q)
             near(c.phi[j] + c.n[j] @ nu[:3], slips.max(), size.sum() + abs(c.phi[j]))
-            both(slips.max() > 1e-9)
+            slides.add(slips.max() > 1e-9)
+    assert len(slides) == 2

@@ -7,7 +7,6 @@ import pytest
 
 from quasistatic_ref import Box, ContactError
 from quasistatic_ref.contact.normals import BISECTOR, OF_PAIR, SAYS, UNIQUE_NORMAL
-from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.closeness import assert_within
 from tests.oracles.bodies_by_hand import (
     BOX,
@@ -21,6 +20,7 @@ from tests.oracles.bodies_by_hand import (
     step_of,
     wrong_words,
 )
+from tests.tolerances import CLOSED_FORM
 
 EVERY = 37
 """Which scenes by hand are tried of each family, from another one on: 2 or 3 of 80."""

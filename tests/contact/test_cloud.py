@@ -22,40 +22,17 @@ from tests.tolerances import (
     SIGNED_DISTANCE,
 )
 
-SHAPES = {
-    "sphere": Sphere(0.3),
-    "capsule": Capsule(0.2, 0.3),
-    "box": Box((0.2, 0.3, 0.4)),
-    "cylinder": Cylinder(0.25, 0.3),
-    "half-space": HalfSpace((1.0, -2.0, 2.0), 0.3),
-}
-COORDINATE = st.one_of(
-    st.floats(-1, 1, allow_subnormal=False).filter(lambda x: x == 0 or abs(x) > 1e-100),
-    st.sampled_from([0.0, 0.2, 0.25, 0.3, 0.4, -0.2, -0.3, 0.5]),
-)
-POINT = st.tuples(COORDINATE, COORDINATE, COORDINATE)
-SHAPE = st.sampled_from(sorted(SHAPES))
-
-
-@given(name=SHAPE, point=POINT)
-def test_every_normal_has_length_one_and_leads_to_the_surface(name, point):
-    """So that, by its distance, it is the normal at the nearest point."""
-    shape = SHAPES[name]
-    points = np.array([point])
-    phi, normal = shape.signed_distance(points)
-    assert_relative(np.linalg.norm(normal[0]), 1.0)
-    foot, _ = shape.signed_distance(points - phi[:, None] * normal)
-    assert_within(foot, [0.0], SIGNED_DISTANCE)
-
-
 # Sizes that are exact in binary, so that ties are exact.
 BRICK = Box((0.25, 0.5, 0.75))
 DISC = Cylinder(0.25, 0.125)
-BALL, CAPSULE, BOX, CAN, WALL = SHAPES.values()
+BALL = Sphere(0.3)
+BOX = Box((0.2, 0.3, 0.4))
+CAN = Cylinder(0.25, 0.3)
+WALL = HalfSpace((1.0, -2.0, 2.0), 0.3)
 DEGENERATE = {
     "centre of a sphere": (BALL, (0, 0, 0), -0.3, (1, 0, 0)),
     "centre of a sphere, by -0.0": (BALL, (-0.0, -0.0, -0.0), -0.3, (1, 0, 0)),
-    "middle of a capsule": (CAPSULE, (0, 0, 0), -0.2, (1, 0, 0)),
+    "middle of a capsule": (Capsule(0.2, 0.3), (0, 0, 0), -0.2, (1, 0, 0)),
     "centre of a box": (BOX, (0, 0, 0), -0.2, (1, 0, 0)),
     "on an edge of a box": (BOX, (0.2, -0.3, 0.1), 0.0, (1, 0, 0)),
     "as near to x as to y": (BRICK, (0.125, 0.375, 0.0), -0.125, (1, 0, 0)),

@@ -12,9 +12,9 @@ import pinocchio as pin
 import pytest
 
 from quasistatic_ref import Body, InputError, ModelError, System, load_scenario
-from quasistatic_ref.files.resources import models_folder
 from tests.closeness import assert_close, assert_within
 from tests.files.urdf.urdf_texts import CHAIN, collision, inertial, joint, link, robot
+from tests.pages import ROOT
 from tests.tolerances import COAL, ROUNDING
 
 SINGLE = 1e-7
@@ -22,7 +22,7 @@ SINGLE = 1e-7
 
 DIRECTIONS = np.random.default_rng(3).normal(size=(40, 3))
 DIRECTIONS /= np.linalg.norm(DIRECTIONS, axis=1)[:, None]
-COMMITTED = sorted(models_folder().glob("*/*.urdf"))
+COMMITTED = sorted((ROOT / "models").glob("*/*.urdf"))
 REPLACED = {"simple_humanoid.urdf"}
 """Its own element ``collision_checking`` has pinocchio take a capsule for a cylinder."""
 
@@ -179,6 +179,11 @@ def hand_made(*joints, first=None):
     return model
 
 
+def hinged():
+    """A Model of one link on a hinge."""
+    return hand_made(pin.JointModelRX())
+
+
 @pytest.mark.parametrize("base", ROOTS)
 def test_a_root_joint_is_the_base(base):
     slide = pin.JointModelPrismaticUnaligned(AXIS)
@@ -227,7 +232,7 @@ def geometry_of(shape, joint=1, frame=1):
 def test_a_shape_has_coal_s_size_and_place(name):
     """Its distance to a point, along many directions, is coal's."""
     shape = SHAPES[name]
-    model = hand_made(pin.JointModelRX())
+    model = hinged()
     system = System([Body.of_pinocchio("r", model, geometry_of(shape))])
     placed = system.shapes[0]
     here = coal.Transform3s(placed.R, placed.t)
@@ -241,19 +246,16 @@ def test_a_shape_has_coal_s_size_and_place(name):
         assert_within(placed.shape.signed_distance(local[None])[0], apart, COAL)
 
 
-def test_a_mesh_is_its_hull_and_says_whether_it_is_convex():
-    dented = coal.BVHModelOBBRSS()
-    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0.2, 0.2, 0.2]]) / 10
-    faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 4), (2, 3, 4), (3, 1, 4)]
-    points = coal.StdVec_Vec3s()
-    points.extend(list(corners))
-    triangles = coal.StdVec_Triangle()
-    triangles.extend([coal.Triangle(*face) for face in faces])
-    dented.beginModel(len(faces), len(corners))
-    dented.addSubModel(points, triangles)
-    dented.endModel()
-    model = hand_made(pin.JointModelRX())
-    system = System([Body.of_pinocchio("r", model, geometry_of(dented))])
+DENTED = """v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nv 0.02 0.02 0.02
+f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 5\nf 3 4 5\nf 4 2 5\n"""
+"""A tetrahedron, in whose fourth face a fifth corner is pressed."""
+
+
+def test_a_mesh_is_its_hull_and_says_whether_it_is_convex(tmp_path):
+    file = tmp_path / "dented.obj"
+    file.write_text(DENTED)
+    dented = coal.MeshLoader().load(str(file), np.ones(3))
+    system = System([Body.of_pinocchio("r", hinged(), geometry_of(dented))])
     hull = system.shapes[0].shape
     assert len(hull.vertices) == 4
     assert not hull.is_convex
@@ -280,21 +282,15 @@ def test_a_scene_holds_a_model_and_runs():
             load_scenario(scene)
 
 
-def heavy(*, mass=1.0, lever=0.0):
-    inertia = pin.Inertia(INERTIA)
-    inertia.mass = mass
-    inertia.lever = np.full(3, lever)
-    return inertia
-
-
-def of_inertia(**inertia):
-    model = hand_made(pin.JointModelRX())
-    model.inertias[1] = heavy(**inertia)
+def of_inertia(mass=1.0, lever=0.0):
+    model = hinged()
+    model.inertias[1].mass = mass
+    model.inertias[1].lever = np.full(3, lever)
     return model
 
 
 def twice_named():
-    model = hand_made(pin.JointModelRX())
+    model = hinged()
     model.addBodyFrame("z", 1, PLACE, 0)
     return model
 
@@ -302,7 +298,7 @@ def twice_named():
 def with_a_swollen_box():
     box = coal.Box(0.1, 0.1, 0.1)
     box.setSweptSphereRadius(0.01)
-    return hand_made(pin.JointModelRX()), geometry_of(box)
+    return hinged(), geometry_of(box)
 
 
 ROOT = hand_made(pin.JointModelFreeFlyer(), first=pin.SE3.Identity())
@@ -324,7 +320,7 @@ REFUSED = {
         r"joint\[z\]: is a JointModelFreeFlyer that is not at the world's origin",
     ),
     "a plane": (
-        lambda: (hand_made(pin.JointModelRX()), geometry_of(coal.Plane(np.eye(3)[2], 0.0))),
+        lambda: (hinged(), geometry_of(coal.Plane(np.eye(3)[2], 0.0))),
         r"geometry\[s\]: is a Plane; known are Box, .* and meshes",
     ),
     "a swept-sphere radius": (with_a_swollen_box, r"geometry\[s\]: has a swept-sphere radius"),

@@ -33,11 +33,8 @@ def joined(*meshes):
 def test_a_box_as_it_is_as_loose_triangles_and_off_by_a_bit(rng):
     loose = V[F].reshape(-1, 3)
     apart = loose * (1 + 1e-7 / 4 * rng.uniform(-1, 1, loose.shape))
-    for vertices, faces in (
-        (V, F),
-        (loose, np.arange(36).reshape(-1, 3)),
-        (apart, np.arange(36).reshape(-1, 3)),
-    ):
+    each = np.arange(36).reshape(-1, 3)
+    for vertices, faces in ((V, F), (loose, each), (apart, each)):
         made = solid(vertices, faces)
         assert_relative(made.volume, 8.0, 1e-6)
         assert_within(made.centre, np.zeros(3), 1e-6)
@@ -84,8 +81,6 @@ NOTHING = {
 
 @pytest.mark.parametrize(("vertices", "faces"), NOTHING.values(), ids=NOTHING)
 def test_a_closed_mesh_that_encloses_nothing_is_refused(tmp_path, vertices, faces):
-    with pytest.raises(InputError, match="mesh: encloses nothing"):
-        closed_mesh(vertices, faces, [])
     mesh = trimesh.Trimesh(vertices, faces, process=False)
     for kind in ("obj", "off", "ply", "stl"):
         mesh.export(tmp_path / f"m.{kind}")

@@ -1,5 +1,6 @@
 """Bodies from scans: mass properties against their solids', strays, units, what is refused."""
 
+from contextlib import nullcontext
 from itertools import product
 
 import numpy as np
@@ -9,15 +10,15 @@ from scipy.spatial import cKDTree
 
 import quasistatic_ref as qr
 from quasistatic_ref import InputError
-from quasistatic_ref.cli.main import main
-from quasistatic_ref.files.scenario.scenario import scenario_path
 from quasistatic_ref.optional.scans.cloud import thinned
 from tests.closeness import assert_relative, assert_within
 from tests.oracles.scanned import SCANS, SOLIDS, on_surface
+from tests.pages import ROOT
 
 WITHIN, WITH_NOISE = 0.01, 0.10
 """Errors of mass properties that are asked for, over the extent or the largest moment."""
 MASS = 0.35
+BUNNY = ROOT / "models" / "bunny_grasp"
 CUBE = trimesh.creation.box((0.1, 0.1, 0.1))
 
 
@@ -54,29 +55,30 @@ def test_a_cloud_has_the_centre_and_inertia_of_the_hull_of_its_solid(solid, scan
     assert len(said) == (scan == "with strays")
 
 
-def test_a_scan_in_millimetres_is_asked_for_its_unit(tmp_path):
+def test_a_scan_that_is_no_thing_in_hand_is_asked_for_its_unit(tmp_path):
     points = on_surface(SOLIDS["can"], 3000, seed=1)
+    for length, taken in ((0.0049, False), (0.0051, True), (2.9, True), (3.1, False)):
+        scan = points * length / np.ptp(points, axis=0).max()
+        with nullcontext() if taken else pytest.raises(InputError, match="say its unit"):
+            body(tmp_path, scan)
     with pytest.raises(InputError, match="is 115 m long if it is in metres; say its unit: --unit"):
         body(tmp_path, 1e3 * points)
-    made = body(tmp_path, 1e3 * points, unit="mm")
-    assert off(made, SOLIDS["can"]) < WITHIN
+    assert off(body(tmp_path, 1e3 * points, unit="mm"), SOLIDS["can"]) < WITHIN
     with pytest.raises(InputError, match="unit: is not a unit; did you mean 'mm'"):
         body(tmp_path, points, unit="mmm")
 
 
 def test_a_closed_mesh_is_exact(tmp_path):
     """The bunny of models/, whose URDF was summed by its own program from the same mesh."""
-    folder = scenario_path("bunny_grasp").parent
-    made = qr.scanned_body(folder / "bunny.obj", mass=0.2)
-    system = qr.System([qr.Body("bunny", folder / "bunny.urdf", base="floating")])
+    made = qr.scanned_body(BUNNY / "bunny.obj", mass=0.2)
+    system = qr.System([qr.Body("bunny", BUNNY / "bunny.urdf", base="floating")])
     assert_within(made.centre, system.centres[1], 1e-9)
     assert_within(made.inertia, system.inertias[1], 1e-11)
 
 
 def test_the_papers_cloud_of_992_points_is_nearly_the_hull_of_its_mesh():
-    folder = scenario_path("bunny_grasp").parent
-    hull = trimesh.load_mesh(folder / "bunny.obj").convex_hull
-    assert off(qr.scanned_body(folder / "bunny_992.csv", mass=MASS), hull) < WITH_NOISE
+    hull = trimesh.load_mesh(BUNNY / "bunny.obj").convex_hull
+    assert off(qr.scanned_body(BUNNY / "bunny_992.csv", mass=MASS), hull) < WITH_NOISE
 
 
 def test_a_face_alone_and_few_points_are_refused(tmp_path, rng):
@@ -122,7 +124,7 @@ def test_the_command_writes_a_scene_that_runs(tmp_path, cli):
     assert set(run["certificate"].tolist()) == {"exact"}
     assert_relative(run["wrench"][-1, :, 2].sum(), 0.35 * 9.81, 1e-6)
     with pytest.raises(SystemExit):
-        main(["body", str(tmp_path / "scene.toml")])  # neither mass nor density
+        cli("body", tmp_path / "scene.toml")  # neither mass nor density
     cli("body", tmp_path / "none.csv", "--mass 1", status=2)
 
 
@@ -163,16 +165,3 @@ def test_of_very_many_points_a_sample_is_covered_evenly_and_corners_stay_first(r
     assert {*kept[:8].tolist()} == {*range(60_000, 60_008)}
     away, _ = cKDTree(ball[kept[8:]]).query(ball)
     assert away.max() < 0.02  # 492 discs of that radius cover the ball's surface 4.9 times
-
-
-@pytest.mark.parametrize(
-    ("length", "taken"), [(0.0049, False), (0.0051, True), (2.9, True), (3.1, False)]
-)
-def test_a_scan_as_long_as_a_thing_in_hand_needs_no_unit(tmp_path, length, taken):
-    points = on_surface(SOLIDS["can"], 3000, seed=1)
-    points = points * length / np.ptp(points, axis=0).max()
-    if taken:
-        assert body(tmp_path, points) is not None
-    else:
-        with pytest.raises(InputError, match="say its unit"):
-            body(tmp_path, points)
