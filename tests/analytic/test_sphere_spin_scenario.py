@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario
-from tests.closeness import assert_close, assert_relative, assert_same, assert_within
+from tests.closeness import assert_within
 
 MASS = 0.3
 INERTIA = 8e-5
@@ -18,8 +18,6 @@ GRAVITY = 9.81
 LIMIT = MU_OMEGA * MASS * GRAVITY
 AT_LIMIT = 39
 """The step whose torque is the limit, to rounding."""
-FREE = np.array([H**2 * GRAVITY] * 3 + [H**2 * LIMIT / INERTIA] * 3)
-"""What a step would be without the floor, at the limit: the scale of every motion here."""
 
 
 def torque(k):
@@ -28,31 +26,13 @@ def torque(k):
 
 
 @pytest.fixture(scope="module")
-def scenario():
-    return load_scenario("sphere_spin", fast=True)
-
-
-@pytest.fixture(scope="module")
-def run(scenario):
-    return scenario.run()
-
-
-def test_the_scenario_is_the_one_of_the_formula(scenario):
-    system = scenario.system
-    assert (scenario.h, scenario.steps) == (H, 200)
-    M_u = np.diag([MASS] * 3 + [INERTIA] * 3)
-    assert_close(system.M_u(system.q_start), M_u)
-    pair = scenario.pairs[0]
-    assert (pair.beta.shape.radius, pair.mu_omega, pair.rows) == (RADIUS, MU_OMEGA, 6)
-    for k in (0, AT_LIMIT, 199):
-        force = scenario.force((k + 1) * H, system.q_start)
-        assert_close(force, [0, 0, 0, 0, 0, torque(k)])
-    assert_relative(torque(AT_LIMIT), LIMIT)
+def run():
+    return load_scenario("sphere_spin", fast=True).run()
 
 
 def test_the_sphere_sticks_up_to_the_limit(run):
-    moved = run["delta_q"][:AT_LIMIT] / FREE
-    assert_same(moved, np.zeros((AT_LIMIT, 6)))
+    assert not run["delta_q"][:AT_LIMIT].any()
+    assert run["delta_q"][AT_LIMIT + 1].any()
 
 
 def test_the_whole_run_is_the_recurrence_from_rest(run):

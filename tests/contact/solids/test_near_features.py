@@ -12,12 +12,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref import (
     Box,
     Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    HalfSpace,
     PointCloud,
-    Sphere,
     convex_hull,
 )
 from quasistatic_ref.contact import crossings, distance, ranks
@@ -28,18 +23,11 @@ from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.shapes.facets import Facets
 from tests.contact.still import in_world, one_by_one, pair, placed_shape, searched, standing_links
 from tests.made import bits
+from tests.oracles.closest import solids
 
 KINDS = ("apart", "far", "touching", "flush", "crossing", "deep", "nearly aligned")
 UP = np.array([0.0, 0.0, 1.0])
-SOLIDS = [
-    HalfSpace((0.3, 0.2, 1.0), -0.02),
-    Box((0.01, 0.02, 0.03)),
-    Sphere(0.02),
-    Capsule(0.01, 0.02),
-    Cylinder(0.02, 0.01),
-    Cone(0.02, 0.02),
-    Ellipsoid((0.01, 0.02, 0.03)),
-]
+SOLIDS = [solid for solid in solids().values() if not hasattr(solid, "vertices")]
 
 
 def random_mesh(rng):
