@@ -64,7 +64,7 @@ class LeastNorm:
     def optimum(
         self, strict: Callable[[MatrixForm], Minimiser | Combination]
     ) -> tuple[Face, list[int]] | None:
-        """The face at its point nearest to zero, and the rows that bear there; None if there is none."""
+        """The face at its point nearest to zero, and the rows that bear there; or None."""
         if not self.possible:
             return None
         end = strict(self.form)
@@ -86,7 +86,7 @@ class LeastNorm:
         return face.at(X, D)
 
     def on_rows(self, rows: Sequence[int]) -> tuple[Face, str]:
-        """The face at its point nearest to zero on some rows, and why they do not give it, or empty."""
+        """The face at its point nearest to zero on some rows; or the face, and what is wrong."""
         place = {i: t for t, i in enumerate(self.rows)}
         if not self.possible or not {*rows} <= {*place}:
             return self.face, "the rows of least norm do not hold an optimum"
