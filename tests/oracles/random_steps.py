@@ -20,9 +20,10 @@ from tests.made import (
     frames_about,
     free_step,
     point_jacobian,
-    random_frames,
+    random_contacts,
     repeated,
-    spread_matrix,
+    rigid_step,
+    step_on,
 )
 
 POLYHEDRAL = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
@@ -76,28 +77,21 @@ def any_step(rng, family):
     """Anything that a step may be."""
     n_a, n_u, n_c = (int(rng.integers(*each)) for each in MOST[family])
     n_u += n_a + n_u == 0
-    ratio = rng.choice([1.0, 1e4, 1e9])
-    frames = random_frames(rng, n_c).swapaxes(1, 2)
-    J = rng.standard_normal((n_c, 4, n_a + n_u))
-    J *= rng.random((n_c, 1, n_a + n_u)) < 0.7  # some coordinates do not move a contact
-    phi = rng.choice([0.0, 1e-3, -1e-4], n_c) * rng.random(n_c)
-    mu_v = rng.choice([0.0, 0.5, 1.0], n_c) * rng.random(n_c)
-    mu_omega = rng.choice([0.0, 0.01], n_c)
-    same = np.arange(n_c)
-    for j in range(1, n_c):
-        if rng.random() < 0.3:
-            same[j] = same[rng.integers(j)]
-    return StepData(
-        h=0.01,
-        K_q=spread_matrix(rng, n_a, 1e3, ratio),
-        M_u=spread_matrix(rng, n_u, 1.0, ratio),
-        tau_a=rng.standard_normal(n_a),
-        tau_u=rng.choice([0.0, 1.0]) * rng.standard_normal(n_u),
-        delta_q_bar_a=1e-3 * rng.standard_normal(n_a),
-        contacts=contacts_of(
-            phi[same], frames[same], J[same], mu_v[same], mu_omega[same], rng.choice([4, 6], n_c)
-        ),
-    )
+    contacts = random_contacts(
+        rng, n_c, n_a + n_u,
+        phi=rng.choice([0.0, 1e-3, -1e-4], n_c) * rng.random(n_c),
+        mu_v=rng.choice([0.0, 0.5, 1.0], n_c) * rng.random(n_c),
+        mu_omega=rng.choice([0.0, 0.01], n_c),
+    )  # fmt: skip
+    moves = rng.random((n_c, 1, n_a + n_u)) < 0.7  # some coordinates do not move a contact
+    each = np.arange(n_c)
+    same = np.where(rng.random(n_c) < 0.3, rng.integers(0, each + 1), each)
+    step = step_on(
+        rng, n_a, n_u,
+        repeated(contacts, same, J=(moves * contacts.J)[same], rows=rng.choice([4, 6], n_c)),
+        rng.choice([1.0, 1e4, 1e9]),
+    )  # fmt: skip
+    return step.replace(tau_u=rng.choice([0.0, 1.0]) * step.tau_u)
 
 
 def grasp(rng, _):
@@ -106,35 +100,32 @@ def grasp(rng, _):
     The coordinates are those of the gripper, a stiff floating base and a width, then the twist of
     the body.
     """
-    grip, n_c = 10, 15
-    side = np.where(np.arange(n_c) < grip, np.resize([-1.0, 1.0], n_c), 0.0)  # 0 is the floor
+    side = np.repeat([-1.0, 1.0, 0.0], 5)  # 0 is the floor
     gripped = side[:, None] != 0
-    n = np.where(gripped, side[:, None] * X + 0.05 * rng.standard_normal((n_c, 3)), Z)
+    along = side[:, None] * X
+    n, spread = rng.standard_normal((2, 15, 3))
+    n = np.where(gripped, along + 0.05 * n, Z)
     n /= np.linalg.norm(n, axis=1, keepdims=True)
-    spread = rng.standard_normal((n_c, 3))
-    floor = spread * [0.04, 0.04, 0.0] - 0.04 * Z
-    at = np.where(gripped, -0.03 * side[:, None] * X + 0.005 * spread, floor)
-    J = np.zeros((n_c, 4, 13))
-    J[:, :, 7:] = point_jacobian(at, n)
-    J[:grip, :, :6] = -J[:grip, :, 7:]
-    J[:, 0, 6] = side / 2
     mass = 0.2 * (1 + rng.random())
-    R = random_frames(rng, 1)[0]
-    inertia = R @ np.diag(mass * 1e-3 * (0.5 + rng.random(3))) @ R.T
+    body = rigid_step(
+        mass, mass * 1e-3 * (0.5 + rng.random(3)), -GRAVITY * mass * np.eye(6)[2],
+        np.where(gripped, 0.005 * spread - 0.03 * along, [0.04, 0.04, 0.0] * spread - 0.04 * Z),
+        frames_about(n, -Y), mu_v=rng.uniform(0.3, 0.9, 15), mu_omega=rng.uniform(0.005, 0.02, 15),
+        phi=np.where(rng.random(15) < 0.5, 1e-6, 1e-4) * rng.standard_normal(15),
+        rows=np.where(side, 6, 4),
+    )  # fmt: skip
+    J = body.contacts.J
+    of_gripper = np.where(gripped[..., None], -J, 0.0), side[:, None, None] / 2 * np.eye(4, 1)
     lift = rng.choice([0.0, 2e-4]) * np.eye(6)[2] + 1e-5 * rng.standard_normal(6)
     return StepData(
-        h=0.01,
-        K_q=np.diag([800.0, 800.0, 800.0, 20.0, 20.0, 20.0, 2000.0]),
-        M_u=block_diag(mass * np.eye(3), (inertia + inertia.T) / 2),
+        h=body.h,
+        K_q=np.diag([800.0] * 3 + [20.0] * 3 + [2000.0]),
+        M_u=body.M_u,
         tau_a=np.zeros(7),
-        tau_u=-GRAVITY * mass * np.eye(6)[2],
+        tau_u=body.tau_u,
         delta_q_bar_a=np.append(lift, -rng.uniform(0, 2e-3)),
-        contacts=contacts_of(
-            np.where(rng.random(n_c) < 0.5, 1e-6, 1e-4) * rng.standard_normal(n_c),
-            frames_about(n, -Y), J, rng.uniform(0.3, 0.9, n_c), rng.uniform(0.005, 0.02, n_c),
-            np.where(side, 6, 4),
-        ),
-    )  # fmt: skip
+        contacts=replace(body.contacts, J=np.concatenate([*of_gripper, J], axis=2)),
+    )
 
 
 PLANAR = ("floor", "anywhere", "wedge")

@@ -277,7 +277,7 @@ def test_contact_forces_do_not_depend_on_backend_start_or_order(monkeypatch):
     """Random steps, one of them by fractions; and a planted fault."""
     for _, step in checks.random_steps(5):
         assert not any(checks.differences(step, oracle=False).values())
-    step = drawn(4)
+    step = drawn(7)
     found = checks.differences(step, oracle=True)
     assert set(found) >= {"backends", "permuted", "definition", "independent"}
     assert not any(found.values())
