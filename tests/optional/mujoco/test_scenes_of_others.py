@@ -7,15 +7,15 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref import InputError, ModelError
 from quasistatic_ref.optional.mujoco.compiler import compiled_model
-from quasistatic_ref.solve.step_problem import CvxpySolver, is_large
+from quasistatic_ref.solve.step_problem import is_large
+from tests.optional.mujoco.models import mjcf, model_of, posed
 
 BOX = '<geom {}type="box" size="0.05 0.05 0.05" mass="1"{}/>'
 FREE = '<body name="box" pos="{}"><freejoint/>{}</body>'
 
 
 def scene(bodies, rest="", option="", **fields):
-    text = f"<mujoco>{option}<worldbody>{bodies}</worldbody>{rest}</mujoco>"
-    return qr.mujoco_scenario(mujoco.MjModel.from_xml_string(text), **fields)
+    return qr.mujoco_scenario(model_of(mjcf(bodies, rest, option)), **fields)
 
 
 WELD = '<equality><weld body1="box"/></equality>'
@@ -150,11 +150,8 @@ def test_a_step_of_many_coordinates_is_solved_without_the_map_of_its_parameters(
         )
         for i in range(48)
     )
-    text = f"<mujoco><worldbody>{FLOOR}{boxes}</worldbody></mujoco>"
-    model = mujoco.MjModel.from_xml_string(text)
-    step, _ = qr.mujoco_step(model, mujoco.MjData(model), 0.01)
-    solver = CvxpySolver(step)
-    assert is_large(solver.problem.problem)
+    step, _ = qr.mujoco_step(*posed(mjcf(FLOOR + boxes)), 0.01)
+    assert is_large(qr.StepProblem(step).problem)
     answer = qr.solve_step(step)
     assert answer.certificate.kind == "exact"
     assert answer.forces[:, 2].sum() == pytest.approx(48 * 9.81)
