@@ -28,8 +28,6 @@ from tests.made import (
 )
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
-INTERFACES = (*REQUIRED[:-1], "cvxpy:daqp", *(f"qpsolvers:{name}" for name in REQUIRED))
-JUDGE = "daqp"
 PAPER = 7, 6, (6,) * 10 + (4,) * 5
 """n_a, n_u and rows of each contact, of the paper's grasp."""
 SHAPES = [

@@ -13,7 +13,7 @@ from tests.processes import python
 GROWTH = """
 import gc, tracemalloc
 import numpy as np
-from quasistatic_ref.files.scenario.scenario import load_scenario
+from quasistatic_ref import load_scenario
 
 scenario, draw = load_scenario("sphere_spin", fast=True), np.random.default_rng(1)
 simulator, q, force = scenario.simulator(), scenario.system.q_start, np.zeros(6)

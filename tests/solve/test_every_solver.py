@@ -61,7 +61,7 @@ def test_each_step_ends_as_without_a_backend(name, capfd):
     assert capfd.readouterr() == ("", "")  # and no interface warns, for warnings are errors here
 
 
-@pytest.mark.parametrize("name", [name for name in installed_backends() if name != NONE])
+@pytest.mark.parametrize("name", installed_backends())
 def test_an_unproved_answer_is_near_the_optimum(name):
     for step in PLAIN:
         exact = qr.solve_step(step, NONE)
