@@ -199,8 +199,3 @@ def test_every_name_is_reliable_in_every_order_of_imports():
 def test_an_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match="has no attribute 'simulat'"):
         attrgetter("simulat")(qr)
-
-
-def test_python_m_is_the_command_line():
-    said = python("-m", "quasistatic_ref", "run", "no_such_scenario", status=2).stderr
-    assert "no_such_scenario" in said

@@ -156,10 +156,3 @@ def test_urdf_1_2_has_optional_limits_and_quaternions():
     assert_within(urdf.model.jointPlacements[1].rotation, R, 1e-15)
     with pytest.raises(ModelError, match="quat_xyzw: cannot stand next to rpy"):
         loaded(turned.replace("quat_xyzw", 'rpy="0 0 0" quat_xyzw'))
-
-
-def test_a_missing_element_of_a_urdf_is_named():
-    with pytest.raises(ModelError, match="robot: has no <link>"):
-        loaded('<robot name="a"/>')
-    with pytest.raises(ModelError, match=r"robot\.name: is missing"):
-        loaded('<robot><link name="a"/></robot>')
