@@ -41,7 +41,7 @@ def _draw(axes: Axes, finger: float, block: float) -> None:
     axes.plot([WALL, 11], [0, 0], color="0.6", linestyle="-", linewidth=scaled(1.5))
     axes.axvline(1e3 * TARGET, ymax=0.75, color=FINGER, linestyle=":", linewidth=scaled(1.2))
     axes.text(1e3 * TARGET, 4.4, "target", color=FINGER, ha="center")
-    axes.set(xlim=(-9.6, 11), ylim=(-1.9, 5), aspect="equal", xlabel="x [mm]", yticks=[])
+    axes.set(xlim=(-9.6, 11), ylim=(-1.9, 5), xlabel="x [mm]", yticks=[])
     axes.grid(visible=False)
 
 
@@ -54,7 +54,7 @@ def _span(axes: Axes, ends: tuple[float, float], y: float, words: str) -> None:
 
 def figure() -> Figure:
     """Top, the start, with gap and target. Below, the end, with the force on both."""
-    page, (start, end) = panels(4.4, 3.6, rows=2, sharex=True)
+    page, (start, end) = panels(6.3, 3.2, rows=2, sharex=True)
     solution = solve_step(step())
     finger, block = 1e3 * solution.delta_q
     _draw(start, 0.0, 0.0)
