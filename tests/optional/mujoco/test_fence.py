@@ -6,33 +6,31 @@ import sys
 import mujoco
 import pytest
 
-from quasistatic_ref import InputError, ModelError
-from quasistatic_ref.errors import about_file
+from quasistatic_ref import InputError
 from quasistatic_ref.optional.mujoco import compiler
 from tests.cases import cases
 from tests.files.urdf.urdf_texts import urdf_of_text
+from tests.helpers import one_sentence
 from tests.made import text_written
 from tests.oracles.shape_files import TETRAHEDRON
 
 BODY = '<mujoco><worldbody><body name="b"><joint/><geom size="0.1"/></body></worldbody></mujoco>'
 
 
-def compiled(path, roots=()):
-    """The model of a file, as `run` and `opinion` ask for it."""
-    with about_file(path):
-        return compiler.compiled_model(path, roots)
-
-
 def model(inside):
     return f'<mujoco>{inside}<worldbody><body><geom size="0.1"/></body></worldbody></mujoco>'
 
 
-def refusal(path):
+@pytest.fixture
+def refusal(cli):
     """Why the model of a file is refused, which the sentence names first."""
-    with pytest.raises(ModelError) as caught:
-        compiled(path)
-    assert str(caught.value).startswith(f"{path}: ")
-    return str(caught.value)
+
+    def said(path):
+        sentence = one_sentence(cli("opinion", path, status=2).err)
+        assert sentence.startswith(f"{path}: ")
+        return sentence
+
+    return said
 
 
 @pytest.fixture
@@ -93,7 +91,9 @@ EACH = [pytest.param(c, marks=pytest.mark.long if c in LIKE_OTHERS else ()) for 
 
 
 @pytest.mark.parametrize("case", EACH)
-def test_a_model_that_reads_elsewhere_or_asks_for_too_much_is_refused(home, case, monkeypatch):
+def test_a_model_that_reads_elsewhere_or_asks_for_too_much_is_refused(
+    home, case, monkeypatch, refusal
+):
     if case == "a mesh":
         monkeypatch.setattr(compiler, "SECONDS", 1)
     inside, says = REFUSED[case]
@@ -109,18 +109,19 @@ def test_a_model_that_reads_elsewhere_or_asks_for_too_much_is_refused(home, case
         (b"<mujoco>", "is not XML: "),
     ],
 )
-def test_xml_that_is_not_plain_is_refused(tmp_path, content, says):
+def test_xml_that_is_not_plain_is_refused(tmp_path, content, says, refusal):
     path = tmp_path / "m.xml"
     path.write_bytes(content)
     assert says in refusal(path)
 
 
-def test_a_folder_that_is_named_may_be_read(home, tmp_path, cli):
+def test_a_folder_that_is_named_may_be_read(home, tmp_path, cli, refusal):
     text = '<mujoco><include file="../outside.xml"/></mujoco>'
     path = urdf_of_text(home, text, "m.xml")
-    assert "outside the folder of the model" in refusal(path)
-    assert compiled(path, [tmp_path]).body(1).name == "b"
-    assert "m.xml: include.file: leads to " in cli("opinion", path, status=2).err
+    sentence = refusal(path)
+    assert "m.xml: include.file: leads to " in sentence
+    assert "outside the folder of the model" in sentence
+    assert compiler.compiled_model(path, [tmp_path]).body(1).name == "b"
     cli("opinion", path, "--settle 0 --root", tmp_path)
 
 
@@ -138,7 +139,7 @@ BESIDE = {
 
 
 @cases("inside, file, place, named", BESIDE)
-def test_a_model_reads_where_a_urdf_reads(tmp_path, inside, file, place, named):
+def test_a_model_reads_where_a_urdf_reads(tmp_path, inside, file, place, named, refusal):
     """Where it does not, the sentence prints the option that suffices."""
     home = tmp_path / "top" / "robot" / "xml"
     home.mkdir(parents=True)
@@ -148,18 +149,19 @@ def test_a_model_reads_where_a_urdf_reads(tmp_path, inside, file, place, named):
         (tmp_path / "top" / ".git").mkdir()
     path = urdf_of_text(home, model(inside + TETRAHEDRA.format(file)), "m.xml")
     if named in (None, ".git"):
-        assert compiled(path).nmesh == 1
+        assert compiler.compiled_model(path).nmesh == 1
         return
     root = (home.parent / named).resolve()
-    assert f"mesh[m].file: leads to {root / 'm.obj'}, outside the folder" in refusal(path)
-    assert f"name its folder: --root {root} " in refusal(path) + " "
-    assert compiled(path, [root]).nmesh == 1
+    sentence = refusal(path) + " "
+    assert f"mesh[m].file: leads to {root / 'm.obj'}, outside the folder" in sentence
+    assert f"name its folder: --root {root} " in sentence
+    assert compiler.compiled_model(path, [root]).nmesh == 1
 
 
 def test_a_model_has_the_numbers_that_mujoco_compiles(tmp_path):
     path = urdf_of_text(tmp_path, BODY, "m.xml")
     known = mujoco.MjModel.from_xml_path(str(path))
-    model = compiled(path)
+    model = compiler.compiled_model(path)
     for name in ("body_mass", "body_inertia", "geom_size", "jnt_axis", "qpos0"):
         assert getattr(model, name).tobytes() == getattr(known, name).tobytes()
     assert model.narena == known.narena
@@ -168,7 +170,7 @@ def test_a_model_has_the_numbers_that_mujoco_compiles(tmp_path):
 def test_without_mujoco_one_sentence_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
     with pytest.raises(InputError, match=r"needs mujoco: pip install 'quasistatic-ref\[engines\]'"):
-        compiled(urdf_of_text(tmp_path, BODY, "m.xml"))
+        compiler.compiled_model(urdf_of_text(tmp_path, BODY, "m.xml"))
 
 
 def test_time_in_which_others_use_the_processor_does_not_count(tmp_path, monkeypatch):
@@ -183,6 +185,6 @@ def test_time_in_which_others_use_the_processor_does_not_count(tmp_path, monkeyp
 def test_a_warning_of_mujocos_is_not_printed_or_written(tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
     nan = BODY.replace('size="0.1"', 'size="0.1" pos="NaN 0 0"')
-    compiled(urdf_of_text(tmp_path, nan, "m.xml"))
+    compiler.compiled_model(urdf_of_text(tmp_path, nan, "m.xml"))
     assert [file.name for file in tmp_path.iterdir()] == ["m.xml"]
     assert capfd.readouterr().err == ""

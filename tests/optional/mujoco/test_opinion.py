@@ -8,7 +8,6 @@ import pytest
 from jsonschema import Draft4Validator
 
 import quasistatic_ref as qr
-from quasistatic_ref.lab.commands.schema import opinion_schema
 from quasistatic_ref.optional.mujoco.settled import settled
 from tests.helpers import one_sentence
 from tests.optional.mujoco.models import GRAVITY, mjcf, model_of, posed
@@ -102,8 +101,9 @@ def test_the_command_prints_json_of_the_schema_and_ends_with_1(tmp_path, cli):
     (tmp_path / "block.xml").write_text(SCENES["block.xml"])
     command = "opinion", tmp_path / "block.xml", "--settle 0.5"
     record = json.loads(cli(*command, "--json", status=1).out)
-    Draft4Validator.check_schema(opinion_schema())
-    Draft4Validator(opinion_schema()).validate(record)
+    schema = json.loads(cli("schema opinion").out)
+    Draft4Validator.check_schema(schema)
+    Draft4Validator(schema).validate(record)
     assert [one["name"] for one in record["findings"]] == ["creeps"]
     assert "no finding" in cli(*command, "--tolerance 0.01").out
 

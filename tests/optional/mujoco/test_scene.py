@@ -45,10 +45,6 @@ SCENE = f"""<mujoco><size memory="1M"/><default><default class="pad">
 <key name="raised" qpos="0 0 0 0 0 .1 1 0 0 0" ctrl=".05 .04"/></keyframe></mujoco>"""
 
 
-def model(text=SCENE):
-    return model_of(text)
-
-
 def grasp(t):
     """Close for 0.06 s, lift for 0.1 s by 1 mm a step, and wait."""
     return {"grip": min(t, 0.06) / 0.06 * 0.04, "up": float(np.clip(t - 0.06, 0, 0.1) * 0.1)}
@@ -57,7 +53,7 @@ def grasp(t):
 @pytest.fixture(scope="module")
 def lifted():
     """The scene, and a run of it."""
-    scene = mujoco_scenario(model(), targets=grasp, steps=24)
+    scene = mujoco_scenario(model_of(SCENE), targets=grasp, steps=24)
     return scene, scene.run()
 
 
@@ -150,7 +146,7 @@ def test_an_element_that_no_run_has_is_refused_before_the_first_step(body, rest,
     text = BALL.format(body).replace("<geom", '<geom name="g"', 1)
     world = f'<worldbody><geom name="f" size=".1"/><site name="f"/>{text}</worldbody>'
     with pytest.raises(QuasistaticError) as refused:
-        mujoco_scenario(model(f"<mujoco>{world}{rest}</mujoco>"))
+        mujoco_scenario(model_of(f"<mujoco>{world}{rest}</mujoco>"))
     assert field in str(refused.value)
 
 
@@ -168,7 +164,7 @@ def test_a_table_that_is_none_is_refused(table, says, tmp_path):
     path = tmp_path / "targets.csv"
     path.write_text(table)
     with pytest.raises(InputError, match=says):
-        mujoco_scenario(model(), targets=path)
+        mujoco_scenario(model_of(SCENE), targets=path)
 
 
 @pytest.mark.parametrize(
@@ -182,7 +178,7 @@ def test_a_table_that_is_none_is_refused(table, says, tmp_path):
 )
 @pytest.mark.parametrize("asked", ["scene", "opinion"])
 def test_numbers_that_no_step_can_take_are_refused_by_name(spoilt, number, field, asked):
-    bad = model()
+    bad = model_of(SCENE)
     owner, _, name = spoilt.rpartition(".")
     owner = bad.opt if owner else bad
     if isinstance(getattr(owner, name), np.ndarray):
@@ -198,15 +194,17 @@ def test_joints_without_servos_have_springs_and_fields_their_names():
     """A joint gives way by load / k; one with a servo takes no spring."""
     text = SCENE[: SCENE.index("<equality>")] + "</mujoco>"
     stiff = {"stiffness.lift": 1000.0, "stiffness.l": 1e6, "stiffness.r": 1e6}
-    scene = mujoco_scenario(model(text), settings=stiff, targets=lambda t: {"lift": 0.01}, steps=1)
+    scene = mujoco_scenario(
+        model_of(text), settings=stiff, targets=lambda t: {"lift": 0.01}, steps=1
+    )
     run = scene.run()
     assert scene.system.of(run.q[-1], "hand/lift") == pytest.approx(0.01 - HAND * G / 1000)
     with pytest.raises(InputError, match="has a servo"):
-        mujoco_scenario(model(), settings={"stiffness.lift": 1.0})
+        mujoco_scenario(model_of(SCENE), settings={"stiffness.lift": 1.0})
     with pytest.raises(InputError, match=r"targets: must be a file, names of keyframes or a"):
-        mujoco_scenario(model(), targets=())
+        mujoco_scenario(model_of(SCENE), targets=())
     with pytest.raises(InputError, match=r"gravity.*not for a MuJoCo scene"):
-        mujoco_scenario(model(), gravity=[0, 0, -1])
+        mujoco_scenario(model_of(SCENE), gravity=[0, 0, -1])
 
 
 @pytest.mark.usefixtures("compiled_here")
@@ -246,7 +244,7 @@ def test_a_load_on_welded_bodies_acts_at_their_common_centre():
     """Two equal balls on a stick along x: from the first to the middle it is half the way L."""
     L = 0.2
     scene = mujoco_scenario(
-        model(f"""<mujoco><worldbody>
+        model_of(f"""<mujoco><worldbody>
         <geom type="plane" size="1 1 .1"/><body name="post"><geom size=".01"/></body>
         <body name="stick" pos="0 0 1"><freejoint/><geom size=".01" mass="1"/>
         <body name="end" pos="{L} 0 0"><geom size=".01" mass="1"/></body></body>
@@ -271,8 +269,7 @@ SUCTION = """<mujoco><worldbody><body name="hand" pos="0 0 0.5"><joint name="z" 
 @pytest.mark.parametrize(("relpose", "gap"), [("", 430), (' relpose="0 0 -0.04 1 0 0 0"', 0)])
 def test_an_equality_that_the_first_state_violates_is_said_in_millimetres(relpose, gap):
     """The hand, which collides with nothing, is 430 mm lower than in the model's first state."""
-    model = mujoco.MjModel.from_xml_string(SUCTION.format(relpose))
-    data = mujoco.MjData(model)
+    model, data = posed(SUCTION.format(relpose))
     data.qpos[0] = -0.43
     scene = qr.mujoco_scenario(model, data, steps=1)
     said = [note for note in scene.drive.system.notes if "violated" in note]
