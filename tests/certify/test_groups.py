@@ -14,7 +14,6 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.certify.degeneracy import form_degeneracy
 from quasistatic_ref.certify.groups import flat_rows, group_steps, groups
-from quasistatic_ref.certify.norm import ILL_POSED
 from quasistatic_ref.certify.step_form import StepForm
 from tests.helpers import two_bodies
 from tests.made import X, contacts_of, free_step, infeasible_text
@@ -77,6 +76,5 @@ def test_a_wedged_light_body_is_ill_posed_also_next_to_a_heavy_one_that_falls():
     step = two_bodies([n / unit, m / unit], -1e-3, [0, 0, -1e8, 0, 0, 0])
     with pytest.raises(StepIllPosed) as failure:
         solve_step(step, "none")
-    assert failure.value.length > ILL_POSED
     assert abs(failure.value.delta_q[4]) > 1e-3 * 2**19
     assert np.abs(failure.value.delta_q[:3]).max() > 1e3

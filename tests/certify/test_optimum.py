@@ -7,7 +7,6 @@ import quasistatic_ref as qr
 from quasistatic_ref import load_scenario, solve_step
 from quasistatic_ref.certify import optimum, step_form
 from quasistatic_ref.certify.groups import group_steps
-from quasistatic_ref.certify.optimum import step_optimum
 from quasistatic_ref.certify.working_set import WholeSystem
 from tests.helpers import boxes_step, point_on_floor
 from tests.made import bits
@@ -21,9 +20,9 @@ def test_a_coordinate_that_does_not_move_needs_no_fractions(monkeypatch):
     def refused(system):
         pytest.fail("solved in fractions")
 
-    working = step_optimum(step).working_set
+    working = optimum.step_optimum(step).working_set
     monkeypatch.setattr(WholeSystem, "solution", refused)
-    delta_q = step_optimum(step, working).delta_q
+    delta_q = optimum.step_optimum(step, working).delta_q
     assert delta_q.astype(bool).tolist() == [True, True, True, False, False, False]
 
 

@@ -7,7 +7,6 @@ import pytest
 
 from quasistatic_ref import standard_form
 from quasistatic_ref.certify.active_set import BLOCK, PAIRS, basic_rows, third_pair_rows, warm_rows
-from quasistatic_ref.step.standard_form import own_inequalities
 from tests.helpers import resting_point
 from tests.tolerances import ROUNDING
 
@@ -59,7 +58,7 @@ def test_rows_of_a_patch_of_very_many_points_are_reduced_block_by_block(monkeypa
 def test_where_two_pairs_bear_the_violated_row_of_the_third_is_named():
     """However little it is violated; of a contact that turns freely, or bears otherwise, none."""
     step = resting_point(contacts=2)
-    A, _ = own_inequalities(step)
+    A = standard_form(step).A
     coordinate = [0, 1, 3]  # of each pair: slips along x and y, and the turn about z
     for whole, other, third in itertools.permutations(range(3)):
         for row, s in itertools.product(PAIRS[other], (1e-17, -1e-17)):
@@ -74,5 +73,6 @@ def test_where_two_pairs_bear_the_violated_row_of_the_third_is_named():
             assert not third_pair_rows(step, A, x, lam).size
     four = resting_point().contacts.with_fields(rows=np.array([4]))
     free = resting_point().with_fields(contacts=four)
-    rows, _ = own_inequalities(free)
-    assert not third_pair_rows(free, rows, np.ones(4), np.array([1.0, 1.0, 1.0, 0.0])).size
+    assert not third_pair_rows(
+        free, standard_form(free).A, np.ones(4), np.array([1.0, 1.0, 1.0, 0.0])
+    ).size

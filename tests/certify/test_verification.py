@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, StepData, solve_step
-from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.units import ScaledStep
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import planted_step, residuals_of, sphere_on_floor
@@ -94,7 +93,7 @@ def test_residuals_of_a_subnormal_answer_are_of_the_answer_as_given():
     """A mass of 3 kg in a second: x* = tau / 3, of which delta_q has no digit."""
     tau = 1e-323
     step = free_step(np.array([[3.0]]), np.array([tau]), no_contacts(1), 1.0)
-    solution = solve_step(step, solver_for(step, "daqp"), certify="residual")
+    solution = solve_step(step, "daqp", certify="residual")
     off = abs(3 * Fraction(solution.delta_q[0]) - Fraction(tau))
     units = ScaledStep(step).units
     natural = off * Fraction(units.coordinate[0]) / Fraction(units.size)
