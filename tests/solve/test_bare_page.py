@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections import defaultdict
 
 import numpy as np
 import pytest
@@ -14,13 +15,12 @@ from tests.pages import PACKAGE, ROOT
 
 TIGHT = dict.fromkeys(("tol_gap_abs", "tol_gap_rel", "tol_feas"), 1e-12)
 CALLS = {
-    "Clarabel": ("CLARABEL", {}),
-    "Clarabel at 1e-12": ("CLARABEL", TIGHT),
-    "PIQP": ("PIQP", {}),
-    "OSQP": ("OSQP", {}),
+    "Clarabel": ("CLARABEL", {}, 5.0, 10.0),
+    "Clarabel at 1e-12": ("CLARABEL", TIGHT, 7.5, 14.0),
+    "PIQP": ("PIQP", {}, 6.0, 10.0),
+    "OSQP": ("OSQP", {}, 3.0, 15.0),
 }
-LEAST = {"Clarabel": 5.0, "Clarabel at 1e-12": 7.5, "PIQP": 6.0, "OSQP": 3.0}
-MEDIAN = {"Clarabel": 10.0, "Clarabel at 1e-12": 14.0, "PIQP": 10.0, "OSQP": 15.0}
+"""Solver, options, and the digits that every step and the median of them have at least."""
 PRINTED = 1.0
 """How far Clarabel's digits are from those of the page; other solvers' depend on the processor."""
 STILL = 1e-9
@@ -50,7 +50,7 @@ def digits_of(step, exact, answer):
 @pytest.mark.filterwarnings("ignore:Solution may be inaccurate:UserWarning")  # the status says so
 def test_ten_steps_of_every_scenario_are_right_by_every_solver():
     """Steps round((i + 1/2) n / 10) of n; one, of door, is at rest. The page lists the digits."""
-    digits = {call: {scene: [] for scene in scenario_names()} for call in CALLS}
+    digits = defaultdict(list)
     statuses = {}
     still = []
     for scene in scenario_names():
@@ -60,28 +60,28 @@ def test_ten_steps_of_every_scenario_are_right_by_every_solver():
             step = run.step_data(k)
             exact = qr.solve_step(step, "none").delta_q
             page = qr.StepProblem(step)
-            for call, (solver, options) in CALLS.items():
+            for call, (solver, options, *_) in CALLS.items():
                 page.problem.solve(solver=solver, canon_backend=CANON, **options)
                 if page.problem.status != "optimal":
                     statuses[scene, k, call] = page.problem.status
                 elif (found := digits_of(step, exact, page.delta_q.value)) is not None:
-                    digits[call][scene].append(found)
+                    digits[call, scene].append(found)
                 elif call == "Clarabel":
                     still.append((scene, k))
     assert still == [("door", 475)]
     assert statuses.items() <= NOT_OPTIMAL.items()
-    for call, scenes in digits.items():
-        each = np.concatenate([*scenes.values()])
-        assert min(each) > LEAST[call], call
-        assert np.median(each) > MEDIAN[call], call
+    for call, (*_, least, median) in CALLS.items():
+        each = np.concatenate([digits[call, scene] for scene in scenario_names()])
+        assert min(each) > least, call
+        assert np.median(each) > median, call
     text = (ROOT / "docs" / "guides" / "in_python.md").read_text()
     for scene in scenario_names():
         (row,) = re.findall(rf"^\| `{scene}` \| (.*) \|$", text, re.MULTILINE)
         for call, cell in zip(CALLS, row.split(" | "), strict=True):
             printed = [*map(float, cell.split("/"))]
-            found = [min(digits[call][scene]), np.median(digits[call][scene])]
+            each = digits[call, scene]
             if "Clarabel" in call:
-                assert_within(found, printed, PRINTED)
+                assert_within([min(each), np.median(each)], printed, PRINTED)
 
 
 def test_of_cvxpy_below_its_top_only_its_words_are_imported():
