@@ -29,7 +29,7 @@ def cloud(kind, N, rng):
     match kind:
         case "grid":  # exact in binary, so that ties are exact
             side = int(np.ceil(N ** (1 / 3)))
-            return (np.stack(np.unravel_index(np.arange(N), (side,) * 3), axis=1) - side / 2) / 64
+            return (np.argwhere(np.ones((side,) * 3))[:N] - side / 2) / 64
         case "shell":
             points = rng.normal(size=(N, 3))
             return 0.1 * points / np.linalg.norm(points, axis=1, keepdims=True)
