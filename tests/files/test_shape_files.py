@@ -263,7 +263,7 @@ BAD = {
     "half a corner.ply": (FACE + "3 0 1.5 0\n", "face: must be whole numbers"),
     "no JSON.gltf": ("", "cannot be read as a mesh: it is malformed"),
     "a pipe.gltf": (gltf_at("pipe"), "a pipe, not"),
-    "a file elsewhere.gltf": (gltf_at("../x"), "must be a file in the folder of this one"),
+    "a file elsewhere.gltf": (gltf_at("../x"), "must be a file in the folder of the glTF file"),
     "a short buffer.gltf": (
         gltf_at("data:,"), r"buffers\[0\]: must be 72, as the file states \(got 0\)",
     ),

@@ -4,6 +4,7 @@ from collections.abc import Collection, Mapping, Sequence
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.tree import TreeJoint
+from quasistatic_ref.text.quoting import clipped
 
 
 def visiting_order(root: str, joints: Sequence[TreeJoint]) -> list[TreeJoint]:
@@ -34,7 +35,8 @@ def visiting_order(root: str, joints: Sequence[TreeJoint]) -> list[TreeJoint]:
                 break
         else:
             if len(followers) < len(leaders):
-                problem = "is a joint that this one moves; let that one mimic this one"
+                of, name = clipped(joint.mimic.of), clipped(joint.name)
+                problem = f"{name} moves {of}, so let {of} mimic {name}"
                 field = f"joint[{joint.name}].mimic"
                 raise ModelError(problem, field=field, value=joint.mimic.of)
     order = []

@@ -211,7 +211,7 @@ def _buffer(path: Path, uri: str | None, chunk: bytes) -> bytes:
         return base64.b64decode(uri.partition(",")[2], validate=True)
     file = (path.parent / unquote(uri)).resolve()
     if not file.is_relative_to(path.parent.resolve()):
-        raise ModelError("must be a file in the folder of this one", field="uri", value=uri)
+        raise ModelError("must be a file in the folder of the glTF file", field="uri", value=uri)
     return bytes_read(file, ModelError, LARGEST_UNPACKED)
 
 

@@ -91,7 +91,7 @@ REFUSED = {
     ),
     "mimics what it moves": (
         "</joint>", mimic("j") + "</joint>",
-        r"joint\[k\].mimic: is a joint that this one moves; let that one mimic this one .*'j'",
+        r"joint\[k\].mimic: k moves j, so let j mimic k .*'j'",
         robot(*map(link, "abc"), joint("k", "a", "b"), joint("j", "b", "c")),
     ),
     "mimics both ways round": (

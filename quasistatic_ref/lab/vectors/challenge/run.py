@@ -154,7 +154,7 @@ def asked_again(program: Program, finding: Json, digits: float | None = None) ->
     case = finding.get("case")
     record = record_of(layer, case)
     if record is None:
-        raise InputError("is no input of the layer that has one answer", field="case")
+        raise InputError(f"must be an input of {layer} with exactly one answer", field="case")
     outcome = Outcome()
     with program:
         _asked(program, outcome, str(finding.get("id")), layer, case, record, digits)
