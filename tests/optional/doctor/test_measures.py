@@ -12,51 +12,7 @@ from quasistatic_ref import (
 from quasistatic_ref.optional.doctor.did.lines import in_words, lines, pair_rows
 from quasistatic_ref.optional.doctor.did.numbers import by_name, numbers_of, resolved, rounding_of
 from tests.closeness import assert_relative
-from tests.optional.rows import made as made_of_case
-from tests.optional.rows import params, rows_of
-from tests.optional.words import driven, slides
-from tests.scenes import scene
-
-PAD = '<box size="0.02 0.02 0.02"/>'
-HIGH, DOWN, ALONG = 5.5e-3, 1e-2, 5e-3
-"""Of a pad above the floor; how far its targets then go down, and along it [m]."""
-
-
-@pytest.fixture(scope="module")
-def made():
-    """A pad whose targets go down for ten steps, and along the floor for ten."""
-    way = [
-        {"t": 0.0, "x": 0.0, "y": 0.0, "z": 0.0},
-        {"t": 0.1, "x": 0.0, "z": -DOWN},
-        {"t": 0.2, "x": ALONG, "y": 1e-12},
-    ]
-    pad = driven(slides("xyz", PAD), (0, 0, 0.01 + HIGH), {"x": 1e6, "y": 1e6, "z": 1e3}, way)
-    contacts = {"on": ("floor", "pad/tip", 0.5, 4)}
-    return scene({"pad": pad}, contacts, 20, fast=True, record="forces")
-
-
-def test_numbers_of_pairs_and_joints_are_those_by_hand(made):
-    """From the sixth step on it touches, by four contacts, and slips for ten.
-
-    Its spring is as long as it is high and the layer, mu_v h v, thick.
-    """
-    depth = DOWN - HIGH + 0.5 * ALONG / 10
-    N = 1e3 * depth
-    lag = 0.5 * N / 1e6
-    numbers = numbers_of(made.run(progress=False), made)
-    (of_pair,) = numbers["pairs"].values()
-    assert of_pair == pytest.approx({
-        "least_distance_m": 0.0, "touches_s": 0.15, "first_touch_s": 0.06, "last_touch_s": 0.2,
-        "slides_s": 0.1, "slip_m": ALONG - lag, "spins_s": 0.0, "turn_deg": 0.0,
-    }, rel=1e-6, abs=1e-12)  # fmt: skip
-    x, y, z = (numbers["joints"][f"pad/{axis}"] for axis in "xyz")
-    assert x == pytest.approx({
-        "ends_from_target_m": lag, "share_of_way_left": lag / ALONG, "largest_spring_N": 0.5 * N
-    }, rel=1e-6)  # fmt: skip
-    assert y == pytest.approx({"ends_from_target_m": 0.0, "largest_spring_N": 0.0}, abs=1e-6)
-    assert z == pytest.approx({
-        "ends_from_target_m": depth, "share_of_way_left": depth / DOWN, "largest_spring_N": N
-    }, rel=1e-6)  # fmt: skip
+from tests.optional.rows import made, params, rows_of
 
 
 def test_the_turn_in_a_hand_is_that_of_the_two_links():
@@ -76,15 +32,15 @@ def test_run_prints_the_numbers(tmp_path, cli):
     assert ": 0.25; drag about 0.49 of 2.45 N at push; largest boundary layer" in printed
 
 
-def test_a_shape_that_is_not_of_a_pair_is_answered_by_the_pairs(made):
-    run = made.run(progress=False)
+def test_a_shape_that_is_not_of_a_pair_is_answered_by_the_pairs():
+    run = load_scenario("block_push", steps=1, fast=True).run(progress=False)
     with pytest.raises(InputError, match=r"^nothing: is no pair; known: .*\("):
         run.pair_forces()["nothing"]
 
 
 @pytest.mark.parametrize("row", params(rows_of("doctor/numbers.toml")))
 def test_numbers_are_those_by_hand(row):
-    scenario = made_of_case(row)
+    scenario = made(row)
     said = by_name(numbers_of(scenario.run(progress=False, findings=False), scenario))
     for name, (value, off) in row["numbers"].items():
         assert said[name] == pytest.approx(value, rel=off, abs=off)
@@ -97,8 +53,8 @@ def test_what_float64_does_not_resolve_in_its_scene_is_zero(tmp_path, cli):
     printed = cli("run", "stack", *words).out.partition("natural units)")[2]
     assert "least distance" in printed
     assert "e-" not in printed
-    made = load_scenario("stack", steps=5, fast=True)
-    limits = rounding_of(made.run(progress=False, findings=False), made.system.joints)
+    stack = load_scenario("stack", steps=5, fast=True)
+    limits = rounding_of(stack.run(progress=False, findings=False), stack.system.joints)
     least = np.array([0.5, -0.5, 2.0, -2.0])
     assert_relative(resolved(limits.m * least, limits.m), [0.0, 0.0, 2 * limits.m, -2 * limits.m])
     assert 1e-16 < limits.m < 1e-14
