@@ -1,10 +1,10 @@
-"""Whether contact forces inside their cones balance a step at a displacement: a linear program."""
+"""Whether contact forces inside their cones balance a step at a displacement: least squares."""
 
 import numpy as np
-from scipy.optimize import linprog
+from scipy.optimize import nnls
 
 from quasistatic_ref import standard_form
-from tests.tolerances import CLOSED_FORM
+from tests.tolerances import ACTIVE_SET, CLOSED_FORM
 
 
 def balances(step, x):
@@ -20,12 +20,7 @@ def balances(step, x):
     x = np.asarray(x, dtype=float)
     assert np.abs(A @ x - b).max() <= CLOSED_FORM * (np.abs(A) @ np.abs(x) + np.abs(b)).max()
     lengths = np.abs(A).max(axis=0)
-    moved = lengths > 0
-    load = (H @ x - g) / np.where(moved, lengths, 1.0)
-    size = np.abs(load).max()
-    assert np.abs(load[~moved]).max(initial=0.0) <= CLOSED_FORM * size
-    found = linprog(
-        np.zeros(len(b)), A_eq=(A[:, moved] / lengths[moved]).T, b_eq=load[moved] / size
-    )
-    assert found.status in (0, 2), found.message
-    return found.status == 0
+    lengths[lengths == 0] = 1.0
+    load = (H @ x - g) / lengths
+    _, off = nnls((A / lengths).T, load)
+    return bool(off <= ACTIVE_SET * np.linalg.norm(load))

@@ -15,19 +15,12 @@ import numpy as np
 from tests.oracles.rational_kkt import exact, solution, whole
 
 
-def columns_solved(P, right):
-    """The P^-1 R of a matrix R in fractions."""
-    return np.array([solution(P, column) for column in right.T], dtype=object).T.reshape(
-        right.shape
-    )
-
-
 def optimum(P, q, a, h):
     """The x and z of a program in fractions; None if no x satisfies its rows."""
     by_q = solution(P, q)
     if not len(h):
         return -by_q, exact([])
-    by_a = columns_solved(P, a.T)
+    by_a = solution(P, a.T)
     z = complementary(a @ by_a, h + a @ by_q)
     return None if z is None else (-by_q - by_a @ z, z)
 

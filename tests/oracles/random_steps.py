@@ -138,23 +138,20 @@ def planar(rng, family):
     direction; or two normals that nearly or exactly face each other.
     """
     m = rng.uniform(0.2, 2.0)
-    n_c = int(rng.integers(1, 5))
-    mu = rng.uniform(0.1, 1.0) if rng.random() < 0.5 else rng.uniform(1.0, 5.0)
+    n_c = int(rng.integers(2 if family == "wedge" else 1, 5))
+    mu = rng.choice([rng.uniform(0.1, 1.0), rng.uniform(1.0, 5.0)])
     angles = rng.uniform(0.0, 2 * np.pi, n_c)
     points = rng.uniform(-0.1, 0.1, (n_c, 2))
-    phi = np.where(rng.random(n_c) < 0.7, 0.0, rng.uniform(0.0, 2e-4, n_c))
+    phi = rng.uniform(0.0, 2e-4, n_c) * (rng.random(n_c) < 0.3)
     force = m * rng.normal(size=3) * [10.0, 10.0, 0.3]
     if family == "floor":
         angles[:] = np.pi / 2
         points = np.array([[x, -0.05] for x in (-0.05, 0.05, 0.0, 0.025)])[:n_c]
-        phi = np.where(rng.random(n_c) < 0.9, 0.0, 1e-5)
         force[:2] = rng.uniform(0, 3) * mu * 9.81 * m, -9.81 * m
     if family == "wedge":
-        n_c = max(n_c, 2)
         angles = np.resize([np.pi / 2, -np.pi / 2], n_c) + rng.choice([0.0, 0.1]) * rng.normal()
         angles[1] += rng.choice([0.0, 0.5]) * rng.normal()
-        points = np.resize(points, (n_c, 2))
-        phi = np.zeros(n_c)
+        phi *= 0.0
     M = np.diag([m, m, m * rng.uniform(0.001, 0.02)])
     return free_step(M, force, planar_contacts(phi, angles, points, mu), 0.01)
 

@@ -23,7 +23,7 @@ def fractions(values):
 
 
 def solution(M, right):
-    """The solution of M x = right: FLINT finds it, and here it is put into the equations.
+    """The solution of M x = right, of one column or more, by FLINT, put into the equations here.
 
     Raises
     ------
@@ -31,14 +31,15 @@ def solution(M, right):
         If M is singular.
     """
     if not len(M):
-        return exact([])
-    both = np.column_stack([M, right])
-    rows = np.array([whole(row) for row in both], dtype=object)
-    found = fmpz_mat(rows[:, :-1].tolist()).solve(fmpz_mat(rows[:, -1:].tolist()))
+        return exact(right)
+    n = len(M)
+    rows = np.array([whole(row) for row in np.column_stack([M, right])], dtype=object)
+    found = fmpz_mat(rows[:, :n].tolist()).solve(fmpz_mat(rows[:, n:].tolist()))
     x = fractions(found.entries())
     *parts, unit = whole([*x, Fraction(1)])
-    assert not any(rows @ np.array([*parts, -unit], dtype=object))
-    return exact(x)
+    columns = np.reshape(np.array(parts, dtype=object), (n, -1))
+    assert (rows[:, :n] @ columns == unit * rows[:, n:]).all()
+    return exact(x).reshape(np.shape(right))
 
 
 def whole(row):
