@@ -24,16 +24,6 @@ def test_certified_runs_have_the_same_bits_at_both_speeds(name):
         assert plain[key].tobytes() == fast[key].tobytes(), key
 
 
-@pytest.mark.parametrize("fast", [False, True])
-def test_a_result_ends_at_a_state_from_which_the_next_step_starts(fast):
-    scenario = load_scenario("block_push", fast=fast)
-    simulator = scenario.simulator()
-    result = first_step(scenario, simulator)
-    assert result.end.q.tobytes() == result.q.tobytes()
-    of_state, of_q = (simulator.step(place, [0.0]).q for place in (result.end, result.q))
-    assert of_state.tobytes() == of_q.tobytes()
-
-
 @pytest.mark.parametrize("certify", ["full", "residual", "off"])
 @pytest.mark.parametrize("backend", ["daqp", "clarabel", "none"])
 def test_a_place_that_is_no_number_is_refused_of_a_body_without_contacts_too(backend, certify):

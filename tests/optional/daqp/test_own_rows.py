@@ -39,14 +39,13 @@ def run_of(name, fast):
     return run
 
 
-def proof_of_walls():
-    """What is raised of a step between walls that leave no room, of which nothing is proved."""
+def check_walls():
+    """Walls that leave no room are proved to, though nothing else is."""
     one = qr.load_scenario("sphere_spin", ["solver.certify=off"], fast=True)
     walls = qr.Extra(("up", "down"), WALLS, np.full(2, 1e-3))
     simulator = one.simulator(lambda q: qr.Extension(rows=walls))
-    with pytest.raises(qr.StepNotSolved) as raised:
+    with pytest.raises(qr.StepInfeasible):
         first_step(one, simulator)
-    return type(raised.value).__name__
 
 
 @pytest.mark.parametrize("name", ["guide", *TABLES, "MuJoCo"])
@@ -62,9 +61,9 @@ def test_fast_steps_with_rows_of_their_own_do_without_cvxpy():
     said = printed_text(
         "import sys",
         "sys.modules['cvxpy'] = None",
-        "from tests.optional.daqp.test_own_rows import TABLES, run_of, proof_of_walls",
+        "from tests.optional.daqp.test_own_rows import TABLES, check_walls, run_of",
         "for name in ('guide', *TABLES, 'MuJoCo'):",
         "    assert run_of(name, True).header.backend == 'daqp'",
-        "print(proof_of_walls())",
+        "check_walls()",
     )
-    assert said == "StepInfeasible"
+    assert said == ""
