@@ -34,6 +34,8 @@ def test_closest_points_are_apart_by_the_distance_along_a_normal_between_two():
     [
         # Axes that cross: out along either side of their plane.
         (at(CAPSULE, R=TO_X), at(CAPSULE, R=TO_Y)),
+        # An edge in an edge: out along two.
+        (at(CUBE), at(CUBE, [1.5, 0.0, 1.5])),
         # A corner in a corner: out along three normals.
         (at(CUBE), at(CUBE, [1.5, 1.5, 1.5])),
     ],

@@ -1,9 +1,4 @@
-"""System: the paper's order, twists in the body frame, poses and Jacobians of links."""
-
-import numpy as np
-
-from quasistatic_ref import Body, System
-from tests.files.urdf.urdf_texts import inertial, joint, link, robot
+"""System: the paper's order of coordinates, with their names and units."""
 
 
 def test_coordinates_are_actuated_first_then_in_order_of_the_bodies(scene):
@@ -19,14 +14,3 @@ def test_coordinates_are_actuated_first_then_in_order_of_the_bodies(scene):
     units = {coordinate.name: coordinate.unit for coordinate in scene.coordinates}
     assert units["arm/base.z"] == units["arm/slide"] == "m"
     assert units["arm/base.rx"] == units["arm/spin"] == units["arm/swing"] == "rad"
-
-
-def test_actuated_coordinates_change_whatever_comes_after_them():
-    crane = robot(
-        *(link(name, inertial=inertial("2", ("0.01",) * 3)) for name in ("rail", "cart", "bob")),
-        joint("slide", "rail", "cart", "prismatic", "1 0 0"),
-        joint("swing", "cart", "bob", "revolute", "0 1 0"),
-    )
-    system = System([Body("crane", crane, actuated=["slide"])])
-    change = system.actuated_difference(np.array([0.25, 1.0]), np.array([0.75]))
-    assert change.tolist() == [0.75 - 0.25]

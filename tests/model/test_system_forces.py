@@ -1,4 +1,4 @@
-"""System: inertia, gravity and wrenches against formulas, differences and the files' numbers."""
+"""System: inertia as files have it, beside joints, and changes of actuated coordinates."""
 
 import numpy as np
 
@@ -27,3 +27,9 @@ def test_m_u_of_free_bodies_beside_free_joints_is_as_their_files_say_to_the_last
         assert (M_u[:2, 2:] == 0).all()
         # The bob swings below the cart, which moves it, too: M_01 = -m_b l cos(a).
         assert_within(M_u[0, 1], -3.0 * 0.7 * np.cos(q[1]), 10 * ROUNDING)
+
+
+def test_actuated_coordinates_change_whatever_comes_after_them():
+    system = System([Body("crane", CART, actuated=["slide"])])
+    change = system.actuated_difference(np.array([0.25, 1.0]), np.array([0.75]))
+    assert change.tolist() == [0.75 - 0.25]

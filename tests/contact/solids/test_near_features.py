@@ -48,6 +48,10 @@ def random_mesh(rng):
     return convex_hull(0.05 * 10.0 ** rng.uniform(-2, 2) * points)
 
 
+def resized(mesh, size):
+    return convex_hull(mesh.vertices * (size / mesh.extent))
+
+
 def random_pair(seed):
     """Two solids in the world, at least one a mesh."""
     rng = np.random.default_rng(seed)
@@ -55,7 +59,7 @@ def random_pair(seed):
     one = random_mesh(rng)
     size = one.extent
     other = random_mesh(rng)
-    other = convex_hull(other.vertices * (size / other.extent) * rng.uniform(0.3, 2.0))
+    other = resized(other, size * rng.uniform(0.3, 2.0))
     if seed % 5 == 0:
         other = Box(half_extents=size * rng.uniform(0.2, 1.0, 3))
     if seed % 11 == 0:
@@ -103,7 +107,7 @@ def nearly_parallel(seed):
     one = random_mesh(rng)
     size = one.extent
     other = random_mesh(rng) if rng.random() < 0.5 else one
-    other = convex_hull(other.vertices * (size / other.extent) * rng.choice([0.5, 1.0, 1.3]))
+    other = resized(other, size * rng.choice([0.5, 1.0, 1.3]))
     R_a = np.eye(3) if rng.random() < 0.5 else Rotation.random(rng=rng).as_matrix()
     axis = np.eye(3)[rng.integers(3)] if rng.random() < 0.6 else rng.normal(size=3)
     R_b = R_a @ Rotation.from_rotvec(axis * 10.0 ** rng.uniform(-16, -5)).as_matrix()
