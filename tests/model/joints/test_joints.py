@@ -24,7 +24,7 @@ def test_sums_and_poses_are_those_of_pinocchio_and_inertia_and_weight_are_by_han
     if of == "base":
         body = Body("r", robot(ARM), kind)
     else:
-        turn = joint("turn", "foot", "arm", kind, "0.6 0 0.8")
+        turn = joint("turn", "foot", "arm", kind, "3 0 4")
         body = Body("r", robot(link("foot"), ARM, turn))
     system = System([body])
     model = pin.Model()
