@@ -1,7 +1,5 @@
 """models/bunny_grasp, both runs: the paper's sizes and verdict, and where its files come from."""
 
-import contextlib
-import io
 import json
 import runpy
 from types import SimpleNamespace
@@ -11,9 +9,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import load_scenario, load_trajectory
-from quasistatic_ref.cli.main import main
 from tests.closeness import assert_relative, assert_same
 from tests.pages import ROOT
+from tests.processes import python
 from tests.tolerances import (
     ROUNDING,
 )
@@ -35,12 +33,8 @@ def scenario():
 def demo(tmp_path_factory):
     """Where `demo --fast --json` wrote both cases of the grasp, and its JSON and its errors."""
     folder = tmp_path_factory.mktemp("demo") / "out"
-    output = io.StringIO()
-    errors = io.StringIO()
-    with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
-        status = main(["demo", "--fast", "--json", "--out", str(folder)])
-    assert status == 0, errors.getvalue()
-    return folder, json.loads(output.getvalue()), errors.getvalue()
+    done = python("-m", "quasistatic_ref", "demo", "--fast", "--json", "--out", folder)
+    return folder, json.loads(done.stdout), done.stderr
 
 
 @pytest.fixture(scope="module")

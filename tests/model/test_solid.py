@@ -25,9 +25,7 @@ MASS = 0.7
 SOLIDS = {
     "sphere": (Sphere(0.03), coal.Sphere(0.03)),
     "cylinder": (Cylinder(0.03, 0.05), coal.Cylinder(0.03, 0.1)),
-    "flat cylinder": (Cylinder(0.2, 0.001), coal.Cylinder(0.2, 0.002)),
     "capsule": (Capsule(0.03, 0.05), coal.Capsule(0.03, 0.1)),
-    "short capsule": (Capsule(0.03, 0.002), coal.Capsule(0.03, 0.004)),
     "box": (Box((0.1, 0.2, 0.3)), coal.Box(0.2, 0.4, 0.6)),
 }
 
