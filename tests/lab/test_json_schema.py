@@ -13,15 +13,14 @@ from quasistatic_ref import Extra, InputError, load_scenario, solve_step
 from quasistatic_ref.files.resources import scenario_path
 from quasistatic_ref.files.scenario.scenario_table import TABLES
 from quasistatic_ref.files.scenario.world_solids import SOLIDS
-from quasistatic_ref.files.solution import infeasible_text, solution_text
 from quasistatic_ref.files.trajectory import header_table
 from quasistatic_ref.lab.commands.schema import SCHEMAS, scenario_schema
-from quasistatic_ref.step.text import step_record
 from quasistatic_ref.text.json_text import plain
 from tests.cases import cases
 from tests.errors.scene import SCENE, changed, scene_written
 from tests.extras import SCENARIOS
 from tests.helpers import random_step
+from tests.made import infeasible_text, solution_text, step_record
 from tests.oracles.records import toml_text
 
 RICH = changed(
@@ -41,16 +40,11 @@ def validator():
     return Draft4Validator(schema)
 
 
-@pytest.mark.parametrize("name", SCENARIOS)
-def test_every_scenario_that_comes_along_is_valid(validator, name):
-    tables = tomllib.loads(scenario_path(name).read_text())
-    assert [error.message for error in validator.iter_errors(tables)] == []
-
-
-@pytest.mark.parametrize("scene", [SCENE, RICH])
-def test_other_scenes_are_valid(validator, scene):
-    tables = tomllib.loads(toml_text(scene).decode())
-    assert [error.message for error in validator.iter_errors(tables)] == []
+@pytest.mark.parametrize("scene", [*SCENARIOS, SCENE, RICH])
+def test_every_scenario_that_comes_along_and_others_are_valid(validator, scene):
+    there = isinstance(scene, str)
+    text = scenario_path(scene).read_text() if there else toml_text(scene).decode()
+    assert [error.message for error in validator.iter_errors(tomllib.loads(text))] == []
 
 
 def test_every_field_is_in_the_schema_and_on_the_page():

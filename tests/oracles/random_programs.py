@@ -3,11 +3,14 @@
 import numpy as np
 
 
-def random_program(seed):
-    """The P, q, G, h, A, b, lb, ub of a program, by name; some have no solution."""
+def random_program(seed, singular=False):
+    """The P, q, G, h, A, b, lb, ub of a program, by name; some have no solution.
+
+    A singular P has any rank, and of many of these programs the cost falls without end.
+    """
     rng = np.random.default_rng(seed)
     n, k, e = (int(rng.integers(*each)) for each in ((1, 6), (0, 9), (0, 3)))
-    whole_numbers = rng.random() < 0.5
+    whole_numbers = rng.random() < 0.5 or singular
 
     def sometimes(share):
         return rng.random() < share
@@ -19,7 +22,10 @@ def random_program(seed):
 
     B = numbers(n, n)
     P = B @ B.T + np.eye(n)
-    if sometimes(0.3):  # nearly singular: pivots of 2^-40 or so
+    if singular:
+        B = B[:, : rng.integers(0, n + 1)]
+        P = B @ B.T
+    elif sometimes(0.3):  # nearly singular: pivots of 2^-40 or so
         B = rng.integers(-3, 4, (n, n))
         B[-1] = B[:-1].sum(axis=0)
         P = B @ B.T + 2.0 ** -rng.integers(30, 43) * np.eye(n)
@@ -51,6 +57,8 @@ def random_program(seed):
     q = numbers(n) * rng.choice([0.0, 1.0, 1.0, 10.0])
     if sometimes(0.2):  # rows without slack at x bear nothing
         q = -(P @ x)
+    if singular and sometimes(0.3):  # an end
+        q = P @ q - G.T @ np.maximum(numbers(len(G)), 0)
     if sometimes(0.3):
         u, v, w, s = 2.0 ** rng.integers(-110, 111, 4)  # of x, of rows, of equations and of P
         P, q = P * s, q * s * u

@@ -6,16 +6,18 @@ from types import SimpleNamespace
 
 import pytest
 
-from quasistatic_ref.lab.folders import contact_qp_folder
-from quasistatic_ref.lab.study.doors import call_of
-from quasistatic_ref.lab.study.limits import Limits
-from quasistatic_ref.lab.study.problems.folder import set_read
-from quasistatic_ref.lab.study.problems.selection import problems_taken
-from quasistatic_ref.lab.study.run import study
-from quasistatic_ref.lab.study.solvers import function_solver
-from quasistatic_ref.lab.study.store import rows_read
 from quasistatic_ref.lab.study.worker import answered
 from tests.lab.study import broken
+from tests.lab.study.asked import (
+    Limits,
+    call_of,
+    contact_qp_folder,
+    function_solver,
+    problems_taken,
+    rows_read,
+    set_read,
+    study,
+)
 from tests.pages import ROOT
 
 

@@ -10,9 +10,7 @@ from pathlib import Path
 import pandas
 import pytest
 
-from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.study.limits import Limits
-from quasistatic_ref.lab.study.run import study
+from tests.lab.study.asked import Limits, study
 from tests.pages import EXAMPLES, ROOT, named_files, shell_lines
 from tests.processes import python
 
@@ -30,11 +28,11 @@ def folder(tmp_path, monkeypatch):
 
 
 @pytest.mark.long
-def test_a_function_runs_in_a_study_of_ten_problems(folder, capsys):
+def test_a_function_runs_in_a_study_of_ten_problems(folder, cli, capsys):
     script, report = shell_lines(PAGE)
     paths = os.environ | {"PYTHONPATH": str(ROOT)}
     python(*shlex.split(script)[1:], cwd=folder, env=paths)
-    assert main(shlex.split(report)[1:]) == 0
+    cli(report.removeprefix("quasistatic-ref "))
     rows = pandas.read_parquet("study/rows.parquet")
     assert rows.groupby("solver").size().to_dict() == {"clarabel": 10, "daqp": 10, "solve": 10}
     nnls = rows[rows.solver == "solve"]

@@ -5,62 +5,66 @@ import threading
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.lab.study.limits import Limits
-from quasistatic_ref.lab.study.problems.names import NATURAL, RAW
-from quasistatic_ref.lab.study.problems.selection import problems_taken
-from quasistatic_ref.lab.study.run import plan, study
-from quasistatic_ref.lab.study.solvers import (
+from tests.cases import cases
+from tests.lab.study import broken
+from tests.lab.study.asked import (
+    Limits,
     Setting,
     Solver,
     function_solver,
+    plan,
+    problems_taken,
     settings_of,
     solvers_of,
+    study,
 )
-from tests.lab.study import broken
 
 MINE = broken.honest
 LOCK = threading.Lock()
 MISTAKES = {
     "an unknown family": (
-        lambda: {"problems": {"contact": 1}},
+        {"problems": {"contact": 1}},
         "is not a family with proved answers",
     ),
-    "no problems": (lambda: {"problems": {}}, "problems: must be some, of different names"),
-    "cones": (lambda: {"problems": {"ellipsoid": 2}}, "has cones; studies contain rows only"),
-    "an unknown solver": (lambda: {"solvers": ["qpsolvers:dapq"]}, "did you mean 'daqp'?"),
-    "an unknown door": (lambda: {"solvers": ["a:daqp"]}, "solvers: is no solver: write qpsolvers:"),
-    "one name for two": (lambda: {"solvers": [MINE, MINE]}, "solvers: stands twice; give one of"),
+    "no problems": ({"problems": {}}, "problems: must be some, of different names"),
+    "cones": ({"problems": {"ellipsoid": 2}}, "has cones; studies contain rows only"),
+    "an unknown solver": ({"solvers": ["qpsolvers:dapq"]}, "did you mean 'daqp'?"),
+    "an unknown door": ({"solvers": ["a:daqp"]}, "solvers: is no solver: write qpsolvers:"),
+    "one name for two": ({"solvers": [MINE, MINE]}, "solvers: stands twice; give one of"),
     "what cannot be sent": (
-        lambda: {"solvers": [lambda *_: LOCK]},
+        {"solvers": [lambda *_: LOCK]},
         "<lambda>: cannot be sent to another process",
     ),
-    "an unknown setting": (lambda: {"settings": ["hihg"]}, "did you mean 'high'?"),
+    "an unknown setting": ({"settings": ["hihg"]}, "did you mean 'high'?"),
     "a setting that says nothing to a solver": (
-        lambda: {"settings": ["high"]},
+        {"settings": ["high"]},
         "settings: hold nothing that function:honest can be set to",
     ),
-    "unknown units": (lambda: {"units": ["SI"]}, "units: must be one of raw, natural"),
-    "no budget": (lambda: {"limits": Limits(budget=0.0)}, "limits.budget: must be greater than 0"),
+    "unknown units": ({"units": ["SI"]}, "units: must be one of raw, natural"),
 }
 
 
-@pytest.mark.parametrize(("argument", "says"), MISTAKES.values(), ids=MISTAKES)
+@cases("argument, says", MISTAKES)
 def test_a_mistake_is_one_sentence_before_anything_is_written(argument, says, tmp_path):
     with pytest.raises(InputError) as refused:
         study(
-            **{"problems": {"gaps": 1}, "solvers": [MINE], "folder": tmp_path / "store"}
-            | argument()
+            **{"problems": {"gaps": 1}, "solvers": [MINE], "folder": tmp_path / "store"} | argument
         )
     assert says in str(refused.value)
     assert "\n" not in str(refused.value)
     assert not (tmp_path / "store").exists()
 
 
+def test_a_budget_of_no_time_is_refused():
+    with pytest.raises(InputError, match=r"^limits.budget: must be greater than 0"):
+        Limits(budget=0.0)
+
+
 def test_the_plan_has_each_measurement_once_a_solver_after_the_other():
     """Problems in one random order of all families, the same for each."""
     problems = problems_taken({"gaps": 4, "friction": 4})
     solvers = solvers_of(["qpsolvers:daqp", "qpsolvers:osqp"])
-    measurements = plan(problems, solvers, settings_of(["default"]), [NATURAL, RAW])
+    measurements = plan(problems, solvers, settings_of(["default"]), ["natural", "raw"])
     assert [one.solver.name for one in measurements] == ["daqp"] * 16 + ["osqp"] * 16
     names = [[one.problem.id for one in measurements[k : k + 16 : 2]] for k in (0, 16)]
     assert names[0] == names[1] != [one.id for one in problems]

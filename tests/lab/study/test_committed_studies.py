@@ -8,7 +8,7 @@ import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.default import default_problems
-from quasistatic_ref.lab.study.page import page, page_written, table_of
+from tests.lab.study.asked import page, page_written, table_of
 from tests.pages import ROOT
 
 STUDIES = ROOT / "validation" / "studies"

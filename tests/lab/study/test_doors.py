@@ -7,14 +7,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.lab.study.doors import call_of
-from quasistatic_ref.lab.study.limits import Limits
-from quasistatic_ref.lab.study.program import Program
-from quasistatic_ref.lab.study.run import study
-from quasistatic_ref.lab.study.solvers import Solver, function_solver
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.step.standard_form import Units
 from tests.lab.study import broken
+from tests.lab.study.asked import Limits, Program, Solver, call_of, function_solver, study
 
 RETURNED = {
     "honest": ("solved", True, "optimal"),

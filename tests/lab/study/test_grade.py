@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.study.grade import RESIDUALS, facts_of_reply
-from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.solve.solver import Reply
 from quasistatic_ref.solve.units import in_natural
 from tests.closeness import assert_relative
+from tests.lab.study.asked import Solver
 
 MINE = Solver("mine", "function", "m:f")
 

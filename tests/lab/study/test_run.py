@@ -10,13 +10,17 @@ import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.lock import locked
-from quasistatic_ref.lab.study import default
-from quasistatic_ref.lab.study.limits import Limits
-from quasistatic_ref.lab.study.problems.selection import problems_taken
 from quasistatic_ref.lab.study.row import Row, key_of
-from quasistatic_ref.lab.study.run import measured, study
-from quasistatic_ref.lab.study.store import ROWS, rows_read, rows_written
 from tests.lab.study import broken
+from tests.lab.study.asked import (
+    ROWS,
+    Limits,
+    measured,
+    problems_taken,
+    rows_read,
+    rows_written,
+    study,
+)
 from tests.pages import ROOT
 from tests.processes import has_ended, python, started, waited_for
 
@@ -103,7 +107,7 @@ def test_ctrl_c_ends_the_command_with_130_and_says_that_it_goes_on(monkeypatch, 
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(default, "study", interrupted)
+    monkeypatch.setattr("quasistatic_ref.lab.study.default.study", interrupted)
     said = cli("study run --quick --out", tmp_path, status=130).err
     assert f"what was measured is in {tmp_path}; the same command goes on from there" in said
 

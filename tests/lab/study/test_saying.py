@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.study.doors import call_of
-from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.lab.study.saying import INFEASIBLE, OTHER, SOLVED, saying
-from quasistatic_ref.lab.study.solvers import BY_NAME, SETTINGS, Solver, installed_here, table
+from tests.lab.study.asked import BY_NAME, SETTINGS, Program, Solver, call_of, installed_here, table
 
 HIGH = next(one for one in SETTINGS if one.name == "high")
 WAYS = [(door, name) for door in BY_NAME for name in installed_here(door)]

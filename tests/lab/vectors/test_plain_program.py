@@ -15,8 +15,6 @@ from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import (
     NUMPY,
     VECTORS,
-    cases,
-    expected_of,
     inputs_of,
     plain_answer,
     record_of,
@@ -89,26 +87,3 @@ def test_the_plain_program_shares_no_code_with_the_package():
                 assert {alias.name for alias in part.names} <= LIBRARIES
             elif isinstance(part, ast.ImportFrom):
                 assert part.module in (own if part.level == 1 else LIBRARIES)
-
-
-def test_a_point_that_repeats_an_earlier_one_is_no_contact_of_its_own():
-    """Each cloud with all of its points twice: the program and the package pick what they did."""
-    clouds = 0
-    for case in cases("step"):
-        shapes = dict(case.input["shapes"])
-        for name, placed in shapes.items():
-            if placed["shape"]["kind"] == "cloud":
-                points = [[x + 0.0, y, z] for x, y, z in placed["shape"]["points"]]
-                twice = placed["shape"] | {"points": points[:2] + points}
-                shapes[name] = placed | {"shape": twice}
-                clouds += 1
-        if shapes == case.input["shapes"]:
-            continue
-        repeated = case.input | {"shapes": shapes}
-        wanted = expected_of("step")[case.id]["output"]["contacts"]
-        for contacts in (
-            plain_answer("step", repeated)["contacts"],
-            record_of("step", repeated)["output"]["contacts"],
-        ):
-            assert [one["index"] for one in contacts] == [one["index"] for one in wanted], case.id
-    assert clouds > 0

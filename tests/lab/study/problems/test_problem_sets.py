@@ -13,10 +13,8 @@ import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.certify.norm import error_length
-from quasistatic_ref.lab.folders import contact_qp_folder
 from quasistatic_ref.lab.study.problems.checking import refutation
-from quasistatic_ref.lab.study.problems.folder import FACTS, NUMBERS, manifest, set_read
-from quasistatic_ref.lab.study.problems.problem import EXACT
+from tests.lab.study.asked import FACTS, NUMBERS, contact_qp_folder, manifest, set_read
 from tests.oracles.rational_kkt import exact
 from tests.oracles.rational_kkt import refutation as refuted_answer
 from tests.tolerances import ROUNDING
@@ -110,7 +108,7 @@ def test_answers_are_proved_both_ways(members, family, count):
     own = [one for one in members if one.facts["family"] == family][1 : 1 + most]
     assert [refutation(one) for one in own] == [None] * len(own)
     read = list(islice(readme_reader()(FOLDER, family), 1, 1 + most))
-    small = [one for one in read if one[0]["n"] <= LARGEST and one[0]["answer"]["kind"] == EXACT]
+    small = [one for one in read if one[0]["n"] <= LARGEST and one[0]["answer"]["kind"] == "exact"]
     assert [refuted_in_fractions(*one) for one in small] == [None] * len(small)
 
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from quasistatic_ref.lab.study.problems.selection import problems_taken
 from tests.closeness import assert_relative
+from tests.lab.study.asked import problems_taken
 
 
 def test_problems_are_spread_over_the_dial_to_both_ends():
