@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, Capsule, ContactPair, HalfSpace, PointCloud, Sphere
+from quasistatic_ref import Box, Capsule, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.contact.batches.clouds import Clouds
 from quasistatic_ref.contact.normals import TIED_FACES
-from tests.contact.still import placed_shape
+from tests.contact.still import pair, placed_shape
 from tests.made import bits
 
 pytestmark = pytest.mark.extra("compiled")
@@ -64,7 +64,7 @@ def test_contacts_of_a_cloud_on_solids_in_any_pose(some, kind, N, k, first, seed
         turn = Rotation.random(rng=rng).as_matrix() if i % 2 else np.eye(3)
         side = placed_shape(solid, 1 + i, turn, rng.uniform(-0.1, 0.1, size=3) * (i % 2))
         sides = (points, side) if first else (side, points)
-        pairs.append(ContactPair(f"p{i}", *sides, 0.5, 0.0, 4, k))
+        pairs.append(pair(*sides, k))
     batch = Clouds(pairs)
     for size in (0.0, 0.01, 0.3, 1e5, 1e200):
         turns = 10 * rng.normal(size=(7, 3)) * (size > 0)
@@ -85,7 +85,7 @@ def test_points_that_touch_two_faces_at_once_are_left_to_numpy():
         points = (
             np.array([(0.25 + (i - 4) * half, 0.5 + (j - 4) * half, 0.0), (0.1, 0.7, 0.0)]) - far
         )
-        batch = Clouds([ContactPair("p", box, placed_shape(PointCloud(points), 2), 0.5, 0.0, 4, 1)])
+        batch = Clouds([pair(box, placed_shape(PointCloud(points), 2))])
         known, by_numpy = same_bits(batch, R, t)
         assert (known == by_numpy).all()
         left += not known.all()

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import Sphere, load_trajectory
+from quasistatic_ref import Box, Sphere, load_trajectory
 from tests.closeness import assert_relative
-from tests.optional.words import block, driven, free, slides, solid
+from tests.optional.words import driven, placed, slides, solid
 from tests.scenes import scene
 
 H = 0.01
@@ -25,8 +25,9 @@ def test_pi_is_the_drag_over_the_friction_that_the_contacts_can_bear(mu_v, g):
     ways = [{"t": t, "x": 0.01 * t} for t in (0.0, 10.0)]
     slab = slides("xz", '<box size="1 1 0.02"/>')
     tray = driven(slab, (0, 0, -0.01), {"x": STIFF, "z": STIFF}, ways)
-    bodies = {"tray": tray, "b": free(block(1.0, (0.1,) * 3), (0, 0, 0.05))}
-    bodies["ball"] = free(solid(0.1, Sphere(0.05)), (0, 0.3, 0.05))
+    box, ball = solid(1.0, Box(size=(0.1,) * 3)), solid(0.1, Sphere(0.05))
+    bodies = {"tray": tray, "b": placed(box, (0, 0, 0.05), base="floating")}
+    bodies["ball"] = placed(ball, (0, 0.3, 0.05), base="floating")
     contacts = {"b": ("tray/tip", "b", mu_v, 4), "ball": ("tray/tip", "ball", 2 * mu_v, 1)}
     run = scene(bodies, contacts, 20, H, gravity=[0, 0, -g]).run(progress=False)
     Pi = run.header.quasi_dynamic_number
