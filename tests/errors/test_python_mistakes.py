@@ -177,7 +177,7 @@ def test_a_target_by_names_holds_all_other_joints():
     assert named["q"].tobytes() == run(target=goal)["q"].tobytes() == returned["q"].tobytes()
 
 
-def test_a_body_that_is_not_said_to_float_is_offered_a_base(tmp_path):
+def test_a_body_that_nothing_moves_is_offered_a_base(tmp_path):
     head, _, rest = PUSH.replace('base = "floating"\n', "").partition("[[bodies.ball")
     path = written_scenario(tmp_path, head + rest[rest.index("[shapes.floor]") :])
     with pytest.raises(InputError, match=r'if ball is to move freely, give it base = "floating"$'):

@@ -49,57 +49,49 @@ def test_a_package_address_is_looked_for_in_package_dirs(tmp_path, scheme):
         mesh_path(f"{scheme}://arm/b.obj", tmp_path)
 
 
-@cases("uri", {"relative": "file://a.obj", "absolute": "file://{root}/a.obj"})
-def test_a_file_address_is_a_path(tmp_path, uri):
-    mesh = text_written(tmp_path / "a.obj", TETRAHEDRON)
-    assert mesh_path(uri.format(root=tmp_path), tmp_path) == mesh.resolve()
-
-
-PLACES = {
-    "in the repository": "repo/arm/meshes/a.obj",
-    "next to the file": "repo/arm/urdf/arm/meshes/a.obj",
-    "in a folder of another name": "repo/meshes/a.obj",
+FOUND = {
+    # name: address, the mesh and a file that marks a package, both in the folder above two others
+    "file": ("file://a.obj", "arm/urdf/a.obj", "no_mark"),
+    "file anywhere below": ("file://{}/arm/urdf/a.obj", "arm/urdf/a.obj", "no_mark"),
+    "package in the repository": ("package://arm/meshes/a.obj", "arm/meshes/a.obj", ".git"),
+    "package next to the file": ("package://arm/meshes/a.obj", "arm/urdf/arm/meshes/a.obj", ".git"),
+    "package of another name": ("package://arm/meshes/a.obj", "meshes/a.obj", ".git"),
+    "path beside": ("../meshes/a.obj", "arm/meshes/a.obj", "no_mark"),
+    "path in the package": ("../../meshes/a.obj", "meshes/a.obj", "package.xml"),
+    "path in the repository": ("../../other/meshes/a.obj", "other/meshes/a.obj", ".git"),
 }
 
 
-@cases("place", PLACES)
-def test_a_package_address_is_looked_for_above_the_file(tmp_path, place):
-    urdf = tmp_path / "repo/arm/urdf"
-    (tmp_path / "repo/.git").mkdir(parents=True)
-    for mesh in ("arm/meshes/a.obj", place):
-        text_written(tmp_path / mesh, TETRAHEDRON)
-    assert mesh_path("package://arm/meshes/a.obj", urdf) == (tmp_path / place).resolve()
-    (tmp_path / place).unlink()
-    with pytest.raises(ModelError, match="no such file"):  # nothing outside of the repository
-        mesh_path("package://arm/meshes/a.obj", urdf)
+@cases("address, place, mark", FOUND)
+def test_a_mesh_is_looked_for_in_its_package_and_not_above(tmp_path, address, place, mark):
+    text_written(tmp_path / "arm/meshes/a.obj", TETRAHEDRON)
+    top = tmp_path / "top"
+    mesh = text_written(top / place, TETRAHEDRON)
+    text_written(top / "arm/urdf" / "arm.urdf", "")
+    text_written(top / mark, "")
+    address = address.format(top)
+    assert mesh_path(address, top / "arm/urdf") == mesh.resolve()
+    mesh.unlink()
+    with pytest.raises(ModelError, match="no such file"):
+        mesh_path(address, top / "arm/urdf")
 
 
-@pytest.mark.parametrize(("uri", "place", "mark"), [
-    ("../meshes/a.obj", "arm/meshes/a.obj", None),
-    ("../../meshes/a.obj", "meshes/a.obj", "package.xml"),
-    ("../../other/meshes/a.obj", "other/meshes/a.obj", ".git"),
-])  # fmt: skip
-def test_a_relative_path_leads_anywhere_in_its_package(tmp_path, uri, place, mark):
-    urdf = tmp_path / "arm/urdf"
-    urdf.mkdir(parents=True)
-    mesh = text_written(tmp_path / place, TETRAHEDRON)
-    if mark is not None:
-        with pytest.raises(ModelError, match="outside the folder of this file"):
-            mesh_path(uri, urdf)
-        (tmp_path / mark).touch()
-    assert mesh_path(uri, urdf) == mesh.resolve()
-    with pytest.raises(ModelError, match="outside the folder of this file") as refused:
-        mesh_path(uri, urdf, is_of_file=False)
-    (root,) = (one for one in mesh.parents if one.name == uri.replace("../", "").split("/")[0])
-    assert f"name its folder: --root {root}, or package_dirs" in str(refused.value)
+ROOTS = {
+    "../meshes/a.obj": "arm/meshes",
+    "../../meshes/a.obj": "meshes",
+    "../../other/meshes/a.obj": "other",
+}
 
 
-def test_a_link_beside_the_folder_is_no_folder_beside_it(tmp_path):
-    text_written(tmp_path / "elsewhere/a.obj", TETRAHEDRON)
-    (tmp_path / "arm/urdf").mkdir(parents=True)
-    (tmp_path / "arm/meshes").symlink_to(tmp_path / "elsewhere")
-    with pytest.raises(ModelError, match="outside the folder of this file"):
-        mesh_path("../meshes/a.obj", tmp_path / "arm/urdf")
+@pytest.mark.parametrize("address", ROOTS)
+def test_a_relative_path_in_a_text_leads_out_of_no_folder_and_the_option_is_named(
+    tmp_path, address
+):
+    folder = text_written(tmp_path / "arm/urdf/arm.urdf", "").parent
+    text_written(folder / address, TETRAHEDRON)
+    remedy = f"name its folder: --root {tmp_path / ROOTS[address]}, or package_dirs"
+    with pytest.raises(ModelError, match=f"outside the folder of this file .*{remedy}"):
+        mesh_path(address, folder, is_of_file=False)
 
 
 def test_a_relative_path_leads_anywhere_in_the_folder_of_its_scenario(tmp_path):
@@ -112,39 +104,33 @@ def test_a_relative_path_leads_anywhere_in_the_folder_of_its_scenario(tmp_path):
     assert_within(shape.shape.volume, 1 / 6, CLOSED_FORM)
 
 
-def test_a_mesh_of_a_scenario_itself_lies_in_its_folder(tmp_path):
-    text_written(tmp_path / "robots/a.obj", TETRAHEDRON)
-    scene = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
-    scene += '[bodies.r]\nurdf = "r.urdf"\n[shapes.m]\nmesh = { file = "../robots/a.obj" }\n'
-    text_written(tmp_path / "scenes/r.urdf", robot(link("a")))
-    with pytest.raises(ModelError, match=r"m\.mesh\.file: leads to .*, outside the folder of"):
-        load_scenario(urdf_of_text(tmp_path / "scenes", scene, "s.toml"))
-
-
+LEADS = "leads to .*, outside the folder of this file"
+PACKAGE = "must be package://NAME/PATH, model://NAME/PATH or a rel"
 OUTSIDE = {
-    "up": ("../secret.obj", "leads to .*, outside the folder of this file"),
-    "absolute": ("{root}/secret.obj", "leads to .*, outside the folder of this file"),
-    "link": ("link.obj", "leads to .*, outside the folder of this file"),
-    "a file anywhere": ("file://{root}/secret.obj", "leads to .*, outside the folder of this file"),
-    "on the web": ("https://host/a.obj", "must be package://NAME/PATH, model://NAME/PATH or a rel"),
-    "twice": (
-        "file://https://host/a.obj",
-        "must be package://NAME/PATH, model://NAME/PATH or a rel",
-    ),
-    "no package": ("package://arm/b.obj", r"no such file \(looked for in .*home.*--root FOLDER"),
-    "missing": ("file://b.obj", "no such file .*home; put the mesh there, or write its path"),
-    "kind": ("a.blend", "is not a known kind of mesh; known: .dae, .glb"),
+    "../../secret.obj": LEADS,
+    "{}/secret.obj": LEADS,
+    "file://{}/secret.obj": LEADS,
+    "link.obj": LEADS,
+    "../linked/secret.obj": LEADS,
+    "../../above/a.obj": LEADS,
+    "https://host/a.obj": PACKAGE,
+    "file://https://host/a.obj": PACKAGE,
+    "package://arm/b.obj": r"no such file \(looked for in .*urdf.*--root FOLDER",
+    "file://b.obj": "no such file .*urdf; put the mesh there, or write its path",
+    "a.blend": "is not a known kind of mesh; known: .dae, .glb",
 }
 
 
-@cases("address, words", OUTSIDE)
-def test_a_mesh_that_is_not_where_it_may_be_is_refused(tmp_path, address, words):
-    home = tmp_path / "home"
-    home.mkdir()
+@pytest.mark.parametrize("address", OUTSIDE)
+def test_a_mesh_that_is_not_where_it_may_be_is_refused(tmp_path, address):
+    """Nor is a folder beside that of the file where a link leads out of both."""
     secret = urdf_of_text(tmp_path, TETRAHEDRON, "secret.obj")
-    (home / "link.obj").symlink_to(secret)
-    with pytest.raises(ModelError, match=words):
-        mesh_path(address.format(root=tmp_path), home, ())
+    text_written(tmp_path / "above/a.obj", TETRAHEDRON)
+    folder = text_written(tmp_path / "arm/urdf/arm.urdf", "").parent
+    (folder / "link.obj").symlink_to(secret)
+    (tmp_path / "arm/linked").symlink_to(tmp_path)
+    with pytest.raises(ModelError, match=OUTSIDE[address]):
+        mesh_path(address.format(tmp_path), folder)
 
 
 def test_a_mesh_that_is_too_large_is_refused(tmp_path):
@@ -281,10 +267,8 @@ def test_a_format_names_the_extra_that_it_needs(tmp_path, monkeypatch, name, pac
 
 
 @pytest.mark.parametrize("failure", [MemoryError, ImportError, KeyboardInterrupt, OSError])
-def test_an_error_that_says_nothing_of_the_file_does_not_call_it_malformed(
-    tmp_path, monkeypatch, failure
-):
-    """Nor what a library warns of: that its own code is old."""
+def test_a_file_is_not_malformed_for_an_error_that_is_not_of_it(tmp_path, monkeypatch, failure):
+    """Nor for what a library warns of: that its own code is old."""
     (tmp_path / "a.gltf").write_bytes(plain_gltf())
     load = trimesh.load_scene
     monkeypatch.setattr(

@@ -63,7 +63,7 @@ def test_objects_and_tables_say_the_same():
     assert objects.system.of(objects.system.q_start, "hand/slide") == -0.1
 
 
-def test_the_scene_that_was_given_stays_as_it_was():
+def test_a_scene_in_python_is_not_changed_by_settings():
     scene = with_objects()
     qr.load_scenario(scene, {"contacts.floor.mu_v": 0.1})
     assert scene["contacts"]["floor"]["mu_v"] == 0.5

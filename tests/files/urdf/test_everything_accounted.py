@@ -132,7 +132,7 @@ def test_each_word_of_a_file_is_used_or_listed_or_refused(folder):
             assert any(map(words.startswith, lines)), place
 
 
-def test_the_name_of_a_robot_is_said_to_be_ignored(folder, cli):
+def test_the_name_of_a_robot_is_listed_as_ignored(folder, cli):
     assert "- names of robots" in cli("inspect", urdf_of_text(folder, ROBOT)).out
 
 
