@@ -28,7 +28,6 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.parts import is_there, needing
 from quasistatic_ref.step.cones import cone
-from tests.closeness import assert_relative
 from tests.contact.still import in_world
 from tests.helpers import random_step
 from tests.made import loaded_mesh, solid_pair
@@ -207,6 +206,12 @@ NAMES = {
     "Body.of_pinocchio": ("pinocchio_models", lambda: Body.of_pinocchio("r", pin.Model())),
     "forces": ("forces", lambda: solve_step(STEP).forces),
     "a .stl mesh": ("mesh_formats", lambda: loaded_mesh(Path("m.stl"))),
+    "contact of cylinder and box": (
+        "curved",
+        lambda: solid_pair(
+            "can", in_world(Cylinder(0.02, 0.05)), in_world(Box(np.full(3, 0.1)), (0.0, 0.0, 0.2))
+        ),
+    ),
     "a function as backend": ("extensions", lambda: solve_step(STEP, max)),
     "extension": (
         "extensions",
@@ -258,14 +263,3 @@ def test_without_pages_data_show_their_fields(without):
     assert run._repr_html_() is None
     with pytest.raises(InputError, match=r"^to_pandas needs quasistatic_ref/optional/show$"):
         run.to_pandas()
-
-
-def test_a_contact_of_curved_solids_needs_its_part(without):
-    can = in_world(Cylinder(0.02, 0.05))
-    box = in_world(Box(np.full(3, 0.1)), (0.0, 0.0, 0.2))
-    gap = solid_pair("can", can, box).phi
-    assert_relative(gap, 0.05)  # 0.2 - 0.1 - 0.05
-    without("optional/curved")
-    part = "quasistatic_ref/optional/curved"
-    with pytest.raises(InputError, match=f"^can: contact of cylinder and box needs {part}$"):
-        solid_pair("can", can, box)
