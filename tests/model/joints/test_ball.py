@@ -64,18 +64,21 @@ def test_a_target_turns_a_ball_the_shorter_way(base, name):
     assert_within(held.targets(0.05), half.as_quat(), 8 * ROUNDING)
 
 
-def test_positions_and_targets_that_a_ball_lacks_are_refused():
+def test_coordinates_of_a_ball_are_turns_and_its_entries_a_quaternion():
     system = leaning(True).system
     assert [c.name for c in system.coordinates] == ["arm/base.rx", "arm/base.ry", "arm/base.rz"]
     headings = [p.heading for p in system.joints[0].positions]
     assert headings == ["arm.qx [-]", "arm.qy [-]", "arm.qz [-]", "arm.qw [-]"]
+
+
+def test_positions_and_targets_that_a_ball_lacks_are_refused():
     with pytest.raises(ModelError, match=r"arm\.positions: has no position that is one number"):
         System([Body("arm", HANGING, positions={"ball": 0.1})])
     away = [{"t": 0.0, "base": {"xyz": [0, 0, 1], "rpy": [0, 0, 0]}}]
     with pytest.raises(ScenarioError, match="moves or turns by x, y, z"):
         leaning(True, actuated=["base"], K_q={"base": 40}, targets=away)
     with pytest.raises(ModelError, match=r"arm\.xyz: is unknown"):
-        system.placed({"arm": {"xyz": [0, 0, 1]}})
+        leaning(True).system.placed({"arm": {"xyz": [0, 0, 1]}})
 
 
 def test_a_file_may_have_balls_and_mimics():

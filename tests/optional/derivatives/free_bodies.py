@@ -47,6 +47,16 @@ def falling_ball(gap=0.0):
     return free(Sphere(0.05), (0, 0, 0.05 + H**2 * G + gap), FLOOR)
 
 
-def after(simulator, q_next, q, q_bar_a, force=0.0):
-    """The end of a step, as seen from q_next."""
-    return simulator.system.difference(q_next, simulator.step(q, q_bar_a, force).q)
+def slope(simulator, q_next, q, way, force=0.0, change=0.0, size=1e-6):
+    """How the end of a step at q_next changes along a way of q and a change of the force.
+
+    Richardson's difference to one side, without a term of the second order.
+    """
+    move = simulator.system.integrate
+    near, far = (
+        simulator.system.difference(
+            q_next, simulator.step(move(q, t * way), NONE, force + t * change).q
+        )
+        for t in (size, 2 * size)
+    )
+    return (4 * near - far) / (2 * size)
