@@ -13,7 +13,6 @@ import numpy as np
 from flint import arb
 
 from quasistatic_ref import StepInfeasible, solve_step
-from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
 from tests.made import infeasible_text, solution_text, step_text
 from tests.oracles.rational_kkt import exact, fractions, on_rows, solution
 from validation import check_solution as checker
@@ -116,6 +115,8 @@ def near_optimum(step, true):
     """
     H, g, _, _ = of = program(step)
     if true["kind"] == "enclosure":
+        from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
+
         best = exact(fractions(point(checked_pair(step, arb(2) ** -280, 1536))))
     else:  # every loaded contact sticks
         best, _ = on_rows(of, [4 * j + i for j, i in true["active"]])

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import (
-    Extension,
     Extra,
     InputError,
     Observer,
@@ -143,6 +142,8 @@ def test_an_observer_that_fails_in_a_block_leaves_all_steps(note, says):
 
 
 def test_rows_of_an_extension_that_change_are_refused(scenario):
+    from quasistatic_ref import Extension
+
     limits = Extra(("ceiling", "wall"), np.eye(6)[:2], [-1.0, -1.0])
     extensions = iter([Extension(), Extension(rows=limits)])
     simulator = scenario.simulator(lambda q: next(extensions))
