@@ -7,7 +7,7 @@ from quasistatic_ref import solve_step, standard_form
 from quasistatic_ref.certify.degeneracy import form_degeneracy
 from quasistatic_ref.certify.groups import flat_rows
 from tests.closeness import assert_within
-from tests.helpers import changed, random_step
+from tests.helpers import changed, random_step, slacks
 from tests.oracles.forms import exact_form_of
 
 EPS = 1e-6
@@ -15,12 +15,6 @@ EPS = 1e-6
 
 BARELY = 1e-13
 """Slack of a row that just touches [m]: so little that no difference sees it."""
-
-
-def slacks(step, x):
-    """Slacks of all rows at a displacement."""
-    form = standard_form(step)
-    return form.A @ x - form.b
 
 
 def moved(step, rng):
@@ -47,15 +41,13 @@ def by_working_set(step, at):
     """Derivative of delta_q by (R25); whether (R26) holds one EPS on; and the rows W."""
     solution = solve_step(step, "none")
     W = [*flat_rows(step, solution.certificate.active)]
-    S = np.flatnonzero(solution.lam > 0)
     here, there, back = (standard_form(at(t)) for t in (0.0, EPS, -EPS))
     dH, dg, dA, db = ((x - y) / (2 * EPS) for x, y in zip(there, back, strict=True))
     x = solution.delta_q
     A = here.A[W]
     system = np.block([[here.H, -A.T], [A, np.zeros((len(W), len(W)))]])
-    lam = np.linalg.lstsq(A.T, here.H @ x - here.g)[0]
-    right = np.append(dg - dH @ x + dA[W].T @ lam, db[W] - dA[W] @ x)
-    ranks = {np.linalg.matrix_rank(np.column_stack([f.A, f.b])[S], 1e-9) for f in (there, back)}
+    right = np.append(dg - dH @ x + solution.lam[W] @ dA[W], db[W] - dA[W] @ x)
+    ranks = {np.linalg.matrix_rank(np.column_stack([f.A, f.b])[W], 1e-9) for f in (there, back)}
     return np.linalg.solve(system, right)[: step.n_v], ranks == {len(W)}, W
 
 

@@ -13,24 +13,16 @@ from tests.made import free_step, no_contacts
 from tests.tolerances import ROUNDING
 
 
-def plant():
-    return planted_step(5)
-
-
-def near(actual, expected):
-    assert_within(actual, expected)
-
-
 def test_the_user_s_own_rows_are_judged_with_the_others():
-    step, delta_q, lam = plant()
+    step, delta_q, lam = planted_step(5)
     row = np.ones(7)
     step = step.replace(extra=Extra(("own",), [row], [float(row @ delta_q) + 0.25]))
     found = residuals_of(step, delta_q, np.append(lam, 0.0))
-    near(found.primal, 0.25)
+    assert_within(found.primal, 0.25)
     found = residuals_of(step, delta_q, np.append(lam, -0.5))
-    near(found.dual, 0.5)
-    near(found.complementarity, 0.125)
-    near(found.stationarity, 0.5)
+    assert_within(found.dual, 0.5)
+    assert_within(found.complementarity, 0.125)
+    assert_within(found.stationarity, 0.5)
 
 
 @pytest.mark.parametrize(
@@ -59,9 +51,9 @@ def test_rows_of_the_user_beside_an_ellipsoid_are_judged_one_by_one():
         cone="ellipsoid", extra=Extra(("x", "y"), np.eye(6)[:2], [0.3, 0.1])
     )
     found = residuals_of(step, np.zeros(6), np.array([0, 0, 0, 0, -0.7, -0.2]))
-    near(found.primal, 0.3)
-    near(found.dual, 0.7)
-    near(found.complementarity, 0.3 * 0.7)
+    assert_within(found.primal, 0.3)
+    assert_within(found.dual, 0.7)
+    assert_within(found.complementarity, 0.3 * 0.7)
 
 
 def test_the_work_of_a_contact_in_an_ellipsoid_is_one_sum():
@@ -69,9 +61,9 @@ def test_the_work_of_a_contact_in_an_ellipsoid_is_one_sum():
     step = sphere_on_floor().replace(cone="ellipsoid")
     delta_q = np.array([1e-3, 0.0, 1e-3, 0.0, 0.0, 0.0])
     found = residuals_of(step, delta_q, np.array([2.0, -2.0, 0.0, 0.0]))
-    near(found.complementarity, 0.0)
+    assert_within(found.complementarity, 0.0)
     pressed = residuals_of(step, delta_q, np.array([2.0, 0.0, 0.0, 0.0]))
-    near(pressed.complementarity, 2e-3)
+    assert_within(pressed.complementarity, 2e-3)
 
 
 @pytest.mark.parametrize("turned", [0.0, 0.3])

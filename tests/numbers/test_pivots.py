@@ -8,7 +8,7 @@ from quasistatic_ref import Extra, StepData, StepDataError, solve_step
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.numbers.pivots import DEFINITE, MANY_ROWS, positive_pivots
 from tests.closeness import assert_relative
-from tests.made import no_contacts
+from tests.made import actuated_step, no_contacts
 from tests.oracles.random_steps import nearly_singular
 from validation import check_solution as checker
 
@@ -17,12 +17,6 @@ PIVOTS = 3 * np.array([1.0, 2.0**-20, 2.0**-44])
 NEAR = LOWER @ np.diag(PIVOTS) @ LOWER.T
 """No product or sum of these is rounded. The last pivot is 2.9e-14 of its diagonal entry; LAPACK's
 Cholesky finds it negative."""
-
-
-def with_stiffness(K_q, tau_a, h=1.0):
-    """A step without contacts in which springs are pulled."""
-    n = len(K_q)
-    return StepData(h, K_q, np.zeros((0, 0)), tau_a, [], np.zeros(n), no_contacts(n))
 
 
 def positive_definite(S):
@@ -67,10 +61,6 @@ def test_blocks_of_a_large_matrix_obey_the_rule_one_by_one(last):
     assert positive_pivots(S) == (last[0][0] > 0)
 
 
-def test_a_large_matrix_of_one_block_obeys_the_rule():
-    assert positive_pivots(np.eye(3 * MANY_ROWS) + 0.5) is True
-
-
 def test_a_nearly_singular_stiffness_has_norms_and_an_exact_answer():
     """L (1, 0, 0) = (1, -1, 1) = g: x = (1/3, 0, 0), and ||H^-1 g|| = 3^-0.5."""
     for lost in (np.linalg.cholesky, np.linalg.inv):
@@ -79,14 +69,14 @@ def test_a_nearly_singular_stiffness_has_norms_and_an_exact_answer():
     norm = energy_norm(NEAR)
     assert_relative(norm.of_impulse(LOWER[:, 0]), 3**-0.5)
     assert_relative(norm.of_displacement(np.eye(3)[2]), NEAR[2, 2] ** 0.5)
-    solution = solve_step(with_stiffness(NEAR, LOWER[:, 0]), "none")
-    assert solution.delta_q.tolist() == [1 / 3, 0.0, 0.0]
+    step = actuated_step(NEAR, LOWER[:, 0], np.zeros(3), no_contacts(3), 1.0)
+    assert solve_step(step, "none").delta_q.tolist() == [1 / 3, 0.0, 0.0]
 
 
 @pytest.mark.parametrize(("backend", "certify"), [("none", "full"), ("clarabel", "off")])
 def test_a_hessian_that_rounding_makes_indefinite_is_refused_in_a_sentence(backend, certify):
     """K_q is, 0.07 K_q in float64 is not: the rounding of its products is larger than a pivot."""
-    step = with_stiffness(NEAR, np.ones(3), h=0.07)
+    step = actuated_step(NEAR, np.ones(3), np.zeros(3), no_contacts(3), 0.07)
     assert not positive_definite(step.H)
     with pytest.raises(StepDataError, match=r"H: .*look for a link of almost no mass"):
         solve_step(step, backend, certify=certify)
@@ -112,6 +102,10 @@ def test_a_cost_is_added_without_rounding_also_where_numbers_are_subnormal(
     else:
         with pytest.raises(StepDataError, match="a cost must be convex"):
             step.replace(extra=cost)
+
+
+def test_a_large_matrix_of_one_block_obeys_the_rule():
+    assert positive_pivots(np.eye(3 * MANY_ROWS) + 0.5) is True
 
 
 @pytest.mark.long

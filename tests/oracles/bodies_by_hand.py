@@ -166,16 +166,13 @@ def slab():
     return Box((1.0, HALF, HALF)), STRAIGHT, -HALF * UP
 
 
-def column(kind, count, tall, inset, depth):
-    """Bodies on each other: number i goes up by i + 1 depths."""
-    bodies = []
-    for i in range(count):
-        half = HALF - i * inset
-        middle = (i + 0.5) * tall - (i + 1) * depth
-        shape = Cylinder(half, tall / 2) if kind == "coin" else Box((half, half, tall / 2))
-        bodies.append((shape, STRAIGHT, middle * UP))
+def column(tall, solid, count, mu_v, inset, depth):
+    """Bodies on each other: number i goes up by i + 1 depths, whatever the friction."""
+    each = np.arange(count)
+    middles = np.outer((each + 0.5) * tall - (each + 1) * depth, UP)
+    bodies = [(solid(HALF - i * inset), STRAIGHT, middles[i]) for i in each]
     normals = {(i - 1 if i else count, i): UP for i in range(count)}
-    return Scene([*bodies, slab()], normals, np.outer(depth * np.arange(1, count + 1), RISE))
+    return Scene([*bodies, slab()], normals, np.outer(depth * (each + 1), RISE))
 
 
 def corner(mu_v, inset, depth):
@@ -183,26 +180,25 @@ def corner(mu_v, inset, depth):
 
     With friction it slides on each as it leaves the others: to x = y = z with x - mu_v y = depth.
     """
-    sides = [(inset, inset, 0.0)[i] + depth - EDGE for i in range(3)]
-    fixed = [(BOX, STRAIGHT, at * way) for at, way in zip(sides, np.eye(3), strict=True)]
+    places = np.diag(np.array([inset, inset, 0.0]) + depth - EDGE)
+    fixed = [(BOX, STRAIGHT, place) for place in places]
     box = Box((HALF - inset, HALF - inset, HALF))
-    normals = {(i + 1, 0): np.eye(3)[i] for i in range(3)}
+    normals = {(i + 1, 0): way for i, way in enumerate(np.eye(3))}
     motion = depth / (1 - mu_v) * np.array([[1.0, 1.0, 1.0, 0.0, 0.0, 0.0]])
     load = WEIGHT - [1.5, 2.5, 0.0, 0.0, 0.0, 0.0]
     return Scene([(box, STRAIGHT, np.zeros(3)), *fixed], normals, motion, load)
 
 
-FAMILIES = {
-    "two cubes": partial(column, "cube", 2, EDGE),
-    "ten cubes": partial(column, "cube", 10, EDGE),
-    "two coins": partial(column, "coin", 2, EDGE / 10),
-    "ten coins": partial(column, "coin", 10, EDGE / 10),
-    "a box in a corner": partial(corner, 0.0),
+COLUMNS = {
+    "cubes": partial(column, EDGE, lambda half: Box((half, half, HALF))),
+    "coins": partial(column, EDGE / 10, lambda half: Cylinder(half, HALF / 10)),
 }
+FAMILIES = {
+    f"{count} {kind}": partial(of, count) for kind, of in COLUMNS.items() for count in (2, 10)
+} | {"a box in a corner": corner}
 
 
 def attempts(name):
     """The scenes of a family, with contacts of a pair and mu_v."""
     for inset, depth, (k, mu_v) in product(LENGTHS, LENGTHS, CONTACTS):
-        of_friction = {"a box in a corner": partial(corner, mu_v)}
-        yield of_friction.get(name, FAMILIES[name])(inset, depth), k, mu_v
+        yield FAMILIES[name](mu_v, inset, depth), k, mu_v

@@ -5,7 +5,7 @@ step, are spoilt one field at a time. The fields are those that stand in the fil
 that is added to the format is attacked without a line here. Each number is moved by one unit in
 the last place, in both directions, and replaced by nonsense; each word, truth, fraction, row and
 list is replaced, left out, lengthened; fields are added. Multipliers are forged with the wrenches
-that go with them, too.
+that go with them, too, and up to three numbers at random.
 
 A forged file must be refused, or still be true: a bound may be larger than it need be, and where a
 bound is all that is claimed of numbers they may move within it. What is true is decided by
@@ -15,7 +15,8 @@ alone.
 
 import json
 import math
-from itertools import islice
+
+import numpy as np
 
 from quasistatic_ref import InputError, load_solution, verify
 from tests.oracles.records import places, value_at, with_value
@@ -26,6 +27,8 @@ HUGE = (1e308, -1e308, 1e9, -1.0, 5.0)
 NO_WORD = (None, 1, True, [], {}, "", "x", "residual", "exact", "infeasible")
 NO_FRACTION = (None, 1, 0.5, [], "", "0.5", "1e9", "nan", "1/0", "-1", "1/3", "7")
 NO_LIST = (None, 0.0, "x", True, {})
+RANDOM = 40
+"""Forgeries of several fields."""
 
 
 def good_file(step, kind):
@@ -75,6 +78,10 @@ def forgeries(step, record):
             yield name, forged
             if where[0:1] == ("lam",) and isinstance(new, float):
                 yield f"{name} and wrench", with_its_wrenches(step, forged)
+    rng = np.random.default_rng(1)
+    for forged in (at_random(rng, step, record) for _ in range(RANDOM)):
+        if forged != record:
+            yield "some at random", forged
 
 
 def is_refused(step, record, path):
@@ -92,7 +99,9 @@ def outcomes(step, good, path, every=1):
     That is ``"refused"``, ``"still true"`` or ``"PASSED"``.
     """
     truth = truth_of(step, good)
-    for name, forged in islice(forgeries(step, good), 0, None, every):
+    for number, (name, forged) in enumerate(forgeries(step, good)):
+        if number % every and name != "some at random":
+            continue
         if is_refused(step, forged, path):
             yield name, "refused", forged
         else:

@@ -294,6 +294,6 @@ def nearly_singular(rng, n, share=None):
     pivots[at : at + 1] = share * float(L[at, :at] @ L[at, :at]) if at else max(share, 0.0)
     S = (L / np.diag(L)) @ np.diag(pivots) @ (L / np.diag(L)).T
     if rng.random() < 0.3:
-        unit = 10.0 ** rng.uniform(-150, 150, n) if rng.random() < 0.5 else 2.0**-520
-        S = S * unit * np.reshape(unit, (-1, 1)) if np.ndim(unit) else S * unit * unit
+        unit = 10.0 ** rng.uniform(-150, 150, n) if rng.random() < 0.5 else np.full(n, 2.0**-520)
+        S = S * unit * unit[:, None]
     return np.tril(S) + np.tril(S, -1).T

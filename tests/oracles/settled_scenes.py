@@ -17,6 +17,9 @@ from quasistatic_ref import (
     System,
 )
 
+SIDES = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))
+"""Normals of the walls of a bin, each 80 mm from its middle."""
+
 
 def settled_step(kind, seed, count):
     """The eighth step of a scene of some bodies under gravity alone.
@@ -24,15 +27,16 @@ def settled_step(kind, seed, count):
     Where bodies press each other into a wall, the first step without a solution is that step.
     """
     rng = np.random.default_rng(seed)
-    solids, places, turns, reach, walls = KINDS[kind](rng, np.arange(count))
+    solids, places, reach = KINDS[kind](rng, np.arange(count))
+    turns = (kind == "tower") * 0.1 * np.arange(count)
+    walls = [(0, 0, 1), *(SIDES if kind == "bin" else [])]
     each = enumerate(zip(solids, places, turns, strict=True))
     system = System(
         [Body.of_shape(f"b{i}", a, 0.2, xyz=xyz, rpy=(0, 0, turn)) for i, (a, xyz, turn) in each]
     )
     shapes = system.shapes
     grounds = [
-        PlacedShape.in_world(f"w{k}", HalfSpace(*wall))
-        for k, wall in enumerate([((0, 0, 1), 0.0), *walls])
+        PlacedShape.in_world(f"w{k}", HalfSpace(n, -0.08 * (k > 0))) for k, n in enumerate(walls)
     ]
     pairs = [*product(grounds, shapes)]
     pairs += [
@@ -62,20 +66,20 @@ def wall(rng, k):
     columns = rng.integers(2, 4)
     course = k // columns
     places = np.stack([(2 * (k % columns) + course % 2) * x, 0 * k, z * (2 * course + 1)], axis=1)
-    return [Box(half)] * len(k), places, 0.0 * k, 2.1 * np.linalg.norm(half), ()
+    return [Box(half)] * len(k), places, 2.1 * np.linalg.norm(half)
 
 
 def tower(rng, k):
-    """Boxes on each other, each turned a little."""
+    """Boxes on each other, which are turned a little."""
     places = np.column_stack([rng.uniform(-1e-3, 1e-3, (len(k), 2)), 0.02 + 0.04 * k])
-    return [Box((0.03, 0.03, 0.02))] * len(k), places, rng.uniform(0.0, 0.2, len(k)) * k, 0.05, ()
+    return [Box((0.03, 0.03, 0.02))] * len(k), places, 0.05
 
 
 def grid(rng, k):
     """Boxes on a floor, face to face."""
     a = rng.uniform(0.02, 0.04)
     places = a * np.stack([2 * (k % 3), 2 * (k // 3), np.ones(len(k))], axis=1)
-    return [Box((a, a, a))] * len(k), places, 0.0 * k, 2.1 * a, ()
+    return [Box((a, a, a))] * len(k), places, 2.1 * a
 
 
 def fallen(rng, k):
@@ -84,10 +88,8 @@ def fallen(rng, k):
     kinds = Box, lambda size: Sphere(size[0]), lambda size: Capsule(*size[:2])
     solids = [kinds[i % 3](size) for i, size in enumerate(sizes)]
     places = np.column_stack([rng.uniform(-0.03, 0.03, (len(k), 2)), 0.06 * (k + 1)])
-    walls = [(n, -0.08) for n in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))]
-    return solids, places, 0.0 * k, np.inf, walls
+    return solids, places, np.inf
 
 
 KINDS = {"wall": wall, "tower": tower, "grid": grid, "bin": fallen}
-"""The solids of bodies 0, 1, ..., their places [m], turns [rad], the distance of neighbours [m] at
-most, and walls beside the ground."""
+"""Solids of bodies 0, 1, ..., their places [m], and how far apart neighbours are at most [m]."""

@@ -13,15 +13,13 @@ from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
 from tests.cases import cases, first
 from tests.made import solution_text
 from tests.oracles.forged_scenes import between_walls, scenes
-from tests.oracles.forgeries import at_random, good_file, is_refused, outcomes
+from tests.oracles.forgeries import good_file, is_refused, outcomes
 from tests.oracles.random_steps import drawn
 from tests.oracles.records import places
-from tests.oracles.solution_truth import truth_of, wrenches
+from tests.oracles.solution_truth import wrenches
 
 SCENES = scenes()
 PROVES_NOTHING = ("none", "residual", "residual in the ellipsoid")
-RANDOM = 20
-"""Random forgeries of each file: 1 s in all."""
 
 
 @pytest.fixture
@@ -48,22 +46,10 @@ def test_no_false_file_passes(path, kind, name, every):
     assert all(said["refused"] for said in counts.values())
     freely = {field for field, said in counts.items() if said["still true"]}
     allowed = {"delta_q", "lam", "lam and wrench", "certificate.error_bound", "certificate.gap"}
-    assert freely <= ({"farkas"} if kind == "infeasible" else allowed)
+    allowed = {"farkas"} if kind == "infeasible" else allowed
+    assert freely <= {*allowed, "some at random"}
     if kind == "exact":
         assert not freely
-
-
-@pytest.mark.parametrize(("kind", "name"), SCENES)
-def test_no_random_forgery_passes(path, kind, name):
-    step = SCENES[kind, name]
-    good = good_file(step, kind)
-    rng = np.random.default_rng(1)
-    truth = truth_of(step, good)
-    tried = 0
-    for forged in (at_random(rng, step, good) for _ in range(RANDOM)):
-        tried += forged != good
-        assert is_refused(step, forged, path) or truth(forged), forged
-    assert tried > RANDOM / 2
 
 
 def test_every_kind_and_every_claim_of_a_certificate_is_forged():
