@@ -123,8 +123,10 @@ def test_a_solver_that_was_pickled_or_copied_starts_afresh(name, interface):
 
 def test_a_backend_that_raises_is_set_up_again_for_the_next_step(monkeypatch):
     solver = solver_for(STEP, "daqp")
+    solve_step(STEP, solver)
 
-    def broken(*_):
+    def broken(workspaces, programs):
+        workspaces.each.clear()
         raise RuntimeError("out of order")
 
     with monkeypatch.context() as patch:
