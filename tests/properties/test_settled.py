@@ -11,13 +11,14 @@ from quasistatic_ref.certify.step_form import StepForm
 from tests.cases import first
 from tests.made import bits
 from tests.oracles.settled_scenes import KINDS, settled_step
-from tests.oracles.solution_truth import refuted, solution_file
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("count", first(1, (3, 4, 5, 7, 9)))  # the judge takes its time
 def test_proofs_of_settled_scenes_hold_in_fractions(kind, count):
     """Also that bodies which are pressed into each other have no solution."""
+    from tests.oracles.solution_truth import refuted, solution_file  # it asks a part
+
     step = settled_step(kind, count, count)
     text = solution_file(step, "daqp")
     assert refuted(step, text) == []
