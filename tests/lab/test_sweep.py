@@ -13,7 +13,7 @@ import pytest
 from quasistatic_ref import InputError, load_scenario, load_trajectory
 from quasistatic_ref.lab.processes import descendants
 from quasistatic_ref.lab.sweep import TABLE, simulate_many, swept_values
-from tests.cases import cases
+from tests.cases import cases, first
 from tests.optional.doctor.mistake_scenes import scenes_written
 from tests.pages import ROOT
 from tests.processes import has_ended, started, waited_for
@@ -72,7 +72,7 @@ def test_a_folder_with_runs_of_another_sweep_is_refused_before_anything_is_writt
         assert content(tmp_path) == kept
 
 
-@pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("end", first(1, [signal.SIGKILL, signal.SIGTERM]))
 def test_a_sweep_that_was_ended_has_no_workers_but_a_table_and_goes_on(tmp_path, end):
     values = {"steps": [1, 2, 100_000]}
     code = "from quasistatic_ref.lab.sweep import simulate_many\n"

@@ -84,6 +84,7 @@ def test_a_planted_word_is_found(name, source):
     assert len([*wrong_words(name, source)]) == 1
 
 
+@pytest.mark.long  # the contracts say the same of what is imported at once
 def test_step_certify_and_solve_work_without_pinocchio_and_coal():
     modules = [
         "quasistatic_ref." + ".".join(path.relative_to(PACKAGE).with_suffix("").parts)

@@ -210,6 +210,7 @@ def test_the_command_says_that_there_is_no_solution(tmp_path, cli):
     assert "refuted: the factor of G[0] is negative" in cli("verify", proof, status=1).out
 
 
+@pytest.mark.long  # two solvers that load libraries, as in the test before
 def test_solvers_are_graded_where_p_is_singular_and_not_where_there_is_no_optimum(tmp_path, cli):
     said = cli("qp", DATA / "HS51.mat", "--solvers qpsolvers:clarabel cvxpy:clarabel").out
     rows = [line.split() for line in said.splitlines()[2:]]

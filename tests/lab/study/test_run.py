@@ -146,6 +146,7 @@ simulate_many("block_incline", {"steps": [1, 2]}, "map", workers=2)
 """
 
 
+@pytest.mark.long  # processes of two kinds, as those of other tests
 def test_a_script_needs_no_guard_against_processes_that_import_it(tmp_path):
     (tmp_path / "script.py").write_text(SIX_LINES)
     python("script.py", cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(ROOT)})
