@@ -111,15 +111,6 @@ def test_2000_random_programs_have_the_bits_of_another_method_in_fractions(part,
 NEAR = [[1.0, 1.0], [1.0, 1.0 + 2.0**-50]]
 
 
-def test_programs_that_a_step_would_refuse_have_answers():
-    answer = qr.exact_qp(NEAR, [-1.0, 0.0])  # 2^50 [1 + 2^-50, -1]
-    assert answer.x.tolist() == [2.0**50 + 1, -(2.0**50)]
-    walls = qr.exact_qp(np.eye(2), [0.0, 0.0], [[1.0, 0.0], [-1.0, 1e-12]], [-1.0, -1.0])
-    assert walls.x[1] < -1e12
-    assert qr.verify(answer)
-    assert qr.verify(walls)
-
-
 @pytest.mark.parametrize(
     ("P", "words"),
     [
@@ -144,51 +135,57 @@ def test_the_covariance_of_fewer_samples_than_assets_is_refused_in_its_own_time(
     assert qr.verify(caught.value)
 
 
-@pytest.mark.parametrize(
-    ("rows", "x", "obj"),
-    [
-        ({"lb": [-5.0, 0.0], "ub": [5.0, 0.0]}, [1.0, 0.0], -1.0),
-        ({"A": [[0.0, 1.0]], "b": [0.0], "lb": [-5, -5], "ub": [5, 5]}, [1.0, 0.0], -1.0),
-        ({"A": [[1.0, -1.0]], "b": [0.0]}, [2 / 9, 2 / 9], -2 / 9),
-        ({"A": [[1.0, 0.0], [0.0, 1.0]], "b": [3.0, 4.0]}, [3.0, 4.0], 47.0),
-    ],
-)
-def test_convex_where_something_can_move_is_enough(rows, x, obj, tmp_path):
-    answer = qr.exact_qp([[2.0, 3.0], [3.0, 1.0]], [-2.0, 0.0], **rows)
-    assert (answer.x.tolist(), answer.obj, answer.x_unique) == (x, obj, True)
-    both_take(answer, tmp_path)
-    assert answer.digits(x) == 16 > 8 > answer.digits([x[0] + 1e-7, x[1]])
+SADDLE = {"P": [[2.0, 3.0], [3.0, 1.0]], "q": [-2.0, 0.0]}
+PRIME = 2.0**61 - 1
+HALF = Fraction(1) + Fraction(2) ** -45
+KNOWN = [
+    # A step would refuse them.
+    ({"P": NEAR, "q": [-1.0, 0.0]}, [2.0**50 + 1, -(2.0**50)]),  # 2^50 [1 + 2^-50, -1]
+    (
+        {"P": np.eye(2), "q": [0.0, 0.0], "G": [[1.0, 0.0], [-1.0, 1e-12]], "h": [-1.0, -1.0]},
+        floats([-1, -2 / Fraction(1e-12)]),
+    ),
+    # Convex where something can move is enough.
+    (SADDLE | {"lb": [-5.0, 0.0], "ub": [5.0, 0.0]}, [1.0, 0.0]),
+    (SADDLE | {"A": [[0.0, 1.0]], "b": [0.0], "lb": [-5, -5], "ub": [5, 5]}, [1.0, 0.0]),
+    (SADDLE | {"A": [[1.0, -1.0]], "b": [0.0]}, [2 / 9, 2 / 9]),
+    (SADDLE | {"A": np.eye(2), "b": [3.0, 4.0]}, [3.0, 4.0]),
+    # A prime that divides a determinant costs another prime.
+    *(
+        ({"P": P, "q": [-1.0, 1.0], "A": [row, [0.0, PRIME]], "b": [0.0, 0.0]}, [0.0, 0.0])
+        for P in ([[1087.0, 4.0], [4.0, 4242581433695849.0]], np.diag([PRIME, 1]))
+        for row in ([1.0, 1.0], [PRIME, 1.0])
+    ),
+    # One variable, no rows, all fixed.
+    *(
+        ({"P": P, "q": -3 * one, "lb": one, "ub": one, "G": [0 * one], "h": [0.0]}, one.tolist())
+        for one in (np.ones(1), np.ones(2))
+        for P in (np.diag(one), 0 * np.diag(one))
+    ),
+    # The symmetric part of P counts, without rounding.
+    (
+        {"P": [[1.0, 1.0], [1.0 + 2.0**-44, 4.0]], "q": [-1.0, 0.0]},
+        floats([4 / (4 - HALF**2), -HALF / (4 - HALF**2)]),
+    ),
+]
+SEVERAL = [
+    ({"P": PRIME * np.ones((2, 2)), "q": [1.0, 1.0]}, floats([-1 / (2 * Fraction(PRIME))] * 2)),
+    *(({"P": np.zeros((n, n)), "q": [0.0] * n}, [0.0] * n) for n in (1, 2)),
+]
+"""The x of least norm."""
 
 
 @pytest.mark.parametrize(
-    "P", [[[1087.0, 4.0], [4.0, 4242581433695849.0]], np.diag([2.0**61 - 1, 1])]
+    ("program", "x", "unique"),
+    [(*one, rows is KNOWN) for rows in (KNOWN, SEVERAL) for one in rows],
 )
-@pytest.mark.parametrize("row", [[1.0, 1.0], [2.0**61 - 1, 1.0]])
-def test_a_prime_that_divides_a_determinant_costs_another_prime(P, row, tmp_path):
-    answer = qr.exact_qp(P, [-1.0, 1.0], A=[row, [0.0, 2.0**61 - 1]], b=[0.0, 0.0])
-    assert answer.x.tolist() == [0.0, 0.0]
-    half = np.array([[1.0, 1.0], [1.0, 1.0]])
+def test_programs_have_the_answers_by_hand(program, x, unique, tmp_path):
+    answer = qr.exact_qp(**program)
+    assert answer.x.tolist() == x
+    assert answer.x_unique == unique
     both_take(answer, tmp_path)
-    both_take(qr.exact_qp(half * (2.0**61 - 1), [1.0, 1.0]), tmp_path)
-
-
-@pytest.mark.parametrize("n", [1, 2])
-def test_programs_of_one_variable_without_rows_or_all_fixed(n, tmp_path):
-    one = np.ones(n)
-    for P in (np.eye(n), np.zeros((n, n))):
-        fixed = qr.exact_qp(P, -3 * one, lb=one, ub=one, G=np.zeros((1, n)), h=[0.0])
-        assert (fixed.x.tolist(), fixed.x_unique) == ([1.0] * n, True)
-        both_take(fixed, tmp_path)
-    still = qr.exact_qp(np.zeros((n, n)), 0 * one)
-    assert (still.x.tolist(), still.x_unique, still.obj) == ([0.0] * n, False, 0.0)
-    both_take(still, tmp_path)
-
-
-def test_the_symmetric_part_of_p_counts_without_rounding():
-    P = np.array([[1.0, 1.0], [1.0 + 2.0**-44, 4.0]])
-    answer = qr.exact_qp(P, [-1.0, 0.0])
-    half = Fraction(1) + Fraction(2) ** -45
-    assert answer.x.tolist() == floats([4 / (4 - half**2), -half / (4 - half**2)])
+    assert answer.digits(x) == 16
+    assert not any(x) or answer.digits(np.multiply(x, 1 + 1e-7)) < 8
 
 
 P, Q, G, H = np.eye(2), [-3.0, -1.0], [[1.0, 1.0]], [1.0]
