@@ -30,7 +30,7 @@ def folder(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("reason", REASONS)
-def test_what_is_not_compiled_leaves_the_reason(folder, reason):
+def test_a_library_that_is_not_made_leaves_the_reason(folder, reason):
     with pytest.MonkeyPatch.context() as patch:
         for name, value in REASONS[reason].items():
             patch.setenv(name, value)

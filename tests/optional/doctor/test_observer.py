@@ -121,7 +121,7 @@ rows = 4
 """
 
 
-def test_what_is_not_looked_at_in_a_large_scene_is_said(tmp_path, cli):
+def test_a_large_scene_says_what_is_not_looked_at(tmp_path, cli):
     """Of 92 balls J has 4 * 92 * 552 entries, more than are searched."""
     path = written_scenario(tmp_path, FLOOR + "".join(map(LYING.format, range(92))), "large.toml")
     of_scene = "guides, points of faces"
