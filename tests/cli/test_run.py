@@ -6,10 +6,11 @@ import sys
 
 import pytest
 
-from quasistatic_ref import Simulator, load_step, load_trajectory, solve_step
+from quasistatic_ref import Simulator, load_step, load_trajectory, save_trajectory, solve_step
 from tests.closeness import assert_same
 from tests.files.urdf.urdf_texts import joint, urdf_of_text
-from tests.scenes import RAIL, SWING, written_scenario
+from tests.scenes import BALL, RAIL, SWING, written_scenario
+from tests.scenes import scene as scene_of
 from tests.tolerances import MULTIPLIERS
 
 
@@ -121,7 +122,7 @@ def test_a_run_in_another_cone_can_be_replayed_from_its_file(name, scene, tmp_pa
     assert load_step(out) == step
 
 
-def test_the_step_of_one_body_s_group_is_extracted_and_proved(scene, tmp_path, cli, monkeypatch):
+def test_the_step_of_one_body_s_group_is_extracted_and_proved(scene, tmp_path, cli):
     """A plate on a rail is in the ball's group; a wheel on that rail is not."""
     cli("run", scene, "--fast", "--set", "steps=2", "--set", "record=full", "--out", tmp_path)
     path = tmp_path / "scene.npz"
@@ -135,5 +136,12 @@ def test_the_step_of_one_body_s_group_is_extracted_and_proved(scene, tmp_path, c
     assert "verified" in cli("verify", step, answer).out
     asked = ("extract", path, "--step", "1")
     assert "did you mean 'ball'" in cli(*asked, "--body", "bal", status=2).err
-    monkeypatch.setattr("quasistatic_ref.cli.extract.LARGEST_TEXT", 100)
-    assert "extract the group of one body, with --body" in cli(*asked, status=2).err
+
+
+def test_a_step_of_611_bodies_is_too_large_for_a_file(tmp_path, cli):
+    """M_u alone has 3666^2 entries, each of 5 bytes or more: above 64 MiB."""
+    balls = {f"b{i}": {"urdf": BALL, "base": "floating"} for i in range(611)}
+    run = scene_of(balls, {}, 0, fast=True, record="light").run(findings=False)
+    path = save_trajectory(tmp_path / "run.npz", run)
+    said = cli("extract", path, "--step 0", status=2).err
+    assert "is too large for a step file; extract the group of one body, with --body" in said
