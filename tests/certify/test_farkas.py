@@ -29,12 +29,10 @@ def test_walls_that_overlap_are_infeasible_and_named():
     assert error.step is step
     assert error.status == "infeasible"
     assert set(error.farkas.owners) == {"c1", "c2"}
-    assert "c1" in str(error)
-    assert "c2" in str(error)
-    assert "contradict" in str(error)
+    assert all(word in str(error) for word in ("c1", "c2", "contradict"))
     y = [F(text) for text in error.farkas.exact]
     assert max(y) == 1
-    assert error.farkas.y.tolist() == [float(v) for v in y]
+    assert error.farkas.y.tolist() == [*map(float, y)]
     assert error.farkas.contradiction == float(F(1e-3) + F(3e-3))
     assert farkas_refutation(step, error.farkas.exact) is None
 

@@ -35,6 +35,12 @@ def test_random_steps_without_some_couplings_have_the_optimum_of_their_groups():
     assert several > 12
 
 
+def parts_of(step):
+    """The coordinates, contacts, own rows and all rows of each group."""
+    names = "coordinates", "contacts", "extra_rows", "rows"
+    return [tuple(getattr(group, name).tolist() for name in names) for group in groups(step)]
+
+
 def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():
     J = np.zeros((2, 4, 5))
     J[0, 3, 4] = J[0, 0, 1] = 1.0  # the first contact moves with 1 and 4; the second with nothing
@@ -42,14 +48,12 @@ def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():
     M = np.eye(5)
     M[0, 3] = M[3, 0] = 0.5
     step = free_step(M, np.ones(5), contacts_of(0.0, frames, J, 0.5), 0.01)
-    assert [g.coordinates.tolist() for g in groups(step)] == [[0, 3], [1, 4], [2]]
-    assert [g.contacts.tolist() for g in groups(step)] == [[1], [0], []]
-    assert [g.rows.tolist() for g in groups(step)] == [[4, 5, 6, 7], [0, 1, 2, 3], []]
+    of_c0, of_c1 = [0, 1, 2, 3], [4, 5, 6, 7]
+    free = [2], [], [], []
+    assert parts_of(step) == [([0, 3], [1], [], of_c1), ([1, 4], [0], [], of_c0), free]
     own = Extra(("a", "b"), [[0, 0, 0, 0, 0.0], [0, 0, 1, 0, 1]], [-1.0, -1.0])
-    tied = groups(step.replace(extra=own))
-    assert [g.coordinates.tolist() for g in tied] == [[0, 3], [1, 2, 4]]
-    assert [g.extra_rows.tolist() for g in tied] == [[0], [1]]
-    assert [g.rows.tolist() for g in tied] == [[4, 5, 6, 7, 8], [0, 1, 2, 3, 9]]
+    tied = [([0, 3], [1], [0], [*of_c1, 8]), ([1, 2, 4], [0], [1], [*of_c0, 9])]
+    assert parts_of(step.replace(extra=own)) == tied
     parts = [part.extra.A.tolist() for _, part in group_steps(step.replace(extra=own))]
     assert parts == [[[0, 0]], [[0, 1, 1]]]
 

@@ -41,8 +41,7 @@ def test_errors_of_idle_steps_are_measured_by_a_micrometre():
 def waiting_pusher():
     """A spring at its target, 0.5 mm in front of a puck; g = 0."""
     J = np.zeros((1, 4, 4))
-    J[0, 0] = [-1.0, 1.0, 0.0, 0.0]
-    J[0, 1] = [0.0, 0.0, 1.0, -0.05]
+    J[0, :2] = [-1.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -0.05]
     contacts = contacts_of([5e-4], frames_about(np.array([EAST]), -Z), J, 0.3)
     none = np.zeros(1)
     return StepData(0.01, [[1000.0]], np.diag([0.5, 0.5, 1e-3]), none, np.zeros(3), none, contacts)

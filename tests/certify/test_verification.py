@@ -5,11 +5,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, StepData, solve_step
+from quasistatic_ref import Extra, solve_step
 from quasistatic_ref.solve.units import ScaledStep
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import planted_step, residuals_of, sphere_on_floor
-from tests.made import free_step, no_contacts
+from tests.made import actuated_step, free_step, no_contacts
 from tests.tolerances import ROUNDING
 
 
@@ -73,9 +73,8 @@ def test_residuals_of_what_is_at_rest_are_measured_by_its_loads(cone, turned):
     turn = np.array([[np.cos(turned), -np.sin(turned)], [np.sin(turned), np.cos(turned)]])
     K_q = turn @ np.diag([200.0, 90.0]) @ turn.T
     stretched = np.array([0.1, 0.3])
-    step = StepData(
-        0.01, K_q, np.zeros((0, 0)), -(K_q @ stretched), [], stretched, no_contacts(2), cone
-    )
+    at_rest = actuated_step(K_q, -(K_q @ stretched), stretched, no_contacts(2), 0.01)
+    step = at_rest.replace(cone=cone)
     for certify in ("full", "residual"):
         residuals = solve_step(step, certify=certify).certificate.residuals
         assert max(residuals.values()) < ROUNDING

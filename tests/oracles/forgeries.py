@@ -84,13 +84,13 @@ def forgeries(step, record):
             yield "some at random", forged
 
 
-def is_refused(step, record, path):
-    """Whether a record is refused, by its reader or by what `verify` does with it."""
+def reason(step, record, path):
+    """Why a record is refused, by its reader or by `verify`; None where it is not."""
     path.write_text(json.dumps(record))
     try:
-        return not verify(load_solution(path, step))
-    except InputError:
-        return True
+        return verify(load_solution(path, step)).reason or None
+    except InputError as error:
+        return str(error)
 
 
 def outcomes(step, good, path, every=1):
@@ -102,7 +102,7 @@ def outcomes(step, good, path, every=1):
     for number, (name, forged) in enumerate(forgeries(step, good)):
         if number % every and name != "some at random":
             continue
-        if is_refused(step, forged, path):
+        if reason(step, forged, path):
             yield name, "refused", forged
         else:
             yield name, "still true" if truth(forged) else "PASSED", forged

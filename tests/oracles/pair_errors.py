@@ -18,13 +18,6 @@ from tests.oracles import closest
 STEP = 1e-3
 
 
-def points_off(a, b, R, t, found):
-    """How far closest points are off the surfaces [m]."""
-    on_a = a.signed_distance(found.alpha[None])[0][0]
-    on_b = b.signed_distance(((found.beta - t) @ R)[None])[0][0]
-    return float(max(abs(on_a), abs(on_b)))
-
-
 def pair_errors(names, count):
     """Largest errors over some poses, and how many were refused."""
     solids = closest.solids()
@@ -46,8 +39,10 @@ def pair_errors(names, count):
         phi = found.phi
         n = found.n
         reference = closest.signed_distance(names, R, t)
+        on_a = a.signed_distance(found.alpha[None])[0][0]
+        on_b = b.signed_distance(((found.beta - t) @ R)[None])[0][0]
         errors = {
-            "points": points_off(a, b, R, t, found),
+            "points": max(abs(float(on_a)), abs(float(on_b))),
             "moved": abs(moved.phi - phi - STEP),
             "normal": max(abs(n @ n - 1), np.abs(found.beta - found.alpha - phi * n).max()),
         }

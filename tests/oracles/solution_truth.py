@@ -55,14 +55,13 @@ def program(step):
         shapes = (n_v, n_v), n_v, (len(b), n_v), len(b)
         both = zip((H, g, A, b), shapes, strict=True)
         return tuple(np.array(part, dtype=object).reshape(shape) for part, shape in both)
-    H, g, A, b = program(step.replace(cone="frictionless"))
-    c = step.contacts
-    rows = [A[c.n_c :]]
-    for j in reversed(range(c.n_c)):
-        J = exact(c.J[j])
-        rows[:0] = [exact([c.n[j], c.d1[j], c.d2[j]]) @ J[:3], J[3:]]
-    gaps = np.insert(np.zeros((c.n_c, 3), dtype=int).astype(object), 0, b[: c.n_c], axis=1)
-    return H, g, np.vstack(rows), np.append(gaps, b[c.n_c :])
+    H, g, _, _ = program(step.replace(cone="frictionless"))
+    c, extra = step.contacts, step.extra
+    J = exact(c.J)
+    rows = exact(np.stack([c.n, c.d1, c.d2], axis=1)) @ J[:, :3]
+    A = np.concatenate([rows, J[:, 3:]], axis=1).reshape(-1, step.n_v)
+    b = np.append(np.kron(-c.phi, [1, 0, 0, 0]), extra.b)
+    return H, g, np.concatenate([A, exact(extra.A)]), exact(b)
 
 
 def weights(step):
