@@ -1,5 +1,8 @@
 """Sums of products in one order: those of plain loops, to the last bit."""
 
+from functools import reduce
+from operator import add
+
 import numpy as np
 import pytest
 
@@ -8,19 +11,9 @@ from quasistatic_ref.numbers.ordered import crossed, dot, length, norm, product,
 RNG = np.random.default_rng(3)
 
 
-def in_order(terms):
-    """The sum of numbers from the first to the last."""
-    first, *rest = terms
-    for term in rest:
-        first = first + term
-    return first
-
-
 def by_loops(A, B):
-    """The product of two matrices, entry by entry."""
-    entry = [[in_order(a * b for a, b in zip(row, B[:, j], strict=True)) for j in range(B.shape[1])]
-             for row in A]  # fmt: skip
-    return np.array(entry)
+    """The product of two matrices, entry by entry, each summed from the first to the last."""
+    return np.array([[reduce(add, row * column) for column in B.T] for row in A])
 
 
 @pytest.mark.parametrize(("m", "k", "n"), [(3, 3, 3), (3, 3, 4), (50, 3, 20), (4, 6, 13)])
@@ -46,9 +39,8 @@ def test_points_are_turned_by_one_matrix_or_each_by_its_own():
 
 def test_products_of_vectors_are_those_of_loops():
     a, b = RNG.normal(size=(2, 5, 3))
-    dots = [in_order(x * y for x, y in zip(u, v, strict=True)) for u, v in zip(a, b, strict=True)]
-    assert dot(a, b).tolist() == dots
-    assert norm(a).tolist() == np.sqrt([in_order(x * x for x in u) for u in a]).tolist()
+    assert dot(a, b).tolist() == np.diag(by_loops(a, b.T)).tolist()
+    assert norm(a).tolist() == np.sqrt(np.diag(by_loops(a, a.T))).tolist()
     assert crossed(a, b).tobytes() == np.cross(a, b).tobytes()
 
 
