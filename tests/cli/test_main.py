@@ -7,20 +7,9 @@ import sys
 
 import pytest
 
-from quasistatic_ref import save_step
 from quasistatic_ref.cli.main import COMMANDS, main
-from tests.helpers import one_sentence, point_on_floor
+from tests.helpers import one_sentence
 from tests.processes import python
-
-
-def test_any_command_can_be_interrupted(tmp_path, cli, monkeypatch):
-    def interrupted(*arguments, **options):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("quasistatic_ref.cli.solve.solve_step", interrupted)
-    path = save_step(tmp_path / "step.json", point_on_floor())
-    assert one_sentence(cli("solve", path, status=130).err) == "interrupted"
-
 
 USAGE = {
     "": "the following arguments are required: COMMAND",
@@ -121,22 +110,22 @@ def test_only_the_first_word_is_a_command(scene, tmp_path, monkeypatch, cli):
     assert (tmp_path / "bench" / "scene.npz").is_file()
 
 
-def test_an_unusable_file_is_named_and_is_not_standard_output(monkeypatch, cli):
-    def full(options):
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "study.sqlite")
+NO_LIBRARY = "libgomp.so.1: cannot open shared object file: No such file or directory"
+FAILURES = {
+    "interrupted": KeyboardInterrupt(),
+    "study.sqlite: cannot be used: No space left on device": (
+        OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "study.sqlite")
+    ),
+    "libgomp.so.1, which a package needs, is not installed on this system; "
+    "libgomp.so.1 comes by: apt-get install libgomp1": ImportError(NO_LIBRARY),
+}
 
-    monkeypatch.setattr("quasistatic_ref.cli.backends.run", full)
-    printed = cli("backends", status=2).err
-    assert printed == "quasistatic-ref: study.sqlite: cannot be used: No space left on device\n"
 
+@pytest.mark.parametrize("sentence", FAILURES)
+def test_any_command_fails_in_one_sentence(monkeypatch, cli, sentence):
+    def failing(options):
+        raise FAILURES[sentence]
 
-def test_a_library_that_the_system_lacks_is_named_with_what_installs_it(monkeypatch, cli):
-    def importing(*arguments):
-        message = "libgomp.so.1: cannot open shared object file: No such file or directory"
-        raise ImportError(message)
-
-    monkeypatch.setattr("quasistatic_ref.cli.solve.run", importing)
-    assert cli("solve", "step.json", status=2).err == (
-        "quasistatic-ref: libgomp.so.1, which a package needs, is not installed on this system; "
-        "libgomp.so.1 comes by: apt-get install libgomp1\n"
-    )
+    monkeypatch.setattr("quasistatic_ref.cli.backends.run", failing)
+    printed = cli("backends", status=130 if sentence == "interrupted" else 2)
+    assert printed.err == f"quasistatic-ref: {sentence}\n"

@@ -9,14 +9,9 @@ import pytest
 from quasistatic_ref import Simulator, load_step, load_trajectory, save_trajectory, solve_step
 from tests.closeness import assert_same
 from tests.files.urdf.urdf_texts import joint, urdf_of_text
-from tests.scenes import BALL, RAIL, SWING, written_scenario
+from tests.scenes import BALL, RAIL
 from tests.scenes import scene as scene_of
 from tests.tolerances import MULTIPLIERS
-
-
-@pytest.fixture
-def swing(tmp_path):
-    return str(written_scenario(tmp_path, SWING, "swing.toml"))
 
 
 def test_run_writes_the_trajectory_and_tells_of_it(scene, out, cli):
