@@ -121,4 +121,4 @@ def test_a_cloud_that_many_bodies_have_is_read_once(tmp_path):
     scene = changed(SCENE, ("bodies", bodies), ("contacts", contacts))
     a, b, c = (pair.beta.shape for pair in load_scenario(scene_written(tmp_path, scene)).pairs)
     assert a is b
-    assert a is not c
+    assert [a.points.shape, c.points.shape] == [(3, 3), (1, 3)]

@@ -67,8 +67,9 @@ MISTAKES = {
         lambda: step(Q[None]),
     ),
     "must be finite": lambda: step(Q * np.nan),
-    r"must have length one, not 2; system.normalised\(q\)": lambda: step(2.0 * Q),
-    r"system.normalised\(q\) divides it": lambda: step(TURNED.astype(np.float32)),
+    r"one, not 0\.9999999739; system.normalised\(q\) divides it": lambda: step(
+        TURNED.astype(np.float32)
+    ),
     r"q_a: must have shape \(7,\)": lambda: step(q_bar_a=Q),
     "is not a body, joint or coordinate; known: block": lambda: run(target={"thumb": 0.01}),
     r"target\[block\]: is not actuated; make it so": lambda: run(target={"block": 0.01}),

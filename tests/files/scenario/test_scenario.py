@@ -9,7 +9,6 @@ from quasistatic_ref import (
     Capsule,
     ContactPair,
     HalfSpace,
-    PointCloud,
     ScenarioError,
     System,
     load_scenario,
@@ -64,15 +63,14 @@ def test_stiffness_may_be_given_by_joint_or_by_body(load, line, expected):
     assert_same(load((K_Q, line)).K_q, expected)
 
 
-def test_stiffness_is_filled_in_by_joint_in_any_order_of_bodies(tmp_path):
+def test_stiffness_is_filled_in_by_joint_in_any_order_of_bodies():
     # In pinocchio's order "b" comes first; each body's matrix belongs to its own joints.
     text = robot(link("a"), link("b"), joint("j", "a", "b"), link("c"), joint("i", "b", "c"))
-    urdf_of_text(tmp_path, text, "two.urdf")
-    body = '[bodies.%s]\nurdf = "two.urdf"\nactuated = ["j", "i"]\nK_q = [[%d, 1], [1, %d]]\n'
-    path = tmp_path / "s.toml"
-    head = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
-    path.write_text(head + body % ("b", 10, 20) + body % ("a", 30, 40))
-    scenario = load_scenario(path)
+    bodies = {
+        name: {"urdf": text, "actuated": ["j", "i"], "K_q": [[of_j, 1], [1, of_i]]}
+        for name, of_j, of_i in (("b", 10, 20), ("a", 30, 40))
+    }
+    scenario = load_scenario({"h": 0.01, "steps": 1, "bodies": bodies})
     stiffness = {"b/j": 10, "b/i": 20, "a/j": 30, "a/i": 40}
     names = [c.name for c in scenario.system.coordinates]
     assert sorted(names) == sorted(stiffness)
@@ -170,18 +168,6 @@ def test_shapes_of_the_world_have_the_sizes_that_are_written(load, line, expecte
         assert_relative(getattr(placed.shape, key), value)
     assert_same(placed.t, [1, 2, 3])
     assert_within(placed.R, [[0, -1, 0], [1, 0, 0], [0, 0, 1]])
-
-
-def test_a_body_with_a_cloud_is_its_cloud_by_name(load, tmp_path):
-    (tmp_path / "c.csv").write_text("x,y,z\n0,0,0.1\n0,0.1,0\n0.1,0,0\n")
-    scenario = load(
-        ('base = "floating"', 'base = "floating"\ncloud = "c.csv"'),
-        ("rows = 6", "rows = 6\nk = 2"),
-    )
-    floor, push = scenario.pairs
-    assert isinstance(floor.beta.shape, PointCloud)
-    assert isinstance(push.beta.shape, PointCloud)
-    assert (floor.beta.link, floor.n_c) == (scenario.system.link("ball"), 2)
 
 
 def test_every_path_is_taken_that_python_opens(tmp_path):
