@@ -2,13 +2,12 @@
 
 import pytest
 
-from quasistatic_ref.files.urdf.file import MOST_LINKS
-from quasistatic_ref.optional.mujoco import compiler
-
 
 @pytest.fixture
 def compiled_here(monkeypatch):
     """The command compiles files in the process of the test."""
+    from quasistatic_ref.files.urdf.file import MOST_LINKS
+    from quasistatic_ref.optional.mujoco import compiler
     from quasistatic_ref.optional.mujoco.compilation import answer  # which needs MuJoCo
 
     most = MOST_LINKS, compiler.LARGEST_MODEL
