@@ -37,9 +37,10 @@ def with_objects():
 
 
 def in_tables():
-    ball = with_objects()["bodies"]["ball"].urdf
-    return {
-        "h": 0.02, "steps": 3, "gravity": [0.0, 0.0, -9.81],
+    objects = with_objects()
+    ball = objects["bodies"]["ball"].urdf
+    return objects | {
+        "h": 0.02, "gravity": [0.0, 0.0, -9.81],
         "bodies": {
             "hand": {
                 "urdf": RAIL, "actuated": ["slide"], "pose": {"xyz": [0, 0, 0.05]},
@@ -51,7 +52,6 @@ def in_tables():
             "floor": {"halfspace": {"normal": [0, 0, 1]}},
             "wall": {"box": {"size": [0.1, 1, 1]}, "pose": {"xyz": [0.5, 0, 0]}},
         },
-        "contacts": {"floor": {"alpha": ["floor", "wall"], "beta": "ball", "mu_v": 0.5, "rows": 4}},
     }  # fmt: skip
 
 
