@@ -111,7 +111,7 @@ def test_a_trajectory_says_where_its_distances_come_from(tmp_path):
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_where_coal_s_general_search_answers_it_is_refused_and_off(name):
+def test_solids_that_coal_s_general_search_answers_for_are_refused_and_off(name):
     solid = REFUSED[name]
     cloud = placed_shape(PointCloud(np.zeros((1, 3))), 1)
     with pytest.raises(ContactError, match=r"distances: .*, and p is of pointcloud and \w+: use"):

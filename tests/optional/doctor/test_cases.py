@@ -16,7 +16,7 @@ def found(scenario):
 
 
 @pytest.mark.parametrize("case", params(CASES))
-def test_what_is_said_is_right_by_hand(case):
+def test_findings_are_right_by_hand(case):
     """A remedy that is applied ends what asked for it."""
     scenario = made(case)
     findings = scenario.findings() if "before" in case else found(scenario)

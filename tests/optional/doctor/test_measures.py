@@ -47,7 +47,7 @@ def test_numbers_are_those_by_hand(row):
     assert said.keys().isdisjoint(row.get("unknown", ()))
 
 
-def test_what_float64_does_not_resolve_in_its_scene_is_zero(tmp_path, cli):
+def test_numbers_that_float64_does_not_resolve_in_their_scene_are_zero(tmp_path, cli):
     """Three boxes rest, in a scene of 0.1 m: their gaps of 1e-17 m and turns of 1e-14 deg are 0."""
     words = ["--fast", "--set", "steps=5", "--out", tmp_path, "--numbers"]
     printed = cli("run", "stack", *words).out.partition("natural units)")[2]

@@ -45,7 +45,7 @@ def test_a_scene_without_a_mistake_has_no_finding(scene, tmp_path):
     assert findings_after(tmp_path, scene) == ()
 
 
-def test_what_comes_down_from_its_layer_once_its_pusher_stops_has_settled(tmp_path):
+def test_a_box_that_comes_down_from_its_layer_once_its_pusher_stops_has_settled(tmp_path):
     """The layer 0.4 h v = 0.3 mm under the box is lost, and its pusher's spring goes on by 0.2."""
     assert findings_after(tmp_path, "push", fast=False) == ()
 

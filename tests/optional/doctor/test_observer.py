@@ -158,7 +158,7 @@ def test_a_check_that_fails_costs_its_finding_alone():
 
 
 @pytest.mark.parametrize("name", ["Run", "Start", "quasi_dynamic_number", "gives"])
-def test_whatever_fails_around_the_checks_costs_the_findings_and_not_the_run(name, monkeypatch):
+def test_failures_around_the_checks_cost_the_findings_and_not_the_run(name, monkeypatch):
     monkeypatch.setattr(observer, name, fails)
     run = load_scenario("block_push", steps=2).run(progress=False)
     assert (len(run), run.findings) == (2, ())

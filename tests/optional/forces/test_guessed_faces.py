@@ -18,7 +18,7 @@ from tests.oracles.loaded_piles import loaded_pile
 
 
 @pytest.mark.parametrize("step", [block(push=1.0), walled_block()])
-def test_where_newtons_method_does_not_end_the_definition_decides(step, monkeypatch):
+def test_the_definition_decides_forces_where_newtons_method_does_not_end(step, monkeypatch):
     quick = contact_forces(step).wrench
     monkeypatch.setattr(forces, "eliminated_optimum", lambda *_: None)
     assert contact_forces(step).wrench.tobytes() == quick.tobytes()
