@@ -254,6 +254,11 @@ def test_a_guess_may_be_anything(seed):
     assert said(None) == said(guess) == said(guess.x)
 
 
+def test_multipliers_of_two_rows_that_oppose_each_other_are_not_unique():
+    answer = qr.exact_qp(P, [0.0, -1.0], [[1.0, 0.0], [-1.0, 0.0]], [0.0, 0.0])
+    assert (answer.x.tolist(), answer.multipliers_unique) == ([0.0, 1.0], False)
+
+
 def test_the_digits_of_an_x_and_of_multipliers():
     twice = {"G": np.array([[1.0, 1.0]] * 2), "h": [1.0, 1.0]}
     answer = qr.exact_qp(np.diag([1.0, 4.0]), [-3.0, -4.0], **twice)
