@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, Cone, ContactError, Ellipsoid, ModelError, convex_hull
+from quasistatic_ref import Box, Cone, ContactError, Cylinder, Ellipsoid, ModelError, convex_hull
 from quasistatic_ref.contact.normals import gaps
 from quasistatic_ref.optional.curved import by_coal
 from quasistatic_ref.optional.curved.by_coal import coal_witness
@@ -97,6 +97,18 @@ def test_an_answer_does_not_depend_on_where_the_world_has_its_origin(t):
         found.append(coal_witness("p", one, in_world(two.shape, one.t + t, SLANTING)))
     assert found[0].phi == found[1].phi
     assert found[0].n.tolist() == found[1].n.tolist()
+
+
+def test_flat_ends_touch_at_a_point_of_both_that_moves_with_them():
+    below, above = Cylinder(0.05, 0.02), Cylinder(0.03, 0.02)
+    apart = np.array([0.04, 0.0, 0.04])
+    points = []
+    for t in (np.zeros(3), np.array([1.0, 0.5, 0.25])):
+        found = coal_witness("p", in_world(below, t), in_world(above, t + apart))
+        points.append(found.alpha - t)
+    assert_within(points[1], points[0], CURVED_PAIR)
+    assert np.hypot(*points[0][:2]) < 0.05
+    assert np.hypot(*(points[0] - 0.04 * X)[:2]) < 0.03
 
 
 @pytest.mark.parametrize("gap", [10.0, -0.01])
