@@ -14,6 +14,7 @@ from quasistatic_ref import (
     Cylinder,
     Ellipsoid,
     InputError,
+    PointCloud,
     Sphere,
     animate,
     draw_scene,
@@ -145,6 +146,15 @@ def test_a_body_s_outline_is_where_the_body_is(end, page):
         corners = 1e3 * end.world(placed, surface_points(placed.shape))[:, [0, 2]]
         assert_relative(outline.max(axis=0), corners.max(axis=0))
         assert_relative(outline.min(axis=0), corners.min(axis=0))
+
+
+def test_the_dots_of_a_cloud_are_where_its_points_are(end, page):
+    cloud = PointCloud([[0.0, 0.0, 0.0], [0.04, 0.01, 0.0], [0.0, 0.02, 0.03]])
+    placed = next(s for s in end.shapes if isinstance(s.shape, Box))
+    draw_scene(page, replace(end, shapes=(replace(placed, shape=cloud),)), parts=())
+    (dots,) = (c.get_offsets() for c in page.collections if len(c.get_offsets()) == 3)
+    points = 1e3 * end.world(placed, cloud.points)[:, [0, 2]]
+    assert_relative(np.sort(dots, axis=0), np.sort(points, axis=0))
 
 
 def test_the_circle_of_torsion_has_radius_mu_omega(page):
