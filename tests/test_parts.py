@@ -111,7 +111,7 @@ def checkout(tmp_path_factory):
 
 OF_LAB = [f"lab/{name}" for name in ("bench", "claims", "reality", "study", "vectors")]
 EACH = [*(f"optional/{name}" for name in PARTS), *OF_LAB]
-FOLDERS = [EACH, *(pytest.param(names, marks=pytest.mark.long) for names in in_turn(EACH))]
+FOLDERS = [EACH, *in_turn(EACH)]
 WITH = {"lab/vectors": "lab/program"}
 """A folder of the lab, and the one that leaves with it."""
 SKIPPED = re.compile(r"^SKIPPED \[\d+\] tests/(\w+/[\w/]+)(?:\.py)?:", re.MULTILINE)
@@ -141,6 +141,7 @@ OF_CORE_AND_PARTS = {
 """Tests of the core that ask a part, too, and leave with it. The list only shrinks."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("folders", FOLDERS, ids=lambda folders: " ".join(folders)[:20])
 def test_other_tests_are_collected_where_parts_are_deleted_with_theirs(checkout, folders):
     with ExitStack() as gone:

@@ -28,7 +28,10 @@ def test_findings_are_right_by_hand(case):
         assert mended.isdisjoint(one.name for one in found(made(case, changes)))
 
 
-@pytest.mark.parametrize("what", ["a rod slips", "a cube that a finger pushes at 0.1"])
+SLIPS = ["a rod slips", pytest.param("a cube that a finger pushes at 0.1", marks=pytest.mark.long)]
+
+
+@pytest.mark.parametrize("what", SLIPS)
 def test_findings_do_not_depend_on_the_backend(what):
     """Contacts share loads in many ways, and backends differ in theirs."""
     (case,) = [case for case in CASES if case["what"].startswith(what)]
