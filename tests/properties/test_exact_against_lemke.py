@@ -11,6 +11,7 @@ import pytest
 
 from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.degeneracy import form_degeneracy
+from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.optimum import form_optimum
 from tests.made import bits
 from tests.oracles.forms import exact_form_of
@@ -65,7 +66,8 @@ def test_the_exact_optimum_agrees_with_lemkes_method():
                 assert infeasible(exact(A).tolist(), exact(b).tolist(), y), seed
                 continue
             assert found.delta_q.tolist() == [*map(float, truth[0])], seed
-            assert refutation(H, g, A, b, found.lam, x=found.delta_q, net=found.net) is None, seed
+            claims = {"x": found.delta_q, "net": found.net, "slack": slacks(form, found)}
+            assert refutation(H, g, A, b, found.lam, **claims) is None, seed
             assert form_degeneracy(form, found.working_set) == facts, seed
             active = found.lam[found.lam != 0].tolist()
             assert found.smallest_active_multiplier == min(active, default=None), seed
@@ -74,13 +76,20 @@ def test_the_exact_optimum_agrees_with_lemkes_method():
     assert min(kinds.values()) > 1
 
 
+def slacks(form, found):
+    """All slacks at an optimum, rounded."""
+    minimiser = Minimiser(form, tuple(found.working_set))
+    return minimiser.rounded(lambda point: form.slacks(range(form.m), point.z))
+
+
 def answer_of(seed, precision):
-    """The bits of an optimum, and what is unique; None where there is none."""
+    """The bits of an optimum and of its slacks, and what is unique; None where there is none."""
     form = exact_form_of(*drawn_program(seed), bits=precision)
     found = form_optimum(form)
     if isinstance(found, Combination):
         return None
-    return bits((found.delta_q, found.net)), form_degeneracy(form, found.working_set)
+    answer = found.delta_q, found.net, slacks(form, found)
+    return bits(answer), form_degeneracy(form, found.working_set)
 
 
 @pytest.mark.parametrize("precision", [2, 8])

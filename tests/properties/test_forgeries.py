@@ -13,13 +13,15 @@ from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
 from tests.cases import cases, first
 from tests.oracles.forged_scenes import between_walls, scenes
-from tests.oracles.forgeries import good_file, outcomes, reason
+from tests.oracles.forgeries import at_random, good_file, outcomes, reason
 from tests.oracles.random_steps import drawn
 from tests.oracles.records import places
-from tests.oracles.solution_truth import solution_file, wrenches
+from tests.oracles.solution_truth import solution_file, truth_of, wrenches
 
 SCENES = scenes()
 PROVES_NOTHING = ("none", "residual", "residual in the ellipsoid")
+RANDOM = 20
+"""Random forgeries of the file of each scene: 1 s in all."""
 
 
 @pytest.fixture
@@ -50,6 +52,18 @@ def test_no_false_file_passes(path, kind, name, every):
     assert freely <= {*allowed, "some at random"}
     if kind == "exact":
         assert not freely
+
+
+@pytest.mark.parametrize(("kind", "name"), SCENES)
+def test_no_random_forgery_passes(path, kind, name):
+    step = SCENES[kind, name]
+    good = good_file(step, kind)
+    rng = np.random.default_rng(1)
+    truth = truth_of(step, good)
+    tried = [forged for _ in range(RANDOM) if (forged := at_random(rng, step, good)) != good]
+    assert len(tried) > RANDOM / 2
+    for forged in tried:
+        assert reason(step, forged, path) or truth(forged), forged
 
 
 def test_every_kind_and_every_claim_of_a_certificate_is_forged():

@@ -16,6 +16,7 @@ from tests.pages import ROOT, downloads, flat, printed_blocks
 
 PAGE = (ROOT / "docs/guides/does_my_contact_hold.md").read_text("utf-8")
 SCENES = downloads("opinion")
+OPINIONS = rows_of("mujoco/opinions.toml")
 
 
 def opinion(text, seconds=2.0, keyframe=None, control=None):
@@ -25,7 +26,7 @@ def opinion(text, seconds=2.0, keyframe=None, control=None):
     return qr.mujoco_opinion(model, settled(model, seconds, keyframe, control), start=start)
 
 
-@pytest.mark.parametrize("row", params(rows_of("mujoco/opinions.toml")))
+@pytest.mark.parametrize("row", params(OPINIONS))
 def test_opinions_are_right_by_hand(row):
     text = row.get("mjcf") or SCENES[row["page"]]
     for old, new in row.get("replace", {}).items():
@@ -44,6 +45,14 @@ def test_opinions_are_right_by_hand(row):
         value, off = row["normal"]
         exact = sum(contact.exact.normal for contact in answer.contacts)
         assert exact == pytest.approx(value, rel=off)
+
+
+def test_the_number_of_a_creep_is_the_slip_of_its_joint_in_mujoco():
+    (row,) = (one for one in OPINIONS if one["what"].startswith("a block on a soft floor"))
+    when = row["seconds"], row["keyframe"]
+    (creep,) = opinion(row["mjcf"], *when).findings
+    slip = settled(model_of(row["mjcf"]), *when).qvel[0]
+    assert creep.numbers == {"slip_mm_s": pytest.approx(1e3 * slip)}
 
 
 def torsional_fingers(text):

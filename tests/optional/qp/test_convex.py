@@ -37,6 +37,7 @@ def test_2000_programs_have_the_answers_of_lemkes_method_in_fractions(part, tmp_
             answer = qr.exact_qp(**program)
             assert [float(v) for v in wanted] == answer.x.tolist(), seed
             assert answer.digits(answer.x) > 15
+            # What rounding of the multipliers leaves: 13.6 digits at the least.
             assert answer.digits_of_multipliers(answer.z, answer.y, answer.z_box) > 13
             kinds["several"] += not answer.x_unique
         kinds[type(answer).__name__] += 1
