@@ -14,6 +14,7 @@ npm install --silent --no-audit --no-fund @jscad/modeling@2.13.0
 cat > rounded.cjs << 'JAVASCRIPT'
 const assert = require('node:assert');
 const { geometries, measurements, primitives } = require('@jscad/modeling');
+assert.ok(require('@jscad/modeling/package.json').version === '2.13.0');
 
 const close = (one, other, relative) => Math.abs(one / other - 1) < relative;
 const highest = (solid) => {
