@@ -130,8 +130,8 @@ class KnownAnswers:
     def solver(self, k: int) -> Solver:
         """A solver that answers step k."""
         x, lam, status, iterations = self._answers
-        said = status[k]
-        reply = Reply(x[k], lam[k], said == OPTIMAL, said, int(iterations[k]))
+        optimal = status[k] == OPTIMAL
+        reply = Reply(x[k], lam[k], optimal, status[k], int(iterations[k]))
         return Answered(self._solver, reply, self._proofs)
 
 

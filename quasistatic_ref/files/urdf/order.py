@@ -35,7 +35,8 @@ def visiting_order(root: str, joints: Sequence[TreeJoint]) -> list[TreeJoint]:
                 break
         else:
             if len(followers) < len(leaders):
-                of, name = clipped(joint.mimic.of), clipped(joint.name)
+                of = clipped(joint.mimic.of)
+                name = clipped(joint.name)
                 problem = f"{name} moves {of}, so let {of} mimic {name}"
                 field = f"joint[{joint.name}].mimic"
                 raise ModelError(problem, field=field, value=joint.mimic.of)

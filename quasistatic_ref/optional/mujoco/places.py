@@ -47,9 +47,10 @@ MESH = "MESH"
 KINDS_OF_GEOMS = (*SHAPES, MESH)
 """Kinds of geoms that have a shape of this package."""
 ONE, TWO = ("SPHERE", "ELLIPSOID"), ("CAPSULE",)
-PLACES, PLACES_OF_BOXES = 4, 8
-"""Places of a pair: one of what is round, two of a capsule, and of two boxes as many as a face cut
-by a face has corners; no other pair has more than four contacts that matter."""
+PLACES_OF_BOXES = 8
+"""Places of two boxes: as many corners as a face has that is cut by a face."""
+PLACES = 4
+"""Places of any other pair: no more contacts matter. What is round has one, a capsule two."""
 
 MOST_PLACES = 20_000
 """Most places for contacts: they take some 20 kB each."""
