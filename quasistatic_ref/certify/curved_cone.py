@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 
-from quasistatic_ref.certify.verdict import Verdict
+from quasistatic_ref.exact.verdict import Verdict
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import FrictionCone, cone
 from quasistatic_ref.step.data import StepData

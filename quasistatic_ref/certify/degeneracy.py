@@ -22,11 +22,11 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, arb_mat, fmpz
 
-from quasistatic_ref.certify.active_set import dual_active_set
-from quasistatic_ref.certify.form import ExactForm, MatrixForm, exact_matrix, implied
 from quasistatic_ref.certify.groups import group_steps
-from quasistatic_ref.certify.minimiser import Minimiser
-from quasistatic_ref.certify.step_form import StepForm
+from quasistatic_ref.certify.step_program import StepProgram
+from quasistatic_ref.exact.active_set import dual_active_set
+from quasistatic_ref.exact.minimiser import Minimiser
+from quasistatic_ref.exact.program import ExactProgram, MatrixProgram, exact_matrix, implied
 from quasistatic_ref.step.data import StepData
 
 
@@ -59,11 +59,11 @@ def step_degeneracy(step: StepData, working: Sequence[int]) -> Degeneracy:
     """
     parts = group_steps(step)
     return joined_degeneracy(
-        form_degeneracy(StepForm(part), group.within(working)) for group, part in parts
+        form_degeneracy(StepProgram(part), group.within(working)) for group, part in parts
     )
 
 
-def form_degeneracy(form: ExactForm, working: Sequence[int]) -> Degeneracy:
+def form_degeneracy(form: ExactProgram, working: Sequence[int]) -> Degeneracy:
     """The degeneracy of a program at the minimiser on a working set."""
     minimiser = Minimiser(form, tuple(working))
     unique, smooth = degeneracy(form, working, minimiser.implied_rows, minimiser.tight_rows)
@@ -79,13 +79,16 @@ def joined_degeneracy(every: Iterable[Degeneracy]) -> Degeneracy:
 
 
 def degeneracy(
-    form: ExactForm, working: Sequence[int], implied_rows: Sequence[int], tight_rows: Sequence[int]
+    form: ExactProgram,
+    working: Sequence[int],
+    implied_rows: Sequence[int],
+    tight_rows: Sequence[int],
 ) -> tuple[bool, bool]:
     """Whether lam is unique, and whether delta_q is differentiable in g.
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactProgram
     working : sequence of int
         W: independent rows without slack, all multipliers positive but those of equations.
     implied_rows, tight_rows : sequence of int
@@ -110,7 +113,7 @@ def degeneracy(
 
 
 def feasible(
-    form: ExactForm,
+    form: ExactProgram,
     working: Sequence[int],
     bounded: Sequence[Sequence[arb | fmpz]],
     least: Sequence[int],
@@ -119,7 +122,7 @@ def feasible(
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactProgram
     working : sequence of int
         W.
     bounded : sequence of list of arb or fmpz
@@ -130,7 +133,7 @@ def feasible(
     n = form.n
     held = form.exact_rows(working)
     sides = zip([*held, *bounded], [*[0] * len(held), *least], strict=True)
-    feasibility = MatrixForm(
+    feasibility = MatrixProgram(
         H=exact_matrix(np.eye(n)),
         g=arb_mat(n, 1),
         rows=arb_mat([[*row[:n], arb(-b)] for row, b in sides]),

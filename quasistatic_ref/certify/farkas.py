@@ -3,30 +3,30 @@
 If y >= 0, A'y = 0 and b'y > 0, then A delta_q >= b would give 0 = y'A delta_q >= y'b > 0.
 """
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from flint import fmpq, fmpz
+from flint import fmpq
 
-from quasistatic_ref.certify.active_set import Combination
-from quasistatic_ref.certify.form import ExactForm, fraction
 from quasistatic_ref.certify.groups import row_owners
-from quasistatic_ref.certify.step_form import StepForm
+from quasistatic_ref.certify.step_program import StepProgram
 from quasistatic_ref.errors import check_kind
+from quasistatic_ref.exact.active_set import Combination
+from quasistatic_ref.exact.fractions import fractions_read
+from quasistatic_ref.exact.program import ExactProgram, fraction
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.precision import nearest_fraction
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.text.plain import Plain
 
-_FRACTION = re.compile(r"(-?[0-9]+)(?:/([0-9]*[1-9][0-9]*))?")
-
 
 @dataclass(frozen=True, eq=False)
 class FarkasVector(Plain):
     """The proof y, its largest entry being one.
+
+    A ``StepInfeasible`` has it; its constructor checks nothing.
 
     Parameters
     ----------
@@ -66,14 +66,14 @@ class FarkasVector(Plain):
 
 
 def farkas_vector(
-    step: StepData, form: ExactForm, proof: Combination, rows: Indices
+    step: StepData, form: ExactProgram, proof: Combination, rows: Indices
 ) -> FarkasVector:
     """The Farkas vector of a step, from a proof about the rows of one of its groups.
 
     Parameters
     ----------
     step : StepData
-    form : ExactForm
+    form : ExactProgram
         That of a group of the step.
     proof : Combination
         About the rows of `form`.
@@ -115,7 +115,7 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
     if not cone(step.cone).polyhedral:
         return "a Farkas vector proves nothing of a cone that is no polyhedron"
     check_kind(exact, Sequence, "farkas", "a list of fractions")
-    form = StepForm(step)
+    form = StepProgram(step)
     if len(exact) != form.m:
         return f"the Farkas vector has {len(exact)} entries, the step {form.m} rows"
     y = fractions_read(exact)
@@ -133,11 +133,3 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
     if not sums[-1] < 0:
         return "b'y is not positive"
     return None
-
-
-def fractions_read(texts: Sequence[str]) -> list[fmpq] | None:
-    """The fractions ``"p/q"`` or ``"p"``; None if a text is none."""
-    # By pattern first: Fraction would read "1e999999999", and never return.
-    parts = [_FRACTION.fullmatch(str(text)) for text in texts]
-    read = [fmpq(fmpz(part[1]), fmpz(part[2] or "1")) for part in parts if part]
-    return read if len(read) == len(parts) else None

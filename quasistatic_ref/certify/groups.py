@@ -1,10 +1,9 @@
 """Groups of coordinates that nothing couples: each is a step of its own.
 
 Two coordinates belong together if an entry of H off its diagonal couples them (one of M_u, K_q or
-a user's cost), or a contact, or a
-row of the user's own, moves with both. H is then block diagonal and A has rows of one group each:
-the optimum of the step consists of those of its groups. A group is mostly a body, or some bodies
-that touch each other.
+a user's cost), or a contact, or a row of the user's own, moves with both. H is then block diagonal
+and A has rows of one group each: the optimum of the step consists of those of its groups. A group
+is mostly a body, or some bodies that touch each other.
 
 Rows have a number, or a contact and a row of it. The rows of A are contact-major; the user's own
 rows come last, as if of one contact more.
@@ -16,7 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.numbers.arrays import Indices, Mask, read_only
+from quasistatic_ref.exact.components import connected_components
+from quasistatic_ref.numbers.arrays import Indices, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
@@ -143,38 +143,6 @@ def groups_of(
     return tuple(
         Group(*(read_only(np.flatnonzero(part == first)) for part in parts)) for first in firsts
     )
-
-
-def components(couplings: Mask) -> tuple[Indices, Indices]:
-    """The group of each coordinate and of each coupling, from a mask, shape (couplings, n)."""
-    coupling, coordinate = np.nonzero(couplings)
-    return connected_components(coupling, coordinate, couplings.shape)
-
-
-def connected_components(
-    coupling: Indices, coordinate: Indices, shape: tuple[int, ...]
-) -> tuple[Indices, Indices]:
-    """The first coordinate of the group of each coordinate, (n,), and of each coupling.
-
-    Each coordinate takes the least label among those that share a coupling with it, until no label
-    changes. A coupling without coordinates has label 0.
-
-    Parameters
-    ----------
-    coupling, coordinate, shape
-        As of :func:`groups_of`.
-    """
-    count, n = shape
-    label = np.arange(n)
-    while True:
-        least = np.full(count, n)
-        np.minimum.at(least, coupling, label[coordinate])
-        lower = label.copy()
-        np.minimum.at(lower, coordinate, least[coupling])
-        lower = lower[lower]  # a label is a coordinate of the same group
-        if np.array_equal(lower, label):
-            return label, np.where(least < n, least, 0)
-        label = lower
 
 
 def group_steps(step: StepData) -> list[tuple[Group, StepData]]:

@@ -25,15 +25,14 @@ import numpy as np
 from quasistatic_ref.certify.failures import StepIllPosed
 from quasistatic_ref.certify.groups import Group, group_steps
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.exact.digits import digits_of_error
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.numbers.pivots import exact_factor
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.hessian import Hessian
-from quasistatic_ref.step.standard_form import linear_term, standard_form
+from quasistatic_ref.step.standard_form import linear_term, spring_load, standard_form
 from quasistatic_ref.tolerances import UNMOVED
 
-MOST_DIGITS = 16.0
-"""Digits of a float64: more cannot be known."""
 Parts = Sequence[tuple[Group, StepData]]
 """The groups of a step, each as a step."""
 
@@ -127,19 +126,6 @@ def _energy_norm(entries: bytes, n: int) -> EnergyNorm:
     return EnergyNorm(read_only(unit), read_only(L), read_only(inverse))
 
 
-def digits_of_error(error: float) -> float:
-    """-log10 of a relative error [-], clipped to 0 .. 16; 0 for NaN.
-
-    Examples
-    --------
-    >>> digits_of_error(1e-9), digits_of_error(0.0), digits_of_error(3.0)
-    (9.0, 16.0, 0.0)
-    """
-    if not error < 1:
-        return 0.0
-    return min(MOST_DIGITS, float(-np.log10(error))) if error > 0 else MOST_DIGITS
-
-
 def single_loads(step: StepData, scale: float = 1.0) -> Array:
     """Impulses of the targets, of tau_a and of tau_u, each by itself, shape (3, n_v) [N s, N m s].
 
@@ -148,7 +134,7 @@ def single_loads(step: StepData, scale: float = 1.0) -> Array:
     """
     n_a = step.n_a
     loads = np.zeros((3, step.n_v))
-    loads[0, :n_a] = step.h * step.K_q @ (scale * step.delta_q_bar_a)
+    loads[0, :n_a] = step.h * spring_load(step.K_q, scale * step.delta_q_bar_a)
     loads[1, :n_a] = step.h * (scale * step.tau_a)
     loads[2, n_a:] = step.h * (scale * step.tau_u)
     cost = step.extra.cost

@@ -15,16 +15,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.certify.active_set import Combination, dual_active_set
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
-from quasistatic_ref.certify.form import ExactForm
 from quasistatic_ref.certify.groups import Group, group_steps
-from quasistatic_ref.certify.minimiser import LARGE
 from quasistatic_ref.certify.norm import Parts, check_length
-from quasistatic_ref.certify.refined import BearingRows
-from quasistatic_ref.certify.step_form import StepForm
+from quasistatic_ref.certify.step_program import StepProgram
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.exact.active_set import Combination, dual_active_set
+from quasistatic_ref.exact.minimiser import LARGE
+from quasistatic_ref.exact.program import ExactProgram
+from quasistatic_ref.exact.refined import BearingRows
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
 from quasistatic_ref.parts import part as optional_part
 from quasistatic_ref.step.cones import cone
@@ -49,7 +49,7 @@ class ExactOptimum:
         Rows in increasing order, independent, with positive multipliers where no equations.
     smallest_active_multiplier : float or None
         Smallest of lam [N s] on the working set, equations left out; None if there is no other.
-    walks : int
+    iterations : int
         Violated rows that were added to the warm start: zero if it was right.
     """
 
@@ -58,15 +58,15 @@ class ExactOptimum:
     net: Array
     working_set: tuple[int, ...]
     smallest_active_multiplier: float | None
-    walks: int
+    iterations: int
 
 
-def form_optimum(form: ExactForm, warm: Sequence[int] = ()) -> ExactOptimum | Combination:
+def form_optimum(form: ExactProgram, warm: Sequence[int] = ()) -> ExactOptimum | Combination:
     """The exact optimum, or an exact proof that there is none.
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactProgram
     warm : sequence of int
         Rows that a solver found active, in order of preference; any rows will do.
 
@@ -88,7 +88,7 @@ def form_optimum(form: ExactForm, warm: Sequence[int] = ()) -> ExactOptimum | Co
         net=minimiser.rounded(lambda m: m.net.entries(), form.h),
         working_set=tuple(sorted(working)),
         smallest_active_multiplier=float(lam[pressed].min()) if pressed else None,
-        walks=minimiser.walks,
+        iterations=minimiser.iterations,
     )
 
 
@@ -109,7 +109,7 @@ def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     step : StepData
         SI units.
     warm : sequence of int
-        Rows that a solver found active; see :func:`~quasistatic_ref.certify.active_set.warm_rows`.
+        Rows that a solver found active; see :func:`~quasistatic_ref.exact.active_set.warm_rows`.
 
     Returns
     -------
@@ -193,7 +193,7 @@ def optimum_by_groups(
         net=net,
         working_set=tuple(sorted(working)),
         smallest_active_multiplier=min((v for v in multipliers if v is not None), default=None),
-        walks=sum(optimum.walks for optimum in each),
+        iterations=sum(optimum.iterations for optimum in each),
     )
 
 
@@ -206,9 +206,9 @@ class ProofCache:
     def __init__(self) -> None:
         # Of each group: what it was as a step, the rows that its search started from, the end.
         self._last: dict[int, tuple[StepData, list[int], ExactOptimum]] = {}
-        self._forms: dict[int, StepForm] = {}
+        self._forms: dict[int, StepProgram] = {}
 
-    def form(self, i: int, part: StepData, own: tuple[Array, Array]) -> StepForm:
+    def form(self, i: int, part: StepData, own: tuple[Array, Array]) -> StepProgram:
         """The exact program of group i: with the rows of the last step's, if they are the same.
 
         Parameters
@@ -218,7 +218,7 @@ class ProofCache:
         own : (ndarray, ndarray), shapes (m_c, w) and (m,) [m]
             Its ``own_inequalities``.
         """
-        self._forms[i] = form = StepForm(part, own).with_rows_of(self._forms.get(i))
+        self._forms[i] = form = StepProgram(part, own).with_rows_of(self._forms.get(i))
         return form
 
     def kept(self, i: int, part: StepData, start: Sequence[int]) -> ExactOptimum | None:

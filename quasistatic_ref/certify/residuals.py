@@ -6,7 +6,9 @@ by them.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,10 +18,15 @@ from quasistatic_ref.numbers.arrays import Array, with_shape
 from quasistatic_ref.step.cones import Judge, row_violations
 from quasistatic_ref.step.standard_form import StandardForm
 
+LARGE_NUMBER: Final = 2.0**400
+"""Numbers from which on sums of products might be infinite, and their difference none."""
+
 
 @dataclass(frozen=True)
 class Residuals:
     """Largest violation of each optimality condition, in the units of the step judged.
+
+    ``optimality_residuals`` makes them; their constructor checks nothing.
 
     Parameters
     ----------
@@ -64,6 +71,12 @@ def largest(x: Array) -> float:
     return float(x.max(initial=0.0)) + 0.0
 
 
+def _large_size(*vectors: Array) -> float:
+    """A power of two near the largest number, if products with it may be beyond float64; else 1."""
+    most = max((float(np.abs(v).max(initial=0.0)) for v in vectors), default=0.0)
+    return 2.0 ** (math.frexp(most)[1] - 1) if LARGE_NUMBER < most < math.inf else 1.0
+
+
 def optimality_residuals(
     form: StandardForm, delta_q: ArrayLike, lam: ArrayLike, judge: Judge = row_violations
 ) -> Residuals:
@@ -103,8 +116,10 @@ def optimality_residuals(
     H, g, A, b = form
     x = with_shape(delta_q, "delta_q", g.shape)
     y = with_shape(lam, "lam", b.shape)
-    balance = H @ x - g - A.T @ y  # Eq. (9), as (13) has it
-    slack = A @ x - b
+    size = _large_size(x, y)
+    with np.errstate(over="ignore"):
+        balance = (H @ (x / size) - g / size - A.T @ (y / size)) * size  # Eq. (9), as (13) has it
+        slack = (A @ (x / size) - b / size) * size
     short, pull, work = judge(slack, y)  # Eqs. (10)-(12)
     return Residuals(
         stationarity=largest(np.abs(balance)),

@@ -22,13 +22,13 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.curved_cone import curved_cone
 from quasistatic_ref.certify.degeneracy import Degeneracy, degeneracy, joined_degeneracy
-from quasistatic_ref.certify.form import EXACT, ExactForm
 from quasistatic_ref.certify.groups import flat_rows, group_steps, row_owners
-from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
-from quasistatic_ref.certify.step_form import StepForm
-from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
-from quasistatic_ref.certify.working_set import KktPoint, fraction_point
+from quasistatic_ref.certify.step_program import StepProgram
 from quasistatic_ref.errors import InputError, check_kind
+from quasistatic_ref.exact.minimiser import Minimiser
+from quasistatic_ref.exact.program import EXACT, ExactProgram, rounded_quotients
+from quasistatic_ref.exact.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.exact.working_set import KktPoint, fraction_point
 from quasistatic_ref.numbers.arrays import Array, checked_numbers
 from quasistatic_ref.numbers.precision import nearest, working_precision
 from quasistatic_ref.step.cones import PYRAMID, cone
@@ -175,7 +175,7 @@ def verify_answer(
     reason = ""
     solved = []
     for group, part in group_steps(step):
-        form = StepForm(part)
+        form = StepProgram(part)
         working_rows = group.within(working)
         try:
             exact = fraction_point(form, working_rows)
@@ -249,13 +249,13 @@ def _wrong_residuals(claims: Certificate) -> str:
 
 
 def wrong_sign(
-    form: ExactForm, working: Sequence[int], y: Sequence[arb], slack: Sequence[arb]
+    form: ExactProgram, working: Sequence[int], y: Sequence[arb], slack: Sequence[arb]
 ) -> tuple[int, str] | None:
     """The first row with a wrong sign at the minimiser on a working set, and which sign it is.
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactProgram
     working : sequence of int
     y, slack : sequence of arb
         Multipliers of the working set and all slacks, exact, times a positive number.
@@ -275,13 +275,13 @@ def wrong_sign(
 
 
 def unique_and_smooth(
-    form: ExactForm, working: Sequence[int], slack: Sequence[arb]
+    form: ExactProgram, working: Sequence[int], slack: Sequence[arb]
 ) -> tuple[bool, bool]:
     """Whether multipliers are unique and x is differentiable, at a proved optimum.
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactProgram
     working : sequence of int
     slack : sequence of arb
         All slacks, exact, times a positive number.
@@ -292,7 +292,7 @@ def unique_and_smooth(
 
 
 def _wrong_claim(
-    solved: Sequence[tuple[ExactForm, Sequence[int], KktPoint, Sequence[arb]]],
+    solved: Sequence[tuple[ExactProgram, Sequence[int], KktPoint, Sequence[arb]]],
     claims: Certificate,
     lam_w: Array,
 ) -> str:

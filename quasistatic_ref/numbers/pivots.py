@@ -132,10 +132,7 @@ def _exactly_positive(S: Any) -> bool:
 
 
 def surely_positive(S: Array) -> bool:
-    """Whether float64 shows that all matrices (..., n, n) are positive definite [any unit].
-
-    `S` is symmetric, shape (n, n) [any unit].
-    """
+    """Whether float64 shows that all matrices S, (..., n, n), are positive definite [any unit]."""
     n = S.shape[-1]
     least, most = RANGE
     try:

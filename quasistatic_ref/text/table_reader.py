@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.quoting import suggestion
 
 REQUIRED: Final[Any] = object()
 

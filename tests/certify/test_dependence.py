@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.certify.form import independent_rows
+from quasistatic_ref.exact.program import independent_rows
 from tests.oracles.forms import exact_form_of
 
 

@@ -14,7 +14,7 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.certify.degeneracy import form_degeneracy
 from quasistatic_ref.certify.groups import flat_rows, group_steps, groups
-from quasistatic_ref.certify.step_form import StepForm
+from quasistatic_ref.certify.step_program import StepProgram
 from tests.helpers import two_bodies
 from tests.made import X, contacts_of, free_step, infeasible_text
 from tests.oracles.random_steps import drawn
@@ -30,7 +30,7 @@ def test_random_steps_without_some_couplings_have_the_optimum_of_their_groups():
         text = solution_file(step)
         assert refuted(step, text) == [], seed
         if claims := json.loads(text).get("certificate"):
-            facts = form_degeneracy(StepForm(step), flat_rows(step, claims["active"]))
+            facts = form_degeneracy(StepProgram(step), flat_rows(step, claims["active"]))
             assert facts._asdict().items() <= claims.items(), seed
     assert several > 12
 

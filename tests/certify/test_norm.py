@@ -7,13 +7,8 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref import Extra, StepData
-from quasistatic_ref.certify.norm import (
-    correct_digits,
-    digits_of_error,
-    energy_norm,
-    error_length,
-    single_loads,
-)
+from quasistatic_ref.certify.norm import correct_digits, energy_norm, error_length, single_loads
+from quasistatic_ref.exact.digits import digits_of_error
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import EAST, point_between_walls
 from tests.made import Z, actuated_step, contacts_of, frames_about, no_contacts

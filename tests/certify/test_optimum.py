@@ -5,9 +5,9 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref import load_scenario, solve_step
-from quasistatic_ref.certify import optimum, step_form
+from quasistatic_ref.certify import optimum, step_program
 from quasistatic_ref.certify.groups import group_steps
-from quasistatic_ref.certify.working_set import WholeSystem
+from quasistatic_ref.exact.working_set import WholeSystem
 from tests.helpers import boxes_step, point_on_floor
 from tests.made import bits
 from tests.solvers import solver_for
@@ -99,8 +99,8 @@ ARM = """<robot name="arm"><link name="wall"/>
 def test_the_mass_of_each_of_40_unlike_bodies_is_inverted_once(monkeypatch, swings):
     """Also beside an arm, whose masses change from step to step."""
     inverted = []
-    inverse = step_form.inverse
-    monkeypatch.setattr(step_form, "inverse", lambda H: inverted.append(H) or inverse(H))
+    inverse = step_program.inverse
+    monkeypatch.setattr(step_program, "inverse", lambda H: inverted.append(H) or inverse(H))
     ball = qr.Sphere(0.02)
     masses = np.linspace(0.2, 0.3, 40)
     bodies = [qr.Body.of_shape(f"{m}", ball, m, xyz=(10 * m, 0, 0.02)) for m in masses]

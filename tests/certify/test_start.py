@@ -5,9 +5,16 @@ import itertools
 import numpy as np
 import pytest
 
-from quasistatic_ref import standard_form
-from quasistatic_ref.certify.active_set import BLOCK, PAIRS, basic_rows, third_pair_rows, warm_rows
+from quasistatic_ref import Extra, StepNotSolved, solve_step, standard_form, verify
+from quasistatic_ref.certify import optimum
+from quasistatic_ref.certify.third_pairs import PAIRS, third_pair_rows
+from quasistatic_ref.exact import active_set, minimiser, refined, working_set
+from quasistatic_ref.exact.active_set import BLOCK, basic_rows, warm_rows
+from quasistatic_ref.numbers import modulo
+from tests.closeness import assert_same
 from tests.helpers import resting_point
+from tests.made import actuated_step, no_contacts
+from tests.oracles.random_steps import drawn
 from tests.tolerances import ROUNDING
 
 
@@ -76,3 +83,46 @@ def test_where_two_pairs_bear_the_violated_row_of_the_third_is_named():
     assert not third_pair_rows(
         free, standard_form(free).A, np.ones(4), np.array([1.0, 1.0, 1.0, 0.0])
     ).size
+
+
+def outcome(step):
+    """The bits of an exact answer and of A'lam, or the proof that there is none."""
+    try:
+        solution = solve_step(step, "none")
+    except StepNotSolved as failure:
+        return type(failure)
+    assert verify(solution)
+    return solution.delta_q.tobytes(), solution.certificate.multipliers_unique
+
+
+PARTS = [0, *(pytest.param(part, marks=pytest.mark.long) for part in range(1, 34))]
+
+
+@pytest.mark.parametrize("prime", [3, 5, 7])
+@pytest.mark.parametrize("part", PARTS)
+def test_a_step_has_the_same_answer_whatever_prime_is_asked_first(part, prime, monkeypatch):
+    """Where even few rows are asked whether they depend modulo it, as many are."""
+    for seed in range(20 * part, 20 * (part + 1)):
+        step = drawn(seed)
+        usual = outcome(step)
+        for module in (modulo, minimiser, working_set):
+            monkeypatch.setattr(module, "PRIME", prime)
+        for module in (active_set, minimiser, optimum, refined):
+            monkeypatch.setattr(module, "LARGE", 0)
+        assert outcome(step) == usual, seed
+        monkeypatch.undo()
+
+
+def test_forty_rows_of_which_two_have_the_prime_as_their_minor_bear():
+    """x_0 2^31 + x_1 = 1, x_0 + x_1 2^30 = 1 and x_k = 1; two more rows touch, and bear nothing."""
+    n, bear = 44, 40
+    rows = np.vstack([np.eye(n)[: bear + 2], np.ones(n)])
+    rows[:2, :2] = [[2.0**31, 1.0], [1.0, 2.0**30]]
+    sides = np.r_[np.ones(bear), 0.0, 0.0, -1e6]
+    extra = Extra([f"r{i}" for i in range(bear + 3)], rows, sides)
+    zero = np.zeros(n)
+    step = actuated_step(np.eye(n), zero, zero, no_contacts(n), 1.0).replace(extra=extra)
+    solution = solve_step(step, "none")
+    assert solution.certificate.multipliers_unique
+    assert verify(solution)
+    assert_same(solution.delta_q[2:bear], np.ones(bear - 2))

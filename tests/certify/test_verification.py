@@ -1,15 +1,26 @@
 """Each residual answers to a planted violation with exactly the planted size."""
 
+from collections import Counter
+from contextlib import suppress
 from fractions import Fraction
 
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, solve_step
-from quasistatic_ref.solve.units import ScaledStep
+from quasistatic_ref import (
+    Extra,
+    InputError,
+    StandardForm,
+    StepNotSolved,
+    optimality_residuals,
+    solve_step,
+    verify,
+)
+from quasistatic_ref.solve.natural_step import NaturalStep
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import planted_step, residuals_of, sphere_on_floor
 from tests.made import actuated_step, free_step, no_contacts
+from tests.oracles.random_steps import drawn
 from tests.tolerances import ROUNDING
 
 
@@ -86,6 +97,32 @@ def test_residuals_of_a_subnormal_answer_are_of_the_answer_as_given():
     step = free_step(np.array([[3.0]]), np.array([tau]), no_contacts(1), 1.0)
     solution = solve_step(step, "daqp", certify="residual")
     off = abs(3 * Fraction(solution.delta_q[0]) - Fraction(tau))
-    units = ScaledStep(step).units
+    units = NaturalStep(step).units
     natural = off * Fraction(units.coordinate[0]) / Fraction(units.size)
     assert solution.certificate.residuals["stationarity"] == natural > 0
+
+
+@pytest.mark.parametrize("backend", ["none", "daqp", None])
+def test_an_answer_near_the_ends_of_float64_is_verified_or_refused_in_a_sentence(backend):
+    kinds = Counter()
+    for seed in range(60):
+        with suppress(InputError):
+            step = drawn(seed, "any wide")
+            try:
+                solution = solve_step(step, backend)
+            except StepNotSolved as failure:
+                kinds[type(failure).__name__] += 1
+                continue
+            assert verify(solution), seed
+            kinds["verified"] += 1
+    assert kinds["verified"] > 20
+
+
+def test_residuals_of_large_multipliers_are_numbers():
+    """Two rows oppose each other: 2^332 2^770 is beyond float64, their difference is zero."""
+    A = 2.0**332 * np.array([[1.0, 0.0], [-1.0, 0.0]])
+    form = StandardForm(np.eye(2), np.zeros(2), A, np.zeros(2))
+    most = 2.0**770
+    assert optimality_residuals(form, [0.0, 0.0], [most, most]).worst == 0.0
+    off = optimality_residuals(form, [0.0, 0.0], [most, most / 2])
+    assert (off.stationarity, off.primal) == (np.inf, 0.0)

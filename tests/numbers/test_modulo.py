@@ -2,9 +2,16 @@
 
 import random
 
+import pytest
 from flint import fmpq_mat, fmpz
 
-from quasistatic_ref.numbers.modulo import PRIME, independent_modulo, supports_modulo
+from quasistatic_ref.numbers import modulo
+from quasistatic_ref.numbers.modulo import (
+    PRIME,
+    independent_modulo,
+    independent_rows,
+    supports_modulo,
+)
 
 
 def rank(rows):
@@ -28,7 +35,7 @@ def test_rows_are_independent_and_supports_are_those_of_fractions():
     rng = random.Random(0)
     for _ in range(300):
         rows = drawn_rows(rng)
-        chosen = independent_modulo(rows)
+        chosen = independent_modulo(rows, PRIME)
         before = [rank([[fmpz(0)] * len(rows[0]), *rows[:k]]) for k in range(len(rows) + 1)]
         assert chosen == [k for k in range(len(rows)) if before[k + 1] > before[k]]
         held = [rows[k] for k in chosen]
@@ -36,6 +43,18 @@ def test_rows_are_independent_and_supports_are_those_of_fractions():
             assert rank([*[held[j] for j in support], row]) == rank([row]) * len(support)
         if len(held) < len(rows):
             assert supports_modulo(rows, rows) is None
+
+
+@pytest.mark.parametrize("prime", [PRIME, 2, 3, 5, 7])
+def test_what_depends_is_proved_to_whatever_prime_is_asked_first(prime, monkeypatch):
+    """Small primes divide minors of most rows here, and the last rows have a minor of PRIME."""
+    monkeypatch.setattr(modulo, "PRIME", prime)
+    rng = random.Random(prime)
+    drawn = [drawn_rows(rng) for _ in range(200)]
+    of_minor = [[[fmpz(PRIME)]], [[fmpz(2**31), fmpz(1)], [fmpz(1), fmpz(2**30)]]]
+    for rows in drawn + of_minor:
+        before = [rank([[fmpz(0)] * len(rows[0]), *rows[:k]]) for k in range(len(rows) + 1)]
+        assert independent_rows(rows) == [k for k in range(len(rows)) if before[k + 1] > before[k]]
 
 
 def test_a_row_that_the_prime_shows_to_be_independent_has_no_support():

@@ -25,21 +25,65 @@ def optimum(P, q, a, h):
     return None if z is None else (-by_q - by_a @ z, z)
 
 
-def least_norm(P, q, a, h):
-    """Of all optima of a convex program the one of least norm, in fractions; None if it has none.
+def optima(P, q, a, h, e):
+    """All optima x_0 + Z w, of which rows A w <= b hold, as these four; None if there is none.
 
-    The conditions of an optimum are complementary, too, where x is a difference of two numbers
-    >= 0. All optima have the P x and the q'x of one.
+    P is convex where the first e rows, which are equations, leave it. The conditions of an optimum
+    are complementary where w is a difference of two numbers >= 0, too. All optima have the P w and
+    the q'w of one.
     """
+    points = on_equations(a[:e], h[:e])
+    if points is None:
+        return None
+    x_0, Z = points
+    a, h = a[e:] @ Z, h[e:] - a[e:] @ x_0
+    if not Z.shape[1]:
+        return (x_0, Z, a, h) if all(v >= 0 for v in h) else None
+    P, q = Z.T @ P @ Z, Z.T @ (P @ x_0 + q)
     zero = exact(np.zeros((len(h), len(h))))
     M = np.block([[P, -P, a.T], [-P, P, -a.T], [-a, a, zero]])
     z = complementary(M, np.concatenate([q, -q, h]))
     if z is None:
         return None
-    x = z[: len(q)] - z[len(q) : 2 * len(q)]
+    w = z[: len(q)] - z[len(q) : 2 * len(q)]
     faces = np.concatenate([a, P, -P, [q]])
-    sides = np.concatenate([h, P @ x, -P @ x, [q @ x]])
-    return optimum(exact(np.eye(len(q))), 0 * q, faces, sides)[0]
+    return x_0, Z, faces, np.concatenate([h, P @ w, -P @ w, [q @ w]])
+
+
+def nearest(points, centre):
+    """The one of all points x_0 + Z w with A w <= b that is nearest to a centre, in fractions."""
+    x_0, Z, A, b = points
+    if not Z.shape[1]:
+        return x_0
+    return x_0 + Z @ optimum(Z.T @ Z, Z.T @ (x_0 - centre), A, b)[0]
+
+
+def on_equations(A, b):
+    """A point x_0 at which A x = b, and the columns Z that A leaves; None if there is no point."""
+    n = A.shape[1]
+    rows = [[*A_i, b_i] for A_i, b_i in zip(A, b, strict=True)]
+    pivots = []
+    for j in range(n):
+        k = len(pivots)
+        found = next((i for i in range(k, len(rows)) if rows[i][j]), None)
+        if found is None:
+            continue
+        rows[k], rows[found] = rows[found], rows[k]
+        rows[k] = [v / rows[k][j] for v in rows[k]]
+        for i in range(len(rows)):
+            if i != k:
+                rows[i] = [v - rows[i][j] * w for v, w in zip(rows[i], rows[k], strict=True)]
+        pivots.append(j)
+    if any(row[-1] for row in rows[len(pivots) :]):
+        return None
+    x_0, free = exact(np.zeros(n)), [j for j in range(n) if j not in pivots]
+    Z = exact(np.zeros((n, len(free))))
+    for row, j in zip(rows, pivots, strict=False):
+        x_0[j] = row[-1]
+        Z[j] = [-row[k] for k in free]
+    for t, j in enumerate(free):
+        Z[j, t] = Fraction(1)
+    return x_0, Z
 
 
 def complementary(M, r):

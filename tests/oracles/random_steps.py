@@ -29,7 +29,8 @@ from tests.made import (
 POLYHEDRAL = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
 LOADS = ("tau_a", "tau_u", "delta_q_bar_a")
 SCALES = 12.0
-"""Largest power of ten by which a number of a step is multiplied."""
+WIDE = 100.0
+"""Largest powers of ten by which a number of a step is multiplied."""
 
 
 def drawn(seed, of="mixed"):
@@ -241,14 +242,19 @@ def subnormal(rng, step):
     return smaller(step, 2.0 ** -int(rng.integers(900, 1075)))
 
 
-def scales(rng, step):
+def wide(rng, step):
+    """Numbers times powers of ten up to the root of the ends of float64."""
+    return scales(rng, step, WIDE)
+
+
+def scales(rng, step, most=SCALES):
     """Numbers times powers of ten, one to all of them."""
     n_a, n_v, c = step.n_a, step.n_v, step.contacts
     often = rng.choice([0.15, 0.5, 1.0])
 
     def scale(*shape):
         """Powers of ten, of shape `shape`, most of them 1."""
-        exponents = rng.uniform(-SCALES, SCALES, shape) * (rng.random(shape) < often)
+        exponents = rng.uniform(-most, most, shape) * (rng.random(shape) < often)
         return np.asarray(10.0 ** (exponents if rng.random() < 0.5 else exponents.round()))
 
     S = scale(n_v) if rng.random() < 0.3 else scale()  # one for each coordinate, or for all
@@ -277,7 +283,7 @@ def singular(rng, step):
 
 TRAITS = {
     trait.__name__: trait
-    for trait in (integers, copies, classes, rows, powers, subnormal, scales, singular)
+    for trait in (integers, copies, classes, rows, powers, subnormal, scales, wide, singular)
 }
 
 

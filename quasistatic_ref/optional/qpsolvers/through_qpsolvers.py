@@ -9,8 +9,8 @@ import qpsolvers
 
 from quasistatic_ref.numbers.arrays import Mask
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
+from quasistatic_ref.solve.natural_step import NaturalStep
 from quasistatic_ref.solve.solver import BackendSolver, Reply, check_not_interrupted
-from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.standard_form import StandardForm
 
 
@@ -33,12 +33,12 @@ class QpsolversSolver(BackendSolver):
     interface = "qpsolvers"
     fixed = ("cone",)
 
-    def write(self, scaled: ScaledStep) -> Mask:
+    def write(self, natural: NaturalStep) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
-        self.form = scaled.near
-        return scaled.out_of_reach
+        self.form = natural.within_reach
+        return natural.out_of_reach
 
-    def reply(self, options: Options, scaled: ScaledStep) -> Reply:
+    def reply_with(self, options: Options, natural: NaturalStep) -> Reply:
         """The backend's reply, from a cold start."""
         name = self.name.removeprefix(QPSOLVERS)
         return qpsolvers_reply(self.form, name, options)

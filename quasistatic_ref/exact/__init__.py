@@ -1,0 +1,1 @@
+"""Exact answers of convex QPs and LPs, with proofs; README.md says how."""

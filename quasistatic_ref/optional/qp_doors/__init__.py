@@ -1,0 +1,1 @@
+"""Exact answers in programs that call CVXPY or qpsolvers: each has ``exact`` as a solver."""
