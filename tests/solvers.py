@@ -9,8 +9,8 @@ from quasistatic_ref.solve.backends import (
     others_installed,
 )
 from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.solve.natural_step import NaturalStep
 from quasistatic_ref.solve.solver import FREE, Reply
-from quasistatic_ref.solve.units import ScaledStep
 
 __all__ = [
     "BACKENDS",
@@ -18,8 +18,8 @@ __all__ = [
     "FREE",
     "NONE",
     "UNSAFE",
+    "NaturalStep",
     "Reply",
-    "ScaledStep",
     "installed_backends",
     "others_installed",
     "solver_for",

@@ -18,13 +18,14 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Any, Literal, get_args
+from typing import Any, Literal, TypeVar, get_args
 
-from quasistatic_ref.errors import BackendError, InputError
+from quasistatic_ref.errors import BackendError, InputError, about_field
 from quasistatic_ref.parts import is_there, part
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.step.cones import checked_cone
-from quasistatic_ref.text.quoting import suggestion
 
+T = TypeVar("T")
 Options = dict[str, Any]
 OptionSets = tuple[Options, ...]
 QPSOLVERS = "qpsolvers:"
@@ -295,6 +296,13 @@ def is_function(name: str) -> bool:
     return ":" in name and not name.startswith((QPSOLVERS, CVXPY))
 
 
+def check_function(name: str | None) -> None:
+    """Refuse the name of a function that is not there: InputError. Its module is run."""
+    if name is not None and is_function(name):
+        with about_field("solver.backend"):
+            part("function_at")(name)
+
+
 def bare(name: str) -> str:
     """A backend's name in the table: without the interface by which it is reached."""
     return name.removeprefix(QPSOLVERS).removeprefix(CVXPY)
@@ -311,6 +319,16 @@ def installed_backends() -> tuple[str, ...]:
 def backend_names() -> tuple[str, ...]:
     """Every name of a backend that a user may write, ``"none"`` included."""
     return (*installed_backends(), NONE)
+
+
+def name_here(name: T) -> T | str:
+    """The name here of what CVXPY calls ``cvxpy.OSQP``, in upper case; any other stays as it is.
+
+    ``cvxpy.DAQP`` is DAQP through CVXPY.
+    """
+    if not isinstance(name, str) or not name.isupper() or ":" in name:
+        return name
+    return BY_CVXPY if name.lower() == DAQP else name.lower()
 
 
 def backend(name: str) -> Backend:
@@ -380,7 +398,7 @@ def check_takes_cones(name: str, what: str) -> None:
                            value=name)  # fmt: skip
 
 
-def spares(name: str, cone_name: str, infeasible: bool) -> list[str]:
+def fallbacks(name: str, cone_name: str, infeasible: bool) -> list[str]:
     """Names of what is asked in the place of a backend that failed, in this order.
 
     Parameters
@@ -444,7 +462,7 @@ def check_certify(name: str | None, certify: str) -> None:
     BackendError
         If it does not without a backend.
     """
-    if certify not in CERTIFY:
+    if not (isinstance(certify, str) and certify in CERTIFY):
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
     if name == NONE and certify != CERTIFY[0]:
         problem = f"has no answer of its own; use certify = {CERTIFY[0]!r}"

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.certify.groups import Groups, groups
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm, norm_of_hessian
 from quasistatic_ref.numbers.arrays import Array, Indices, all_finite, read_only
+from quasistatic_ref.numbers.compiled import compiled
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.hessian import Hessian
 from quasistatic_ref.step.standard_form import StandardForm, Units
@@ -24,14 +25,12 @@ from quasistatic_ref.step.standard_form import StandardForm, Units
 class NaturalHessian(NamedTuple):
     """H of steps in their natural units, by groups.
 
-    `own_unit` is that of each coordinate [m, rad].
-
     Parameters
     ----------
     unit : ndarray, shape (n_v,)
         Diagonal of S [m or rad, per (N m s)^0.5].
-    own_unit : ndarray, shape (m_c, w) [m, rad]
-        The same of the own columns of each contact's rows.
+    own_unit : ndarray, shape (m_c, w)
+        The same of the own columns of each contact's rows [m or rad, per (N m s)^0.5].
     blocks : list of ndarray, shape (n, n)
         H of each group in these units [-].
     inverse, column : ndarray and ndarray of int, shapes (n_v, w)
@@ -54,21 +53,19 @@ class NaturalHessian(NamedTuple):
         return np.asarray(np.hypot.reduce(np.add.accumulate(moved, axis=-1)[..., -1], axis=-1))
 
 
-class Programs(NamedTuple):
+class GroupPrograms(NamedTuple):
     """min 1/2 x'Hx - g'x subject to A x >= b of each group, one after the other: natural units [-].
-
-    `blocks` are in natural units [-].
 
     Parameters
     ----------
-    layout : GroupLayout
+    layout : GroupIndex
     blocks : list of ndarray, shape (n, n) [-]
         H of each group.
     g, A, b : ndarray
-        Of all groups.
+        Of all groups; A has a last place for what is in no group.
     """
 
-    layout: GroupLayout
+    layout: GroupIndex
     blocks: list[Array]
     g: Array
     A: Array
@@ -80,10 +77,7 @@ class Programs(NamedTuple):
         return all(map(all_finite, (self.g, self.A, self.b)))
 
     def joined(self, each: Sequence[Array]) -> Array:
-        """A vector of the step, (n_v,), from those of its groups, (n,) each.
-
-        `each` holds an array a group [any unit].
-        """
+        """A vector of the step, (n_v,), from `each` group's, (n,) [any unit]."""
         x = np.zeros(len(self.g))
         x[self.layout.coordinates] = np.concatenate(each)
         return x
@@ -97,7 +91,7 @@ class Programs(NamedTuple):
         ]
 
 
-class GroupLayout:
+class GroupIndex:
     """Where the numbers of steps of one structure stand, one group after the other.
 
     Parameters
@@ -120,6 +114,10 @@ class GroupLayout:
         Of each row of the contacts its own columns.
     slices : list of (slice, slice, slice)
         Where g, A and b of each group stand.
+    size : int
+        How many numbers A has.
+    place : ndarray of int, shape (m_c, w)
+        Where the own columns of each row of the contacts stand in A.
     """
 
     def __init__(
@@ -133,7 +131,7 @@ class GroupLayout:
         heights = np.array([len(group.rows) for group in every])
         sizes = widths * heights
         self.slices = [*zip(*map(_slices, (widths, sizes, heights)), strict=True)]
-        self._size = int(sizes.sum())
+        self.size = int(sizes.sum())
         number = np.arange(len(every))
         # Of each coordinate, and of none, and of each row: its group and its number in that.
         of_coordinate = np.full(n_v + 1, -1)
@@ -148,12 +146,15 @@ class GroupLayout:
 
         def place(some: Indices, rows: slice) -> Indices:
             inside = of_coordinate[some] == of_row[rows, None]
-            return np.where(inside, start[rows, None] + within[some], self._size)
+            return np.where(inside, start[rows, None] + within[some], self.size)
 
         m_c = len(of_row) - e
         self.column = np.repeat(column, counts, axis=0)
-        self._place = place(self.column, slice(0, m_c))
+        self.place = place(self.column, slice(0, m_c))
         self._place_extra = place(np.broadcast_to(np.arange(n_v), (e, n_v)), slice(m_c, None))
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != "write"}  # by C
 
     def natural_hessian(self, hessian: Hessian) -> NaturalHessian:
         """H without a user's cost in natural units; StepDataError as of the norm."""
@@ -184,29 +185,48 @@ class GroupLayout:
         own_unit = read_only(np.append(unit, 0.0)[self.column])
         return NaturalHessian(read_only(unit), own_unit, blocks, inverse, column)
 
-    def programs(self, step: StepData, A: Array, b: Array, g: Array, units: Units) -> Programs:
-        """The groups' programs in natural units.
+    def empty_programs(self, H: NaturalHessian) -> GroupPrograms:
+        """Programs of steps with an H, of which nothing else is written."""
+        A = np.zeros(self.size + 1)
+        return GroupPrograms(self, H.blocks, np.empty(len(H.unit)), A, np.empty(len(self.rows)))
+
+    @compiled
+    def write(
+        self,
+        A: Array,
+        b: Array,
+        g: Array,
+        A_extra: Array,
+        units: Units,
+        H: NaturalHessian,
+        programs: GroupPrograms,
+    ) -> tuple[GroupPrograms, bool]:
+        """The groups' programs in natural units, written; and whether all numbers are finite.
 
         Parameters
         ----------
-        step : StepData
         A : ndarray, shape (m_c, w)
             Own columns of the contacts' rows [m].
         b, g : ndarray, shapes (m,) and (n_v,)
             Of the step.
+        A_extra : ndarray, shape (e, n_v)
+            Of a user's own rows [m, rad].
         units : Units
+        H : NaturalHessian
+            Of the step.
+        programs : GroupPrograms
+            Empty ones, or those of another step.
         """
         S, ell, rho = units
-        H = self.natural_hessian_of(step)
-        whole = np.zeros(self._size + 1)  # there is a place for what is in no group
-        whole[self._place] = A * (H.own_unit / ell)
-        if step.extra.names:
-            whole[self._place_extra] = step.extra.A * (S / ell)
-        g = (g * S / rho)[self.coordinates]
-        return Programs(self, H.blocks, g, whole[:-1], (b / (rho * ell))[self.rows])
+        programs.A[self.place] = A * (H.own_unit / ell)
+        if len(A_extra):
+            programs.A[self._place_extra] = A_extra * (S / ell)
+        programs.g[:] = (g * S / rho)[self.coordinates]
+        programs.b[:] = (b / (rho * ell))[self.rows]
+        return programs, programs.finite
 
 
-def layout_of(step: StepData) -> GroupLayout:
+def layout_of(step: StepData) -> GroupIndex:
     """The layout of a step by the groups that its numbers have; one object for the same."""
     contacts = step.contacts
     column = contacts.column
@@ -224,9 +244,9 @@ def _layout(
     n_v: int,
     e: int,
     entries: int,
-) -> GroupLayout:
+) -> GroupIndex:
     columns = np.frombuffer(column, np.int64).reshape(shape)
-    return GroupLayout(every, columns, np.frombuffer(counts, np.int64), n_v, e, entries)
+    return GroupIndex(every, columns, np.frombuffer(counts, np.int64), n_v, e, entries)
 
 
 def coordinate_units(diagonal: Array) -> Array:

@@ -12,6 +12,7 @@ from quasistatic_ref.solve.backends import (
     QPSOLVERS,
     check_backend,
     is_function,
+    name_here,
 )
 from quasistatic_ref.solve.solver import NoSolver, Solver
 from quasistatic_ref.step.data import StepData
@@ -29,8 +30,9 @@ def solver_for(step: StepData, name: str | Callable[..., Any] | None = None) -> 
     name : str or callable, optional
         Of the backend, by default Clarabel. With ``qpsolvers:`` it is reached through qpsolvers;
         ``"daqp"`` by its own interface, in workspaces that are kept from step to step; any other,
-        and ``"cvxpy:daqp"``, through CVXPY. Or a function (P, q, G, h) -> (x, z, status), also as
-        ``MODULE:FUNCTION``: see :mod:`~quasistatic_ref.optional.extensions.by_function`.
+        and ``"cvxpy:daqp"``, through CVXPY, whose own words, as ``cvxpy.OSQP``, are names, too.
+        Or a function (P, q, G, h) -> (x, z, status), also as ``MODULE:FUNCTION``: see
+        :mod:`~quasistatic_ref.optional.extensions.by_function`.
 
     Raises
     ------
@@ -42,7 +44,7 @@ def solver_for(step: StepData, name: str | Callable[..., Any] | None = None) -> 
     if callable(name) or (isinstance(name, str) and is_function(name)):
         function_solver: FunctionSolver = part("function_solver")
         return function_solver(step, name)
-    name = DEFAULT if name is None else name
+    name = DEFAULT if name is None else name_here(name)
     check_kind(name, str, "backend", "the name of a backend, a function or a Solver")
     check_backend(name, step.cone)
     if name == NONE:

@@ -1,4 +1,4 @@
-"""A step under many loads: programs that differ in g alone, and answers that are known already."""
+"""A step under many loads: programs that differ in g alone, and replies that are known already."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.optimum import ProofCache
 from quasistatic_ref.numbers.arrays import Array, Indices, all_finite, read_only
-from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.parts import part
 from quasistatic_ref.solve.backends import Options
+from quasistatic_ref.solve.natural_step import NaturalStep
 from quasistatic_ref.solve.solver import BackendSolver, Reply, Solver
-from quasistatic_ref.solve.units import ScaledStep, natural_size
+from quasistatic_ref.solve.units import natural_size
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.standard_form import spring_load
 
 
-class ManyAnswers(NamedTuple):
-    """A backend's answers to N programs that differ in g alone, in natural units [-].
+class ManyReplies(NamedTuple):
+    """A backend's replies to N programs that differ in g alone, in natural units [-].
 
     Parameters
     ----------
@@ -36,8 +36,8 @@ class ManyAnswers(NamedTuple):
 
 
 OPTIMAL = "optimal"
-ColdAnswers = Callable[[ScaledStep, Array, Array, Options], ManyAnswers]
-"""A step, g (N, n_v) [N s, N m s] and sizes (N,) of others, options -> their answers, each cold."""
+ColdReplies = Callable[[NaturalStep, Array, Array, Options], ManyReplies]
+"""A step, g (N, n_v) [N s, N m s] and sizes (N,) of others, options -> its replies, each cold."""
 
 
 class ManyLoads:
@@ -73,17 +73,28 @@ class ManyLoads:
         first = self.first
         g = self.tau.copy()
         if first.n_a:
-            g[:, : first.n_a] += product(self.change, first.K_q.T)  # Eq. (1)
-        return np.asarray(first.h * g)
+            g[:, : first.n_a] += spring_load(first.K_q, self.change)  # Eq. (1)
+        g *= first.h
+        cost = first.extra.cost
+        return g if cost is None else g + cost[1]
+
+    def posed(self, first: StepData) -> ManyLoads:
+        """These steps with what a user adds to the first one, whatever the loads: rows and costs.
+
+        Private coordinates come last, each with its own load.
+        """
+        own = first.tau_u[self.first.n_u :]
+        own_loads = np.broadcast_to(own, (len(self), len(own)))
+        return ManyLoads(first, self.change, np.hstack([self.tau, own_loads]))
 
 
-class KnownAnswers:
-    """The answers of DAQP to N steps, as those of a solver.
+class PrecomputedReplies:
+    """The replies of DAQP to N steps, as those of a solver.
 
     Parameters
     ----------
     many : ManyLoads
-    scaled : ScaledStep
+    natural : NaturalStep
         Of its first step.
     solver : Solver
         DAQP's.
@@ -93,56 +104,56 @@ class KnownAnswers:
     Attributes
     ----------
     delta_q, lam : ndarray, shapes (N, n_v) and (N, m)
-        The answers [m, rad], [N s].
+        The replies [m, rad], [N s].
     failed : list of int
         Those that are none.
     """
 
     def __init__(
-        self, many: ManyLoads, scaled: ScaledStep, solver: Solver, accuracy: float
+        self, many: ManyLoads, natural: NaturalStep, solver: Solver, accuracy: float
     ) -> None:
         assert isinstance(solver, BackendSolver)
-        cold_answers: ColdAnswers = part("cold_answers")
+        cold_replies: ColdReplies = part("cold_replies")
         g = many.linear_terms
-        free = scaled.layout.natural_hessian_of(scaled.step).free_lengths(g)
-        S, length, _ = scaled.units
-        push_out = scaled.deepest / length
+        free = natural.layout.natural_hessian_of(natural.step).free_lengths(g)
+        S, length, _ = natural.units
+        push_out = natural.deepest / length
         sizes = np.array([natural_size(S, one, push_out) for one in free.tolist()])
         ((_, options),) = solver.option_sets(accuracy)
-        self._answers = answers = cold_answers(scaled, g, sizes, options)
+        self._replies = replies = cold_replies(natural, g, sizes, options)
         self._sizes = sizes
-        self._scaled = scaled
+        self._natural = natural
         self._solver = solver
         self._proofs = ProofCache()
-        self.delta_q = answers.x * (sizes[:, None] * S)
-        self.lam = answers.lam * (sizes / length)[:, None]
+        self.delta_q = replies.x * (sizes[:, None] * S)
+        self.lam = replies.lam * (sizes / length)[:, None]
         finite = np.isfinite(np.hstack([self.delta_q, self.lam])).all(axis=1)
-        right = finite & (np.array(answers.status, dtype=np.str_) == OPTIMAL)
+        right = finite & (np.array(replies.status, dtype=np.str_) == OPTIMAL)
         self.failed = np.flatnonzero(~right).tolist()
 
-    def scaled(self, k: int, step: StepData) -> ScaledStep:
+    def natural(self, k: int, step: StepData) -> NaturalStep:
         """Step k with its program."""
-        scaled = self._scaled.under(step)
+        natural = self._natural.with_loads(step)
         if np.isfinite(self._sizes[k]):  # else it is refused
-            scaled.units = self._scaled.units._replace(size=float(self._sizes[k]))
-        return scaled
+            natural.units = self._natural.units._replace(size=float(self._sizes[k]))
+        return natural
 
     def solver(self, k: int) -> Solver:
-        """A solver that answers step k."""
-        x, lam, status, iterations = self._answers
+        """A solver that has the reply to step k."""
+        x, lam, status, iterations = self._replies
         optimal = status[k] == OPTIMAL
         reply = Reply(x[k], lam[k], optimal, status[k], int(iterations[k]))
-        return Answered(self._solver, reply, self._proofs)
+        return Precomputed(self._solver, reply, self._proofs)
 
 
-class Answered(Solver):
-    """A solver whose answer to a step is known: that of another solver.
+class Precomputed(Solver):
+    """A solver whose reply to a step is known: that of another solver.
 
     Parameters
     ----------
     solver : Solver
     reply : Reply
-        Its answer to the step.
+        Its reply to the step.
     proofs : ProofCache
         Those of the last step.
     """
@@ -152,13 +163,13 @@ class Answered(Solver):
     def __init__(self, solver: Solver, reply: Reply, proofs: ProofCache) -> None:
         super().__init__(solver.template, solver.name)
         self.__dict__.update(interface=solver.interface, gives_basic_rows=solver.gives_basic_rows)
-        self.reply = reply
+        self.known = reply
         self.proofs = proofs
 
-    def answer(self, scaled: ScaledStep, accuracy: float) -> Reply:
-        """The known answer; StepNotSolved if its numbers are not finite."""
-        reply = self.reply
-        reply.accuracy = accuracy
-        if not all(map(all_finite, reply.answer)):
-            raise StepNotSolved(self.name, "an answer that is not finite", scaled.step, accuracy)
-        return reply
+    def reply(self, natural: NaturalStep, accuracy: float) -> Reply:
+        """The known reply, without numbers if these are not finite."""
+        known = self.known
+        known.accuracy = accuracy
+        if all(map(all_finite, known.point)):
+            return known
+        return Reply(None, None, False, "an answer that is not finite", accuracy=accuracy)

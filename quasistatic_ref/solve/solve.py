@@ -1,7 +1,7 @@
-"""One step, solved: natural units, a backend's guess, the exact optimum and its certificate.
+"""One step, solved: a backend's reply, the exact optimum that it leads to, and a certificate.
 
 A step of a run is proved, and mostly nobody asks how its rows touch, or how near its backend came:
-what takes time is formed when it is read, from the step and its answer once more.
+what takes time is formed when it is read, from the step and its solution once more.
 """
 
 from __future__ import annotations
@@ -9,27 +9,30 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.active_set import ROUNDED, basic_rows, third_pair_rows, warm_rows
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.degeneracy import Degeneracy, step_degeneracy
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.groups import contact_rows
 from quasistatic_ref.certify.norm import check_length, correct_digits
 from quasistatic_ref.certify.optimum import ExactOptimum, optimum_by_groups
-from quasistatic_ref.errors import keywords_named
+from quasistatic_ref.certify.third_pairs import third_pair_rows
+from quasistatic_ref.errors import StepDataError, keywords_named
+from quasistatic_ref.exact.active_set import ROUNDED, basic_rows, warm_rows
 from quasistatic_ref.numbers.arrays import Array, all_finite, positive_number, without_warnings
 from quasistatic_ref.numbers.precision import check_arithmetic
 from quasistatic_ref.parts import part
-from quasistatic_ref.solve.backends import NONE, Certify, check_certify
+from quasistatic_ref.solve.backends import Certify, check_certify, name_here
 from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.solve.natural_step import NaturalStep
 from quasistatic_ref.solve.solver import FREE, Reply, Solver
-from quasistatic_ref.solve.units import ScaledStep, in_natural, in_si, out_of_range
+from quasistatic_ref.solve.units import in_natural, in_si, out_of_range
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.extension import StepExtension
@@ -38,7 +41,7 @@ from quasistatic_ref.step.standard_form import Units
 from quasistatic_ref.text.plain import LazyFields
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
 
-ExtendedStep = Callable[
+ExtendedSolution = Callable[
     [StepData, StepExtension, str | Callable[..., Any] | Solver | None, float, Certify],
     StepSolution,
 ]
@@ -92,7 +95,7 @@ def solve_step(
     Raises
     ------
     StepDataError
-        If products of its numbers leave the range of float64.
+        If products of its numbers leave the range of float64, in which a backend is asked.
     StepInfeasible
         With ``"full"``, if no displacement satisfies the rows; with the proof.
     StepIllPosed
@@ -118,21 +121,22 @@ def solve_step(
     """
     check_step(step)
     accuracy = positive_number(accuracy, "accuracy")
+    backend = name_here(backend)
     name = backend.name if isinstance(backend, Solver) else backend
     check_certify(name if isinstance(name, str) else None, certify)
     if extension is not None:
-        extended_step: ExtendedStep = part("extended_step")
-        return extended_step(step, extension, backend, accuracy, certify)
+        extended_solution: ExtendedSolution = part("extended_solution")
+        return extended_solution(step, extension, backend, accuracy, certify)
     if isinstance(backend, Solver):
         solver = backend
         solver.check(step)
     else:
         solver = solver_for(step, backend)
-    return without_warnings(solution_of, ScaledStep(step), solver, accuracy, certify)
+    return without_warnings(step_solution, NaturalStep(step), solver, accuracy, certify)
 
 
-def solution_of(
-    scaled: ScaledStep,
+def step_solution(
+    natural: NaturalStep,
     solver: Solver,
     accuracy: float,
     certify: Certify,
@@ -144,25 +148,29 @@ def solution_of(
 
     Parameters
     ----------
-    scaled : ScaledStep
+    natural : NaturalStep
     solver : Solver
     accuracy, certify
         As of :func:`solve_step`.
     start : sequence of int
-        Rows from which the exact method starts where no backend answers.
+        Rows from which the exact method starts where no backend replies.
 
     Raises
     ------
     StepNotSolved, StepInfeasible, StepIllPosed, StepDataError
         As of :func:`solve_step`.
     """
-    if certify == "full":
-        solution = proved_solution(scaled, solver, accuracy, start)
+    if certify == "full" and not natural.step.m:
+        reply = Reply(None, None, False, FREE, accuracy=accuracy, asked=False)
     else:
-        reply = solver.answer(scaled, accuracy)
-        if not reply.solved:
-            raise StepNotSolved(solver.name, reply.status, scaled.step, reply.accuracy)
-        solution = judged_solution(scaled, solver, reply, certify)
+        reply = solver.reply(natural, accuracy)
+    if certify == "full":
+        solution = exact_solution(natural, solver, reply, start)
+    elif reply.solved:
+        solution = judged_solution(natural, solver, reply, certify)
+    else:
+        failure = StepNotSolved(solver.name, reply.status, natural.step, reply.accuracy)
+        raise failure from reply.cause
     step = solution.step
     numbers = [solution.delta_q, solution.lam]
     checked = certify != "off" or step.extra.names
@@ -182,53 +190,33 @@ def _surely_finite(step: StepData, lam: Array) -> bool:
     return bool(most < WITHIN_RANGE * step.h)
 
 
-def backend_answer(
-    scaled: ScaledStep, solver: Solver, accuracy: float
-) -> tuple[Reply | None, SolverStatistics]:
-    """A backend's answer, its status and time; it may not call its answer a solution."""
-
-    def without(status: str) -> SolverStatistics:
-        return statistics_of(solver, Reply(None, None, False, status, accuracy=accuracy))
-
-    if not scaled.step.m:
-        return None, without(FREE)
-    if solver.name == NONE:
-        return None, without("not called")
-    try:
-        reply = solver.answer(scaled, accuracy)
-    except StepNotSolved as failure:
-        return None, replace(without(f"failed: {failure.status}"), unanswered=True)
-    if not reply.solved:
-        return reply, without(f"failed: {reply.status}")
-    return reply, statistics_of(solver, reply)
-
-
 def statistics_of(solver: Solver, reply: Reply) -> SolverStatistics:
-    """What a backend reports of an answer: status, iterations and time."""
+    """What a backend reports of its reply: status, iterations and time."""
     return SolverStatistics(
         solver.name,
-        reply.status,
+        reply.status if reply.solved or not reply.asked else f"failed: {reply.status}",
         reply.iterations,
         reply.seconds,
         reply.accuracy,
         interface=solver.interface,
+        unanswered=reply.asked and reply.x is None,
     )
 
 
-def proved_solution(
-    scaled: ScaledStep, solver: Solver, accuracy: float, start: Sequence[int]
+def exact_solution(
+    natural: NaturalStep, solver: Solver, reply: Reply, start: Sequence[int]
 ) -> StepSolution:
-    """The proved optimum. The backend's answer, right or wrong, is only where its search starts.
+    """The proved optimum. The backend's reply, right or wrong, is only where its search starts.
 
-    If the backend fails, the exact method (certify/optimum.py) starts elsewhere: the same answer.
-    In a curved cone, where no enclosure of the optimum is found, the backend's answer is judged.
+    Without a reply the exact method (certify/optimum.py) starts elsewhere: the same optimum.
+    In a curved cone, where no enclosure of the optimum is found, the reply is judged.
 
     Parameters
     ----------
-    scaled : ScaledStep
+    natural : NaturalStep
     solver : Solver
-    accuracy : float
-        In natural units [-].
+    reply : Reply
+        Its reply, in natural units [-].
     start : sequence of int
         Rows from which the exact method starts where the backend claims no solution.
 
@@ -238,88 +226,90 @@ def proved_solution(
     StepNotSolved
         If no enclosure is found, and the backend has no answer that passes the judge.
     """
-    step = scaled.step
-    reply, statistics = backend_answer(scaled, solver, accuracy)
-    claimed = reply if reply is not None and reply.solved else None
+    step = natural.step
+    statistics = statistics_of(solver, reply)
+    claimed = reply if reply.solved else None
     begin = time.perf_counter()
-    answer = None if reply is None else in_si(*reply.answer, scaled.units)
+    point = None if reply.x is None else in_si(*reply.point, natural.units)
     optimum: Enclosed | ExactOptimum | None
     if cone(step.cone).polyhedral:
-        begins = starting_rows(scaled, solver, claimed, start)
+        begins = starting_rows(natural, solver, claimed, start)
         optimum = optimum_by_groups(
-            step, scaled.groups, begins, solver.proofs, scaled.own_inequalities
+            step, natural.groups, begins, solver.proofs, natural.own_inequalities
         )
     else:
         check_arithmetic()  # a backend may have changed it
-        optimum = curved_cone(step).optimum(step, None if claimed is None else answer)
+        optimum = curved_cone(step).optimum(step, None if claimed is None else point)
         if optimum is None and claimed is not None:
-            return judged_solution(scaled, solver, claimed, "residual")
+            return judged_solution(natural, solver, claimed, "residual")
         if optimum is None:
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, statistics.accuracy)
     delta_q = optimum.delta_q
     lam = optimum.lam
-    check_length(step, delta_q, scaled.groups)
-    scaled.check_range()
+    check_length(step, delta_q, natural.groups)
+    if reply.asked:
+        natural.check_range()
     if isinstance(optimum, ExactOptimum):
-        certificate = exact_certificate(step, optimum, scaled.units)
+        units = natural.units if reply.asked else None
+        certificate = exact_certificate(step, optimum, units)
     else:
-        residuals = answer_residuals(step, scaled.units, delta_q, lam)
+        residuals = solution_residuals(step, natural.units, delta_q, lam)
         if not all(map(math.isfinite, residuals.values())):
             raise out_of_range()
         certificate = optimum.certificate(step, residuals)
     seconds = time.perf_counter() - begin
-    if answer is None:
+    if point is None:
         statistics = replace(statistics, proof_time=seconds)
     else:
-        statistics = proof_statistics(statistics, seconds, step, answer[0], delta_q)
+        statistics = proof_statistics(statistics, seconds, step, point[0], delta_q)
     return StepSolution(delta_q, lam, step, certificate, statistics, optimum.net)
 
 
 def starting_rows(
-    scaled: ScaledStep, solver: Solver, claimed: Reply | None, start: Sequence[int]
+    natural: NaturalStep, solver: Solver, claimed: Reply | None, start: Sequence[int]
 ) -> list[list[int]]:
     """For each group, the rows from which the exact method starts.
 
     Parameters
     ----------
-    scaled : ScaledStep
+    natural : NaturalStep
     solver : Solver
     claimed : Reply or None
         What it claims to be a solution: the rows are those that it shows to be active.
     start : sequence of int
         Rows of the step from which to start without that.
     """
-    groups = [group for group, _ in scaled.groups]
+    groups = [group for group, _ in natural.groups]
     if claimed is None:
         return [group.within(start) for group in groups]
-    x, y = claimed.answer
+    x, y = claimed.point
     if solver.gives_basic_rows:
-        moved = scaled.units.coordinate * x
+        moved = natural.units.coordinate * x
         y = y.copy()
-        y[third_pair_rows(scaled.step, scaled.own_inequalities[0], moved, y)] = ROUNDED * y.max()
+        y[third_pair_rows(natural.step, natural.own_inequalities[0], moved, y)] = ROUNDED * y.max()
         return [basic_rows(y[group.rows]) for group in groups]
-    if len(groups) > 1 and scaled.step.m <= ROWS_AT_ONCE:
-        form = scaled.natural
+    if len(groups) > 1 and natural.step.m <= ROWS_AT_ONCE:
+        form = natural.form
         rows = warm_rows(form.A, y, form.A @ x - form.b)
         return [group.within(rows) for group in groups]
     return [
         warm_rows(form.A, y[group.rows], form.A @ x[group.coordinates] - form.b)
-        for group, form in zip(groups, scaled.natural_by_group, strict=True)
+        for group, form in zip(groups, natural.forms, strict=True)
     ]
 
 
 def judged_solution(
-    scaled: ScaledStep, solver: Solver, reply: Reply, certify: Certify
+    natural: NaturalStep, solver: Solver, reply: Reply, certify: Certify
 ) -> StepSolution:
-    """A backend's answer as a solution in SI units, with its residuals as certificate.
+    """A backend's reply as a solution in SI units, with its residuals as certificate.
 
     Parameters
     ----------
-    scaled : ScaledStep
+    natural : NaturalStep
     solver : Solver
     reply : Reply
-        Its answer, in the natural units of `scaled` [-].
+        Its reply, in the natural units of `natural` [-].
     certify : str
         ``"residual"``: refused if its residuals are not small; ``"off"``: not looked at, with a
         certificate that claims nothing.
@@ -329,15 +319,15 @@ def judged_solution(
     StepNotSolved
         If a residual is above ``RESIDUAL_LIMIT`` or not a number.
     """
-    step = scaled.step
-    delta_q, lam = in_si(*reply.answer, scaled.units)
+    step = natural.step
+    delta_q, lam = in_si(*reply.point, natural.units)
     statistics = statistics_of(solver, reply)
     if certify == "off":
         return StepSolution(delta_q, lam, step, NOTHING_CLAIMED, statistics)
     begin = time.perf_counter()
     check_arithmetic()
-    # SI units may have rounded the answer: subnormals.
-    residuals = scaled.residuals(*in_natural(delta_q, lam, scaled.units))
+    # SI units may have rounded the reply: subnormals.
+    residuals = natural.residuals(*in_natural(delta_q, lam, natural.units))
     if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
         worst = "NaN" if math.isnan(residuals.worst) else f"{residuals.worst:.1e}"
         status = f"it said {reply.status}, but its worst residual is {worst}"
@@ -354,10 +344,10 @@ class ExactCertificate(LazyFields, Certificate):
     ----------
     working_set : tuple of int
         Rows of the step.
-    units : Units
-        Its natural units.
+    units : Units or None
+        Its natural units, where the backend was asked.
     delta_q, lam : ndarray, shapes (n_v,) and (m,)
-        The answer [m, rad], [N s].
+        The optimum [m, rad], [N s].
     """
 
     formed = (
@@ -370,7 +360,7 @@ class ExactCertificate(LazyFields, Certificate):
     kept_instead = ("working_set", "units", "delta_q", "lam")
     working_set: tuple[int, ...]
     step: StepData
-    units: Units
+    units: Units | None
     delta_q: Array
     lam: Array
 
@@ -381,8 +371,14 @@ class ExactCertificate(LazyFields, Certificate):
 
     @cached_property
     def residuals(self) -> dict[str, float]:
-        """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at the rounded answer, in natural units [-]."""
-        return without_warnings(answer_residuals, self.step, self.units, self.delta_q, self.lam)
+        """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at the rounded optimum, in natural units [-].
+
+        Raises
+        ------
+        StepDataError
+            Of a step that was proved without a backend, if these leave the range of float64.
+        """
+        return without_warnings(solution_residuals, self.step, self.units, self.delta_q, self.lam)
 
     @cached_property
     def degeneracy(self) -> Degeneracy:
@@ -405,7 +401,7 @@ class ExactCertificate(LazyFields, Certificate):
         return self.degeneracy.smallest_inactive_slack
 
 
-def exact_certificate(step: StepData, optimum: ExactOptimum, units: Units) -> Certificate:
+def exact_certificate(step: StepData, optimum: ExactOptimum, units: Units | None) -> Certificate:
     """The certificate of an exact optimum.
 
     Parameters
@@ -413,8 +409,8 @@ def exact_certificate(step: StepData, optimum: ExactOptimum, units: Units) -> Ce
     step : StepData
     optimum : ExactOptimum
         That of the step.
-    units : Units
-        Natural units of the step.
+    units : Units or None
+        Natural units of the step, where they are known.
     """
     certificate: Certificate = ExactCertificate.unchecked(
         kind="exact",
@@ -431,31 +427,31 @@ def exact_certificate(step: StepData, optimum: ExactOptimum, units: Units) -> Ce
 
 
 class ProofStatistics(LazyFields, SolverStatistics):
-    """The statistics of a solver whose answer can be compared with the optimum.
+    """The statistics of a solver whose reply can be compared with the optimum.
 
     Attributes
     ----------
     step : StepData
-    answer, delta_q : ndarray, shape (n_v,)
+    reply, delta_q : ndarray, shape (n_v,)
         The solver's displacement and the optimum [m, rad].
     """
 
     formed = ("digits",)
-    kept_instead = ("step", "answer", "delta_q")
+    kept_instead = ("step", "reply", "delta_q")
     step: StepData
-    answer: Array
+    reply: Array
     delta_q: Array
 
     @cached_property
     def digits(self) -> float:
         """Correct digits of the backend's delta_q, 0 to 16."""
-        return without_warnings(correct_digits, self.step, self.answer, self.delta_q)
+        return without_warnings(correct_digits, self.step, self.reply, self.delta_q)
 
 
 def proof_statistics(
-    statistics: SolverStatistics, seconds: float, step: StepData, answer: Array, delta_q: Array
+    statistics: SolverStatistics, seconds: float, step: StepData, reply: Array, delta_q: Array
 ) -> SolverStatistics:
-    """Statistics of a solver that gave an answer, with the time of the proof and the digits.
+    """Statistics of a solver that gave a reply, with the time of the proof and the digits.
 
     Parameters
     ----------
@@ -463,27 +459,35 @@ def proof_statistics(
     seconds : float
         Wall time of the proof [s].
     step : StepData
-    answer, delta_q : ndarray, shape (n_v,)
-        Its answer, and the optimum [m, rad].
+    reply, delta_q : ndarray, shape (n_v,)
+        Its displacement, and the optimum [m, rad].
     """
     fields = vars(statistics) | {"proof_time": seconds}
     del fields["digits"]
     complete: SolverStatistics = ProofStatistics.unchecked(
-        **fields, step=step, answer=answer, delta_q=delta_q
+        **fields, step=step, reply=reply, delta_q=delta_q
     )
     return complete
 
 
-def answer_residuals(step: StepData, units: Units, delta_q: Array, lam: Array) -> dict[str, float]:
-    """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at an answer [-], by name.
+def solution_residuals(
+    step: StepData, units: Units | None, delta_q: Array, lam: Array
+) -> dict[str, float]:
+    """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at a solution [-], by name.
+
+    None where float64 has no natural units for the step, which a proof does not need.
 
     Parameters
     ----------
     step : StepData
-    units : Units
-        Its natural units.
+    units : Units or None
+        Its natural units, where they are known.
     delta_q, lam : ndarray, shapes (n_v,) and (m,)
         [m, rad], [N s].
     """
-    scaled = ScaledStep(step, units)
-    return dict(vars(scaled.residuals(*in_natural(delta_q, lam, units))))
+    natural = NaturalStep(step, units)
+    with suppress(StepDataError):
+        if units is None:
+            natural.check_range()
+        return dict(vars(natural.residuals(*in_natural(delta_q, lam, natural.units))))
+    return {}

@@ -11,10 +11,10 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.optimum import ProofCache
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, Mask, all_finite
+from quasistatic_ref.quoting import one_line
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     UNSAFE,
@@ -23,10 +23,9 @@ from quasistatic_ref.solve.backends import (
     bare,
     greeting_silenced,
 )
-from quasistatic_ref.solve.units import ScaledStep
+from quasistatic_ref.solve.natural_step import NaturalStep
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, differences
-from quasistatic_ref.text.quoting import one_line
 
 ALIKE: Final = 1e3
 """Largest ratio of the lengths of a step's rows, in natural units [-], at which a solver is called
@@ -50,7 +49,7 @@ class Reply:
     solved : bool
         Whether it claims a full solution.
     status : str
-        Its own word, or what it raised; of other letters than can be written, their numbers.
+        Its own word, or what it raised.
     iterations : int or None
     seconds, setup : float or None
         Of solving and of setting up [s], by the solver's own account, where it gives one.
@@ -58,6 +57,10 @@ class Reply:
         Of the whole call [s], in a study.
     accuracy : float
         That the solver was asked for in this call, in natural units [-].
+    asked : bool
+        Whether the solver was asked at all.
+    cause : Exception or None
+        What another package raised, where that is why there are no numbers.
     """
 
     x: Array | None
@@ -69,12 +72,11 @@ class Reply:
     call_seconds: float = 0.0
     setup: float | None = None
     accuracy: float = 0.0
-
-    def __post_init__(self) -> None:
-        self.status = one_line(self.status)
+    asked: bool = True
+    cause: Exception | None = None
 
     @property
-    def answer(self) -> tuple[Array, Array]:
+    def point(self) -> tuple[Array, Array]:
         """The solver's x (n,) and multipliers lam (m,) [-]; None unless it gave both."""
         assert self.x is not None
         assert self.lam is not None
@@ -137,7 +139,9 @@ class Solver(ABC):
 
     def fits(self, step: StepData) -> bool:
         """Whether a step is of the kind that the problem was compiled for."""
-        return not self.differences(step)
+        formed = step.formed
+        alike = formed is not None and formed.is_like(self.template.formed)
+        return alike or not self.differences(step)
 
     def check(self, step: StepData) -> None:
         """Refuse a step of another kind.
@@ -157,20 +161,17 @@ class Solver(ABC):
         return differences(self.template, step, self.fixed)
 
     @abstractmethod
-    def answer(self, scaled: ScaledStep, accuracy: float) -> Reply:
-        """The backend's answer to a step, of finite numbers; rows out of reach bear no load.
+    def reply(self, natural: NaturalStep, accuracy: float) -> Reply:
+        """The backend's reply to a step; its numbers are finite, or there are none.
+
+        Rows out of reach bear no load. A backend that may not return is not called where the rows
+        of the step are unlike each other.
 
         Parameters
         ----------
-        scaled : ScaledStep
+        natural : NaturalStep
         accuracy : float
             In natural units [-].
-
-        Raises
-        ------
-        StepNotSolved
-            If it gives none, or one whose numbers are not finite; or if it may not return and the
-            rows of the step are unlike each other.
         """
 
 
@@ -178,7 +179,7 @@ class BackendSolver(Solver):
     """A solver that writes steps into a problem of a backend, and reads its replies."""
 
     @abstractmethod
-    def write(self, scaled: ScaledStep) -> Mask | None:
+    def write(self, natural: NaturalStep) -> Mask | None:
         """Write a step into the problem, in natural units.
 
         Gaps of contacts, and ends of a user's own rows, that are out of reach are written nearer
@@ -192,7 +193,7 @@ class BackendSolver(Solver):
         """
 
     @abstractmethod
-    def reply(self, options: Options, scaled: ScaledStep) -> Reply:
+    def reply_with(self, options: Options, natural: NaturalStep) -> Reply:
         """The backend's reply to the problem as it is written, with options in its own names."""
 
     def option_sets(self, accuracy: float) -> list[tuple[float, Options]]:
@@ -203,58 +204,51 @@ class BackendSolver(Solver):
             self._option_sets[accuracy] = entry.attempts(accuracy, curved)
         return self._option_sets[accuracy]
 
-    def answer(self, scaled: ScaledStep, accuracy: float) -> Reply:
-        """The answer, by each set of options in turn until one solves the step; else the last one.
-
-        Raises
-        ------
-        StepNotSolved
-            If there is none; or, before any call, if the backend may not return from such rows.
-        """
-        if not scaled.step.m:
-            programs = scaled.programs
+    def reply(self, natural: NaturalStep, accuracy: float) -> Reply:
+        """The reply by each set of options in turn until one solves the step; else the last one."""
+        if not natural.step.m:
+            programs = natural.programs
             x = programs.joined([form.free() for form in programs.forms])
             return Reply(x, np.zeros(0), True, FREE, accuracy=accuracy)
-        if self.unsafe and not scaled.row_ratio <= ALIKE:
-            status = f"not called: its rows differ by {scaled.row_ratio:.0e} in natural units"
-            raise StepNotSolved(self.name, status, scaled.step, accuracy)
+        if self.unsafe and not natural.row_ratio <= ALIKE:
+            status = f"not called: its rows differ by {natural.row_ratio:.0e} in natural units"
+            return Reply(None, None, False, status, accuracy=accuracy)
         try:
-            out_of_reach = self.write(scaled)
+            out_of_reach = self.write(natural)
         except InputError:
             raise
         except ValueError as error:  # of CVXPY's own checks, which may overflow
-            status = f"not called: {error}"
-            raise StepNotSolved(self.name, status, scaled.step, accuracy) from error
-        cause: Exception | None = None
-        answer: Reply | None = None
+            status = one_line(f"not called: {error}")
+            return Reply(None, None, False, status, accuracy=accuracy, cause=error)
+        last: Reply | None = None
+        none = Reply(None, None, False, "an answer that is not finite", accuracy=accuracy)
         for tried, options in self.option_sets(accuracy):
-            status = "an answer that is not finite"
+            status, cause = "an answer that is not finite", None
             try:
-                reply = self.reply(options, scaled)
+                reply = self.reply_with(options, natural)
             except Exception as error:  # whatever another package raises
-                status = one_line(f"the solver failed: {error}")
-                cause = error
-                continue
-            cause = None
-            if reply.x is None or reply.lam is None:
-                without = f"{self.name} gives no multipliers through {self.interface}"
-                status = without if reply.solved else reply.status
-            elif all_finite(reply.x) and all_finite(reply.lam):
-                if out_of_reach is not None:
-                    # Residuals are those of the true gap.
-                    reply.lam[out_of_reach] = 0.0
-                reply.accuracy = tried
-                answer = reply
-                if reply.solved:
-                    reply.status = "optimal"
-                    return reply
-        if answer is not None:
-            return answer
-        raise StepNotSolved(self.name, status, scaled.step, tried) from cause
+                status, cause = f"the solver failed: {error}", error
+            else:
+                if reply.x is None or reply.lam is None:
+                    without = f"{self.name} gives no multipliers through {self.interface}"
+                    status = without if reply.solved else reply.status
+                elif all_finite(reply.x) and all_finite(reply.lam):
+                    if out_of_reach is not None:
+                        # Residuals are those of the true gap.
+                        reply.lam[out_of_reach] = 0.0
+                    reply.accuracy = tried
+                    last = reply
+                    if reply.solved:
+                        reply.status = "optimal"
+                        return reply
+            none = Reply(None, None, False, status, accuracy=tried, cause=cause)
+        reply = none if last is None else last
+        reply.status = one_line(reply.status)
+        return reply
 
 
 class NoSolver(Solver):
-    """No backend: it answers no step.
+    """No backend: it is asked of no step.
 
     Parameters
     ----------
@@ -267,6 +261,6 @@ class NoSolver(Solver):
     interface = "none"
     fixed = ()
 
-    def answer(self, scaled: ScaledStep, accuracy: float) -> Reply:
-        """No answer: StepNotSolved."""
-        raise StepNotSolved(self.name, "not called", scaled.step, accuracy)
+    def reply(self, natural: NaturalStep, accuracy: float) -> Reply:
+        """A reply without numbers."""
+        return Reply(None, None, False, "not called", accuracy=accuracy, asked=False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from time import perf_counter
 from typing import Any, Protocol
@@ -36,9 +36,11 @@ from quasistatic_ref.solve.backends import (
     backend as entry_of,
 )
 from quasistatic_ref.solve.interruptible import INTERRUPTIBLE
+from quasistatic_ref.solve.natural_step import NaturalStep
+from quasistatic_ref.solve.problem_copies import give_solution, uncompiled, unknown_additions
 from quasistatic_ref.solve.solver import BackendSolver, Reply
-from quasistatic_ref.solve.units import ScaledStep, in_si
-from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.solve.units import in_si
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import KIND, StepData, check_step, differences
 from quasistatic_ref.step.problem import paper_problem, set_values
 from quasistatic_ref.step.standard_form import Units, page_units, si_units
@@ -67,7 +69,8 @@ class StepProblem:
     by Clarabel as it comes, the steps of the scenarios have 10 correct digits in the median, and 5
     at least. Digits are lost where numbers are small: bodies of a millionth of these masses and
     springs have 2 to 5 (by PIQP 1 to 4, by OSQP 0 or 1), and what rests has none that counts, since
-    its true displacement is zero. :meth:`solve` solves the problem in natural units.
+    its true displacement is zero. ``problem.solve(solver=qr.Exact())`` answers exactly, terms of
+    one's own included; :meth:`solve` solves the problem in natural units.
 
     Parameters
     ----------
@@ -136,10 +139,6 @@ class StepProblem:
         self.delta_q = page.delta_q
         self.contact_motion = page.contact_motion
         self.contact_rows = page.contact_rows
-        if template.cone != PYRAMID:  # the page's own
-            kind = cone(template.cone)
-            motion = tuple(part / template.h**2 for part in page.contact_motion)
-            self.contact_rows = kind.constraints(motion, template.mask)
         self.extra: list[cp.Constraint] = []
         if template.extra.names:
             A_extra = cp.Parameter(template.extra.A.shape, "A_extra")
@@ -162,8 +161,27 @@ class StepProblem:
                 objective += cp.Minimize(self.cost(term))
         self.problem = cp.Problem(objective, constraints)
         self._posed = self.problem
-        self._plain = additions is None
+        self._additions = additions
         self.fill(template)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without what CVXPY compiled of the problems, which no pickle or copy can hold."""
+        posed = uncompiled(self._posed)
+        problem = posed if self.problem is self._posed else uncompiled(self.problem)
+        page = replace(self.page, problem=uncompiled(self.page.problem))
+        additions = None if self._additions is None else unknown_additions
+        kept = {"page": page, "problem": problem, "_posed": posed, "_additions": additions}
+        return {**self.__dict__, **kept}
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> StepProblem:
+        """A new problem, its additions asked again, with the values and solution of this one."""
+        self._check_posed()
+        new = type(self)(self.template, self._additions)
+        new.step = self.step
+        for name, parameter in self.parameters.items():
+            new.parameters[name].save_value(parameter.value)
+        give_solution(new.problem, self.problem)
+        return new
 
     def __repr__(self) -> str:
         step = self.template
@@ -181,7 +199,8 @@ class StepProblem:
         Returns
         -------
         cvxpy.Constraint
-            Of [m/s^2, rad/s^2]; its ``dual_value`` is a force [N, N m].
+            Of [m/s^2, rad/s^2]; its ``dual_value`` is a force [N, N m]. Of an equation it has
+            CVXPY's sign: minus the force along its left side.
         """
         h2 = self.template.h**2
         return term / h2 >= 0 if isinstance(term, cp.Expression) else divided(term, by=h2)
@@ -207,8 +226,8 @@ class StepProblem:
         self.step = step
         self._set_values(None)
 
-    def _set_values(self, scaled: ScaledStep | None) -> None:
-        placed = () if scaled is None else (scaled.units, scaled.ends)
+    def _set_values(self, natural: NaturalStep | None) -> None:
+        placed = () if natural is None else (natural.units, natural.ends)
         with np.errstate(over="ignore", invalid="ignore"):  # what overflows has no answer
             set_values(self.page, self.step, *placed)
 
@@ -247,26 +266,30 @@ class StepProblem:
         if backend.startswith(QPSOLVERS) or name == NONE or is_function(name):
             problem = "is not called through CVXPY; name another, or call solve_step"
             raise BackendError(problem, field="backend", value=backend)
-        if self.problem is not self._posed:
-            words = "is another problem than that of this step; call its own solve()"
-            raise InputError(words, field="StepProblem.problem")
+        self._check_posed()
         entry = entry_of(name)
         if name == "highs":
             greeting_silenced()
         if not self.problem.is_qp():
             check_takes_cones(name, "this problem")
         attempts = entry.attempts(accuracy, not self.problem.is_qp())
-        scaled = ScaledStep(self.step) if self._plain else None
-        self._set_values(scaled)
+        natural = NaturalStep(self.step) if self._additions is None else None
+        self._set_values(natural)
         try:
             status = self._status([options for _, options in attempts], name)
         finally:
             self._set_values(None)
         if status != cp.OPTIMAL:
             raise StepNotSolved(name, status, self.step, attempts[-1][0])
-        if scaled is not None:
-            self._unpack(page_units(scaled.units, self.step.h))
+        if natural is not None:
+            self._unpack(page_units(natural.units, self.step.h))
         return self.primal()
+
+    def _check_posed(self) -> None:
+        """Refuse a problem that was put in the place of the step's: InputError."""
+        if self.problem is not self._posed:
+            words = "is another problem than that of this step; call its own solve()"
+            raise InputError(words, field="StepProblem.problem")
 
     def _status(self, option_sets: Sequence[Options], name: str) -> str:
         """The status of the first full solution, else that of the last attempt."""
@@ -406,22 +429,24 @@ class CvxpySolver(BackendSolver):
         """The step's problem, which is compiled by the first answer."""
         return StepProblem(self.template)
 
-    def answer(self, scaled: ScaledStep, accuracy: float) -> Reply:
-        """The backend's answer, unless CVXPY would compile the step for minutes: StepNotSolved."""
-        if (n_c := scaled.step.contacts.n_c) > MOST_CONTACTS:
-            status = (
-                f"not called: CVXPY takes too long to compile {n_c} contacts, more than "
-                f"{MOST_CONTACTS}; the backends daqp and none do without CVXPY"
+    def write(self, natural: NaturalStep) -> Mask:
+        """Fill the parameters; tell which rows are out of reach, shape (m,).
+
+        Raises
+        ------
+        ValueError
+            If CVXPY would compile the step for minutes.
+        """
+        if (n_c := natural.step.contacts.n_c) > MOST_CONTACTS:
+            problem = (
+                f"CVXPY takes too long to compile {n_c} contacts, more than {MOST_CONTACTS}; "
+                "the backends daqp and none do without CVXPY"
             )
-            raise StepNotSolved(self.name, status, scaled.step, accuracy)
-        return super().answer(scaled, accuracy)
+            raise ValueError(problem)
+        set_values(self.problem.page, natural.step, natural.units, natural.ends)
+        return natural.out_of_reach
 
-    def write(self, scaled: ScaledStep) -> Mask:
-        """Fill the parameters; tell which rows are out of reach, shape (m,)."""
-        set_values(self.problem.page, scaled.step, scaled.units, scaled.ends)
-        return scaled.out_of_reach
-
-    def reply(self, options: Options, scaled: ScaledStep) -> Reply:
+    def reply_with(self, options: Options, natural: NaturalStep) -> Reply:
         """The backend's reply, from a cold start.
 
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY

@@ -1,10 +1,11 @@
 r"""The friction cones: each an object by its name, the polyhedral ones made of one function.
 
-The function takes a contact's gap, slip_1, slip_2 and spin: phi + J_n delta_q, mu_v J_1 delta_q,
-mu_v J_2 delta_q and mu_omega J_w delta_q, that is, the gap after the step; and the sliding along d1
-and d2 and the rotation about n, each multiplied by its coefficient of friction. All four are
-lengths. The function returns what must not be negative, one entry for each of the cone's rows. It
-only adds, subtracts and multiplies by float64 numbers. Therefore it returns
+That of the paper is ``pyramid``, in step/pyramid.py. Such a function takes a contact's gap, slip_1,
+slip_2 and spin: phi + J_n delta_q, mu_v J_1 delta_q, mu_v J_2 delta_q and mu_omega J_w delta_q,
+that is, the gap after the step; and the sliding along d1 and d2 and the rotation about n, each
+multiplied by its coefficient of friction. All four are lengths. The function returns what must not
+be negative, one entry for each of the cone's rows. It only adds, subtracts and multiplies by
+float64 numbers. Therefore it returns
 
 - given numbers, the slacks of Eq. :eq:`eq-10`;
 - given CVXPY expressions, the left sides of the constraints, Eq. :eq:`eq-4`;
@@ -23,7 +24,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
@@ -32,12 +33,14 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.numbers.angles import cos_sin_of_turn
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.parts import part
-from quasistatic_ref.text.quoting import nearest_name
+from quasistatic_ref.quoting import nearest_name
+from quasistatic_ref.step.pyramid import pyramid
 
 if TYPE_CHECKING:
     import cvxpy as cp
 
 Rows: TypeAlias = "tuple[Any, ...]"
+Coefficients: TypeAlias = "tuple[tuple[float, ...], ...]"
 ConeFunction: TypeAlias = "Callable[[Any, Any, Any, Any], Rows]"
 Violations: TypeAlias = tuple[Array, Array, Array]
 Judge: TypeAlias = Callable[[Array, Array], Violations]
@@ -46,6 +49,8 @@ Claims: TypeAlias = Mapping[str, tuple[str, ...]]
 PYRAMID = "pyramid"
 ELLIPSOID = "ellipsoid"
 CONES = (PYRAMID, ELLIPSOID, "product", "facets-K", "frictionless")
+UNITS = tuple(map(tuple, np.eye(4).tolist()))
+"""The gap alone, each slip alone, and the spin alone [m]."""
 MOST_FACETS = 1024
 """A polygon with more sides is within 5e-6 of the circle, and makes steps of many MB."""
 
@@ -77,14 +82,23 @@ class FrictionCone(ABC):
     def polyhedral(self) -> bool:
         """Whether linear inequalities (rows) alone describe it."""
 
-    @cached_property
+    @property
+    def coefficients(self) -> Coefficients:
+        """Those of gap, slip_1, slip_2 and spin in each row, R times 4 [-].
+
+        They are asked of the function each time. What was once made of them is kept by them, not by
+        the cone's name: a function that changes in a process, as in a notebook, is noticed.
+        """
+        return tuple(zip(*(self.function(*unit) for unit in UNITS), strict=True))
+
+    @property
     def matrix(self) -> Array:
-        """Coefficients of gap, slip_1, slip_2 and spin in each row, shape (R, 4) [-].
+        """The coefficients, shape (R, 4) [-]; one array for the same numbers.
 
         The admissible (f_1, f_2, tau) at f_n = 1, in units of (mu_v, mu_v, mu_omega), are the
         convex hull of the R rows without their first entries; the limit surface is its boundary.
         """
-        return read_only(np.stack(self.function(*np.eye(4))))
+        return _matrix(self.coefficients)
 
     def counts(self, rows: Indices) -> Indices:
         """How many multipliers each contact has, from its ``rows``, shape (n_c,)."""
@@ -125,6 +139,11 @@ class FrictionCone(ABC):
         """Lam of solved :meth:`constraints`, contact-major, shape (m,); `mu` as of contacts."""
 
 
+@lru_cache(maxsize=64)
+def _matrix(coefficients: Coefficients) -> Array:
+    return read_only(np.array(coefficients))
+
+
 class PolyhedralCone(FrictionCone):
     """A cone that its rows describe: the core proves its optima by exact rows."""
 
@@ -156,7 +175,7 @@ class PolyhedralCone(FrictionCone):
         mask : ndarray of bool, shape (n_c, R)
         """
         rows = zip(self.function(*motion), mask.T, strict=True)
-        return [row[has] >= 0 for row, has in rows if has.any()]
+        return [_of_contacts(has, row) >= 0 for row, has in rows if has.any()]
 
     def multipliers(self, constraints: Sequence[cp.Constraint], mask: Mask, mu: Array) -> Array:
         """Lam of solved constraints, shape (m,) [N s]; `mask` (n_c, R) and `mu` (n_c, 3)."""
@@ -164,6 +183,19 @@ class PolyhedralCone(FrictionCone):
         for i, row in zip(np.flatnonzero(mask.any(axis=0)), constraints, strict=True):
             of_rows[mask[:, i], i] = row.dual_value
         return of_rows[mask]
+
+
+def _of_contacts(has: Mask, row: cp.Expression) -> cp.Expression:
+    """A row, (n_c,) [m], of the contacts that have it.
+
+    By a matrix, because CVXPY prints an index of a sum without the brackets around the sum.
+    """
+    if has.all():
+        return row
+    import cvxpy as cp  # both take their time
+    import scipy.sparse as sp
+
+    return cp.Constant(sp.eye_array(len(has)).tocsr()[has], name="torsional") @ row
 
 
 def row_violations(slack: Array, lam: Array) -> Violations:
@@ -189,22 +221,6 @@ def row_violations(slack: Array, lam: Array) -> Violations:
 def has_torsion(rows: Indices) -> Mask:
     """Whether contacts use mu_omega, shape (n_c,), from their ``rows``, 6 or 4, shape (n_c,)."""
     return np.equal(rows, 6)
-
-
-def pyramid(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
-    r"""The paper's cone: :math:`|f_1|/\mu_v + |f_2|/\mu_v + |\tau|/\mu_\omega \le f_n`.
-
-    An octahedron: the rows of a contact share one normal force. The rows are +d1, +d2, -d1, -d2,
-    +spin, -spin, in the unit of the arguments, for example [m].
-    """
-    return (
-        gap + slip_1,  # Eq. (5)
-        gap + slip_2,
-        gap - slip_1,  # Eq. (6)
-        gap - slip_2,
-        gap + spin,  # Eq. (7)
-        gap - spin,
-    )
 
 
 def product_cone(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:

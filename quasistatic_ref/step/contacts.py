@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +15,7 @@ from quasistatic_ref.numbers.arrays import (
     Array,
     Indices,
     Mask,
+    all_finite,
     check_and_freeze,
     checked_array,
     checked_names,
@@ -22,9 +23,9 @@ from quasistatic_ref.numbers.arrays import (
     column_count,
     read_only,
 )
+from quasistatic_ref.shown import Shown
 from quasistatic_ref.step.cones import has_torsion
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.shown import Shown
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 IDENTITY = np.eye(3)
@@ -67,6 +68,8 @@ class Contacts(Plain, Shown):
         Which these are; n_v where a contact has fewer.
     n_v : int
         Number of columns of J.
+    pyramid : (ndarray, ndarray), shapes (m, w) and (m,), or None
+        A, by own columns, and b of Eq. :eq:`eq-8` in the pyramid, where they are known [m, rad].
 
     Raises
     ------
@@ -94,6 +97,7 @@ class Contacts(Plain, Shown):
         own: Array
         column: Indices
         n_v: int
+    pyramid: ClassVar[tuple[Array, Array] | None] = None
 
     def __init__(
         self,
@@ -152,8 +156,11 @@ class Contacts(Plain, Shown):
         return bool((self.own.any(axis=1) | (self.column == self.n_v)).all())
 
     def raised(self, s: Array) -> Contacts:
-        """These contacts with gaps phi + s, where s has shape (n_c,) [m]."""
-        return replace(self, phi=self.phi + s)
+        """These contacts with gaps phi + s, s of shape (n_c,) [m]; StepDataError as above."""
+        phi = self.phi + s + 0.0
+        if not all_finite(phi):
+            return replace(self, phi=phi)  # which is refused
+        return self.with_fields(phi=read_only(phi))
 
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
@@ -234,6 +241,18 @@ class Contacts(Plain, Shown):
             field = self.name[j]
             value = axes[:, j].tolist()
             raise StepDataError(problem, field=f"contacts[{field}]", value=value)
+
+
+def stacked(each: Sequence[Contacts]) -> Contacts:
+    """The contacts of several steps of a run, one step after another, as if of one step.
+
+    What is formed of each contact by itself has the bits that it has in its step.
+    """
+    if len({one.own.shape for one in each}) > 1:  # of some steps all columns are kept
+        each = [one.with_fields(J=one.J) for one in each]
+    arrays = ("phi", "n", "d1", "d2", "mu_v", "mu_omega", "rows", "own", "column")
+    fields = {name: np.concatenate([getattr(one, name) for one in each]) for name in arrays}
+    return Contacts.unchecked(name=each[0].name * len(each), n_v=each[0].n_v, **fields)
 
 
 def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property, lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,12 +29,12 @@ from quasistatic_ref.numbers.arrays import (
     read_only,
 )
 from quasistatic_ref.numbers.pivots import positive_definite, positive_sum, symmetric
+from quasistatic_ref.shown import HasPage, Shown
 from quasistatic_ref.step.cones import PYRAMID, checked_cone
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.hessian import Hessian
 from quasistatic_ref.text.plain import Plain, field_values
-from quasistatic_ref.text.shown import HasPage, Shown
 
 __all__ = ["Contacts", "Extra", "StepData"]
 
@@ -153,6 +153,21 @@ def row_layout(cone_name: str, rows: bytes) -> RowLayout:
     return RowLayout(read_only(counts), read_only(mask), read_only(offsets))
 
 
+class FormedStep(Protocol):
+    """What compiled code has formed of a step, of which contacts are made when they are read."""
+
+    @property
+    def contacts(self) -> Contacts:
+        """The contacts of the step."""
+
+    @property
+    def deepest(self) -> float:
+        """Depth of the deepest penetration; negative if there is none [m]."""
+
+    def is_like(self, other: FormedStep | None) -> bool:
+        """Whether another step is of the same run, so that it differs in numbers alone."""
+
+
 @dataclass(frozen=True, eq=False, init=False, repr=False)
 class StepData(Plain, HasPage):
     """Everything that Eq. :eq:`eq-13` needs.
@@ -187,6 +202,8 @@ class StepData(Plain, HasPage):
     ----------
     hessian : Hessian
         H without a user's cost, which steps of one run share; M_u is formed of it when it is read.
+    formed : FormedStep or None
+        What compiled code has formed of it.
 
     Notes
     -----
@@ -258,7 +275,16 @@ class StepData(Plain, HasPage):
             problem = "must leave the H of the step positive definite: a cost must be convex"
             raise StepDataError(problem, field="extra.H", value=extra.cost[0].tolist())
 
-    if not TYPE_CHECKING:  # a field as the others, but formed when it is read
+    formed: ClassVar[FormedStep | None] = None
+
+    if not TYPE_CHECKING:  # fields as the others, but formed when they are read
+
+        @cached_property
+        def contacts(self) -> Contacts:
+            """The contact points considered."""
+            if self.formed is None:
+                raise AttributeError("a step that is not made has no contacts")
+            return self.formed.contacts
 
         @property
         def M_u(self) -> Array:
@@ -348,6 +374,13 @@ class StepData(Plain, HasPage):
     def offsets(self) -> Indices:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
         return self.row_layout.offsets
+
+    @property
+    def deepest(self) -> float:
+        """Depth of the deepest penetration; negative if there is none [m]."""
+        if self.formed is not None:
+            return self.formed.deepest
+        return -float(self.contacts.phi.min(initial=math.inf))
 
     @cached_property
     def H(self) -> Array:

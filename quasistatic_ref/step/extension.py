@@ -27,6 +27,10 @@ class StepExtension(Protocol):
         """Coordinates that this extension adds to the step."""
 
     @property
+    def same_for_all_loads(self) -> bool:
+        """Whether it is numbers alone, which no target or load changes."""
+
+    @property
     def without_stiffness(self) -> bool:
         """Whether its costs take the place of the impedance (1)."""
 

@@ -10,8 +10,9 @@ from typing import Any, TypeVar
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.numbers.arrays import Array, Indices, read_only
+from quasistatic_ref.numbers.arrays import Array, Indices, all_finite, read_only
 from quasistatic_ref.numbers.blocks import entries_of, nonzeros, whole
+from quasistatic_ref.numbers.pivots import positive_definite
 from quasistatic_ref.text.plain import Plain
 
 Result = TypeVar("Result")
@@ -63,21 +64,22 @@ class Hessian(Plain):
     def part(self, coordinates: Indices) -> Hessian:
         """H of some coordinates, (k,), formed once for the same."""
         key = coordinates.tobytes()
-        if key not in self._parts:
+        parts = self._parts
+        if key not in parts:
             n_a = self.n_a
             a = coordinates[coordinates < n_a]
             u = coordinates[coordinates >= n_a] - n_a
             K_q = read_only(self.K_q[np.ix_(a, a)])
-            self._parts[key] = Hessian(self.h, K_q, read_only(entries_of(self.masses, u)))
-        return self._parts[key]
+            parts[key] = Hessian(self.h, K_q, read_only(entries_of(self.masses, u)))
+        return parts[key]
 
     def changed(self, masses: Array) -> Hessian:
-        """H with other masses, of this shape; a part whose numbers stay is the same object.
+        """H with other `masses`, of the same shape [kg, kg m, kg m^2].
 
-        `masses` are M_u by entries or whole [kg, kg m, kg m^2].
+        A part whose numbers stay is the same object.
         """
         other = Hessian(self.h, self.K_q, masses)
-        for key, part in self._parts.items():
+        for key, part in [*self._parts.items()]:  # another thread may add one
             coordinates = np.frombuffer(key, np.int64)
             u = coordinates[coordinates >= self.n_a] - self.n_a
             if np.array_equal(entries_of(masses, u), part.masses):
@@ -86,10 +88,11 @@ class Hessian(Plain):
 
     def once(self, form: Callable[[Hessian], Result]) -> Result:
         """The result of a function of this H, computed at the first call and kept with H."""
-        if form not in self._formed:
-            self._formed[form] = form(self)
-        formed: Result = self._formed[form]
-        return formed
+        formed = self._formed
+        if form not in formed:
+            formed[form] = form(self)
+        result: Result = formed[form]
+        return result
 
     @cached_property
     def _parts(self) -> dict[bytes, Hessian]:
@@ -98,6 +101,31 @@ class Hessian(Plain):
     @cached_property
     def _formed(self) -> dict[Callable[[Hessian], Any], Any]:
         return {}
+
+
+class Hessians:
+    """H of the steps of a run: as long as M_u stays, that of the step before."""
+
+    def __init__(self) -> None:
+        self._last: Hessian | None = None
+
+    def of(self, h: float, K_q: Array, masses: Array) -> Hessian | None:
+        """H of a step; None if masses, (k, 6, 6) [kg, kg m, kg m^2], are not finite.
+
+        Raises
+        ------
+        StepDataError
+            If M_u is not positive definite.
+        """
+        last = self._last
+        if last is not None and (masses is last.masses or np.array_equal(masses, last.masses)):
+            return last
+        if not all_finite(masses.ravel()):
+            return None
+        positive_definite("M_u", masses)
+        new = Hessian(h, K_q, masses) if last is None else last.changed(masses)
+        self._last = new
+        return new
 
 
 def hessian(h: float, K_q: Array, M_u: Array) -> Array:

@@ -4,8 +4,7 @@ The unknowns are accelerations, a = delta_q / h^2. With the energy (13) divided 
 by h^2, which changes no solution, this is Gauss's principle: numbers are those of accelerations and
 forces, to which a solver's tolerances fit, and the multipliers are forces [N].
 
-Symbols are CVXPY objects here, except the numbers h, mu_v and mu_omega. Units are those of the
-step, SI as a rule.
+Symbols are CVXPY objects here, except the number h. Units are those of the step, SI as a rule.
 """
 
 from dataclasses import dataclass
@@ -15,11 +14,14 @@ import numpy as np
 import scipy.sparse as sp
 
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import (
     Units,
+    frame_jacobian,
     page_units,
     si_units,
+    spring_load,
 )
 
 
@@ -43,7 +45,8 @@ class Page:
         gap, slip_1, slip_2 and spin [m], shapes (n_c,), mu included in the last three.
     contact_rows : list of cvxpy.Constraint
         Eq. :eq:`eq-4` over h^2 [m/s^2] in the paper's order, one constraint for that row of the
-        contacts that have it; none where no contact has. A ``dual_value`` is a force [N], lam / h.
+        contacts that have it; none where no contact has. Of another cone its own constraints. A
+        ``dual_value`` is a force [N], lam / h.
     """
 
     problem: cp.Problem
@@ -60,7 +63,7 @@ class Page:
 def paper_problem(step: StepData) -> Page:
     """Eq. :eq:`eq-13` for steps of one h, mu_v, mu_omega, row count and size.
 
-    Its cone is the paper's, whatever the step's. :func:`set_values` fills it with such a step.
+    :func:`set_values` fills it with such a step. Its rows are those of the step's cone, as A's are.
 
     Parameters
     ----------
@@ -93,12 +96,12 @@ def paper_problem(step: StepData) -> Page:
     n_v = step.n_v
     n_c = step.contacts.n_c
 
-    # What all these steps have in common. A diagonal matrix is compiled in a tenth of the time that
-    # `multiply` takes.
+    # What all these steps have in common.
     h = step.h
-    mu_v = sp.diags_array(step.contacts.mu_v)
-    mu_omega = sp.diags_array(step.contacts.mu[:, 2])
-    torsional = step.contacts.torsion
+    h2 = cp.Constant(h**2, name="h^2")
+    h2_each = np.full(max(n_v, n_c), h**2)  # CVXPY prints a number times an array as Promote(...)
+    mu_v = step.contacts.mu_v
+    mu_omega = step.contacts.mu[:, 2]
 
     # What changes from step to step.
     K_q = cp.Parameter((n_a, n_a), "K_q")  # stiffness of the actuated coordinates
@@ -115,41 +118,53 @@ def paper_problem(step: StepData) -> Page:
     # What is sought: accelerations, of which the displacement is h^2 times as much.
     a_a = cp.Variable(n_a, "a_a")
     a_u = cp.Variable(n_u, "a_u")
-    delta_q_a = h**2 * a_a
-    delta_q_u = h**2 * a_u
+    delta_q_a = scaled("h^2", h2_each[:n_a], a_a)
+    delta_q_u = scaled("h^2", h2_each[:n_u], a_u)
     moving = [part for part in (delta_q_a, delta_q_u) if part.size]  # CVXPY stacks nothing empty
     delta_q = cp.hstack(moving or [delta_q_a])
 
     # Eq. (4) is phi + [J'(n~ + d~_i)]' delta_q >= 0. In it phi + [J' n~]' delta_q is the gap, and
     # [J' d~_i]' delta_q is slip_1, slip_2, -slip_1, -slip_2, spin and -spin for i = 1 to 6.
     gap = phi + J_n @ delta_q
-    slip_1 = mu_v @ (J_1 @ delta_q)
-    slip_2 = mu_v @ (J_2 @ delta_q)
-    spin = mu_omega @ (J_w @ delta_q)
+    slip_1 = scaled("mu_v", mu_v, J_1 @ delta_q)
+    slip_2 = scaled("mu_v", mu_v, J_2 @ delta_q)
+    spin = scaled("mu_omega", mu_omega, J_w @ delta_q)
 
-    # Eq. (10): the rows of Eq. (4), of which each contact has four or six.
-    rows = [
-        gap + slip_1,  # Eq. (5)
-        gap + slip_2,
-        gap - slip_1,  # Eq. (6)
-        gap - slip_2,
-        (gap + spin)[torsional],  # Eq. (7)
-        (gap - spin)[torsional],
-    ]
+    # Eq. (10) over h^2: the rows of Eq. (4), of which each contact has four or six.
+    motion = (gap, slip_1, slip_2, spin)
+    over = cp.Constant(h2_each[:n_c], name="h^2")
+    contact_rows = cone(step.cone).constraints(tuple(part / over for part in motion), step.mask)
 
     # Eq. (13) over h^3. The quadratic forms are of the unknowns themselves: of h^2 times them CVXPY
     # would make further unknowns and equations. It refuses a quadratic form of no coordinates.
-    stiffness = h**2 / 2 * cp.quad_form(a_a, K_q, assume_PSD=True) if n_a else 0
+    stiffness = h2 / 2 * cp.quad_form(a_a, K_q, assume_PSD=True) if n_a else 0
     inertia = 1 / 2 * cp.quad_form(a_u, M_u, assume_PSD=True) if n_u else 0
     work = (tau_k + tau_a) @ a_a + tau_u @ a_u
-    contact_rows = [row / h**2 >= 0 for row in rows if row.size]
     problem = cp.Problem(cp.Minimize(stiffness + inertia - work), contact_rows)
 
     named = (K_q, M_u, tau_k, tau_a, tau_u, phi, J_n, J_1, J_2, J_w)
     parameters = {parameter.name(): parameter for parameter in named}
-    motion = (gap, slip_1, slip_2, spin)
     displacement = (delta_q_a, delta_q_u, delta_q)
     return Page(problem, parameters, a_a, a_u, *displacement, motion, contact_rows)
+
+
+def scaled(name: str, factors: Array, motion: cp.Expression) -> cp.Expression:
+    """Each number of a motion, (n,), times a factor that CVXPY prints by its `name`.
+
+    A diagonal matrix is compiled in a tenth of the time that ``multiply`` takes. One of zeros alone
+    would leave parameters without entries, which CVXPY 1.9.3 compiles to arrays it cannot divide.
+
+    Parameters
+    ----------
+    name : str
+    factors : ndarray, shape (n,)
+        Coefficients of friction [-, m], or h^2 [s^2].
+    motion : cvxpy.Expression, shape (n,)
+        [m, rad], or an acceleration [m/s^2, rad/s^2].
+    """
+    if not factors.any():
+        return cp.Constant(np.zeros(factors.size), name="0")
+    return cp.Constant(sp.diags_array(factors), name=name) @ motion
 
 
 def set_values(
@@ -181,25 +196,17 @@ def set_values(
     S_a = S[: step.n_a]
     S_u = S[step.n_a :]
     contacts = step.contacts
-    J = contacts.J * (S / ell)
-    J_x, J_y, J_z, J_w = J.transpose(1, 0, 2)  # Eq. (3): along the world's axes, about n
-
-    def along(axes: Array) -> Array:
-        x, y, z = axes.T[..., None]
-        part: Array = x * J_x + y * J_y + z * J_z
-        return part
-
-    tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
+    J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J * (S / ell))  # Eq. (3)
     values = {
         "K_q": step.K_q * np.outer(S_a, S_a),
         "M_u": step.M_u * np.outer(S_u, S_u),
-        "tau_k": tau_k * S_a / rho,
+        "tau_k": spring_load(step.K_q, step.delta_q_bar_a) * S_a / rho,
         "tau_a": step.tau_a * S_a / rho,
         "tau_u": step.tau_u * S_u / rho,
         "phi": phi / (rho * ell),
-        "J_n": along(contacts.n),
-        "J_1": along(contacts.d1),
-        "J_2": along(contacts.d2),
+        "J_n": J_n,
+        "J_1": J_1,
+        "J_2": J_2,
         "J_w": J_w,
     }
     if step.extra.names:

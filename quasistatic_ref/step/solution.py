@@ -11,11 +11,11 @@ from typing import Literal
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array, read_only, without_warnings
 from quasistatic_ref.parts import part
+from quasistatic_ref.shown import HasPage, Shown
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.text import step_sha256
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.shown import HasPage, Shown
 
 ForcesOfStep = Callable[[StepData, None, tuple[Array, Array] | None], "ContactForces"]
 """A step, compliances (its own), and delta_q (n_v,) [m, rad] and wrenches (n_c, 4) [N, N m] to
@@ -30,6 +30,8 @@ UNKNOWN = "are not known: a step holds no costs or nonlinear constraints"
 @dataclass(frozen=True, eq=False)
 class SolverStatistics(Plain):
     """What the solver reported and how long it took: no evidence, and in no solution file.
+
+    A :class:`.StepSolution` has them; their constructor checks nothing.
 
     Parameters
     ----------
@@ -72,6 +74,8 @@ class SolverStatistics(Plain):
 @dataclass(frozen=True, eq=False, repr=False)
 class StepSolution(Plain, Shown):
     """The optimum of Eq. :eq:`eq-13`.
+
+    ``solve_step`` makes it; its constructor checks nothing.
 
     Parameters
     ----------
@@ -191,6 +195,8 @@ class StepSolution(Plain, Shown):
 class Certificate(Plain, HasPage):
     """What is proved about an answer, and the kind of proof.
 
+    ``solve_step`` makes it; its constructor checks nothing.
+
     Parameters
     ----------
     kind : str
@@ -254,6 +260,8 @@ class Certificate(Plain, HasPage):
 @dataclass(frozen=True, eq=False, repr=False)
 class ContactForces(Shown):
     """The forces of a step's contacts.
+
+    ``contact_forces`` makes them; their constructor checks nothing.
 
     Parameters
     ----------

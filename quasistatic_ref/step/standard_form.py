@@ -13,7 +13,6 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.numbers.compiled import compiled
 from quasistatic_ref.numbers.ordered import product
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts, spread
@@ -29,6 +28,8 @@ notice if it did not."""
 
 class StandardForm(NamedTuple):
     """The quadratic program of one step, in float64.
+
+    ``standard_form`` makes it; its constructor checks nothing.
 
     Parameters
     ----------
@@ -105,7 +106,6 @@ def own_inequalities(step: StepData) -> tuple[Array, Array]:
     return A, np.concatenate([b, step.extra.b]) if step.extra.names else b
 
 
-@compiled
 def contact_inequalities(contacts: Contacts, name: str, mask: Mask) -> tuple[Array, Array]:
     """A by own columns, (m_c, w), and b, (m_c,), of the rows that a `mask` says: Eq. :eq:`eq-8`.
 
@@ -117,16 +117,44 @@ def contact_inequalities(contacts: Contacts, name: str, mask: Mask) -> tuple[Arr
     mask : ndarray of bool, shape (n_c, R)
         As of ``StepData.mask``.
     """
+    if contacts.pyramid is not None and name == PYRAMID:
+        return contacts.pyramid
     A = friction_rows(contacts, name, contacts.own)[mask]  # Eq. (8)
     return A, -row_constants(contacts, name)[mask]  # Eq. (8)
 
 
 def linear_term(step: StepData) -> Array:
     """The linear term g of Eq. :eq:`eq-13` and of a user's cost, (n_v,) [N s, N m s]."""
-    tau_k = product(step.K_q, step.delta_q_bar_a)  # Eq. (1)
-    g: Array = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])
+    g = linear_terms(step.h, step.K_q, step.delta_q_bar_a, step.tau_a, step.tau_u)
     cost = step.extra.cost
     return g if cost is None else g + cost[1]
+
+
+def linear_terms(h: float, K_q: Array, delta_q_bar_a: Array, tau_a: Array, tau_u: Array) -> Array:
+    """The linear term g of Eq. :eq:`eq-13` of a step, or of N, shape (..., n_v) [N s, N m s].
+
+    Parameters
+    ----------
+    h, K_q, delta_q_bar_a, tau_a, tau_u
+        As of :class:`~quasistatic_ref.step.data.StepData`; the last three of all steps.
+    """
+    tau_k = spring_load(K_q, delta_q_bar_a)
+    return np.asarray(h * np.concatenate([tau_k + tau_a, tau_u], axis=-1))
+
+
+def spring_load(K_q: Array, delta_q_bar_a: Array) -> Array:
+    """The force tau_k of the springs at delta_q = 0, Eq. :eq:`eq-1`, shape (..., n_a) [N, N m].
+
+    Parameters
+    ----------
+    K_q : ndarray, shape (n_a, n_a)
+        [N/m, N m/rad]
+    delta_q_bar_a : ndarray, shape (n_a,); or (N, n_a), of several steps
+        How far the targets are [m, rad].
+    """
+    if delta_q_bar_a.ndim == 1:
+        return product(K_q, delta_q_bar_a)  # Eq. (1)
+    return product(delta_q_bar_a, K_q.T) if delta_q_bar_a.size else delta_q_bar_a
 
 
 def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, Array]:

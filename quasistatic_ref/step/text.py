@@ -42,10 +42,13 @@ TABLES = Tables({
     CONTACT: {
         "name": Field("text", "of the pair, and a number"),
         "phi": Field("number", "gap", "m"),
-        "n": Field("three numbers", "normal"),
+        "n": Field("three numbers", "normal, from alpha to beta, along the world's axes"),
         "d1": Field("three numbers", "first tangent"),
         "d2": Field("three numbers", "second tangent; n, d1, d2 are right-handed"),
-        "J": Field("numbers", "rows J_n, J_1, J_2, J_w", "-, m", shape=(4, VELOCITIES)),
+        "J": Field(
+            "numbers", "motion of beta's point against alpha's along the world's x, y and z, and "
+            "spin about n, per unit of delta_q", "m, rad", shape=(4, VELOCITIES),
+        ),
         "mu_v": Field("number", "friction", "-", least=0.0),
         "mu_omega": Field("number", "torsional friction", "m", least=0.0),
         "rows": Field("integer", "6, or 4 without torsional friction", choices=(4, 6)),

@@ -1,4 +1,4 @@
-"""Eq. (1), tau_k = K_q delta_q_bar_a. Under test: step.problem.set_values."""
+"""Eq. (1), tau_k = K_q delta_q_bar_a. Under test: step.standard_form.spring_load."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Eq. (6), d~_3 and d~_4. Under test: step.problem.paper_problem."""
+"""Eq. (6), d~_3 and d~_4. Under test: step.pyramid.pyramid."""
 
 from tests.closeness import assert_close
 from tests.oracles.printed_rows import added_to_the_gap, along

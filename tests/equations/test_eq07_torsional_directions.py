@@ -1,4 +1,4 @@
-"""Eq. (7), d~_5 and d~_6. Under test: step.problem.paper_problem."""
+"""Eq. (7), d~_5 and d~_6. Under test: step.pyramid.pyramid."""
 
 import numpy as np
 

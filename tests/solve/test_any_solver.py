@@ -6,6 +6,7 @@ import json
 import pickle
 import re
 import sys
+from itertools import product
 
 import cvxpy as cp
 import numpy as np
@@ -97,6 +98,25 @@ def test_a_module_that_ends_its_process_is_a_sentence(mine, cli):
     assert "cannot be imported: RuntimeError: SystemExit: 0" in said
 
 
+ABSENT = {
+    "away.py:solve": "cannot be imported: FileNotFoundError: [Errno 2] No such file or directory",
+    "mine.py:away": "cannot be imported: AttributeError: module 'mine' has no attribute 'away'",
+    "away:solve": "cannot be imported: ModuleNotFoundError: No module named 'away'",
+    "mine.py:number": "must be a function",
+}
+COMMANDS = ("run sphere_spin --out made", "demo --out made", "solve step.json -o made")
+A_SWEEP = "run sphere_spin --out made --sweep h=0.01,0.02"  # which asks in other processes
+
+
+@pytest.mark.parametrize(
+    ("command", "name"), [*product(COMMANDS, ABSENT), (A_SWEEP, "away.py:solve")]
+)
+def test_a_function_that_is_not_there_is_said_before_anything_is_made(command, name, mine, cli):
+    said = cli(command, "--backend", name, status=2).err
+    assert f"--backend {name}: {ABSENT[name]}" in said
+    assert not (mine / "made").exists()
+
+
 WRONG = {
     "complex": (lambda q, h: (q + 1e-9j, h, "optimal"), "0 and 12 real numbers in place of"),
     "words": (lambda q, h: (["1"] * len(q), h, "optimal"), "real numbers in place of"),
@@ -157,11 +177,20 @@ def test_an_optimal_status_is_no_evidence(lie):
     assert not believed.residuals
 
 
-@pytest.mark.parametrize(
-    "name", ["missing:solve", "mine:missing", "mine:number", "none.py:solve", "mine.py:number"]
-)
+NOT_THERE = ["missing:solve", "mine:missing", "mine:number", "none.py:solve", "mine.py:number"]
+
+
+@pytest.mark.parametrize("name", NOT_THERE)
 def test_a_function_that_is_not_there_is_named(name, mine, cli):
     assert name in one_sentence(cli("solve", "step.json", "--backend", name, status=2).err)
+
+
+@pytest.mark.parametrize("name", NOT_THERE)
+@pytest.mark.parametrize("sweep", [[], ["--sweep", "steps=1,2", "--jobs", "1"]], ids=["", "sweep"])
+def test_a_run_by_a_function_that_is_not_there_makes_no_folder(name, sweep, mine, cli):
+    said = cli("run", "sphere_spin", "--out", "here", "--backend", name, *sweep, status=2).err
+    assert name in one_sentence(said)
+    assert not (mine / "here").exists()
 
 
 def test_a_function_takes_neither_cones_nor_costs():

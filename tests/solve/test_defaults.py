@@ -12,6 +12,7 @@ from tests.helpers import error, first_step, results_of
 from tests.solvers import Reply
 from tests.tolerances import OPTIMUM
 
+STEP = first_step(load_scenario("sphere_spin")).step
 FAILED = Reply(None, None, False, "at a loss")
 UNCLAIMED = Reply(np.zeros(6), np.zeros(6), False, "iteration limit")
 
@@ -23,9 +24,29 @@ def test_the_default_backend_is_clarabel_and_with_fast_daqp():
         ({"fast": True, "cone": "ellipsoid"}, "clarabel"),
         ({"fast": True, "solver.backend": "osqp"}, "osqp"),
         ({"solver.backend": "osqp"}, "osqp"),
+        ({"solver.backend": cp.OSQP}, "osqp"),
+        ({"fast": True, "solver.backend": cp.CLARABEL}, "clarabel"),
+        ({"solver.backend": cp.DAQP}, "cvxpy:daqp"),
     ):
         scenario = load_scenario("sphere_spin", settings)
         assert scenario.backend == scenario.simulator().backend == named
+
+
+CURVED = Extension(lambda of: [cp.norm(of.delta_q) <= 1.0])
+NAMED = {
+    "a step": lambda name: solve_step(STEP, name),
+    "a curved extension": lambda name: solve_step(STEP, name, extension=CURVED),
+    "Coulomb's law": lambda name: qr.coulomb_step(STEP, name),
+    "a run": lambda name: first_step(load_scenario("sphere_spin", backend=name)).solution,
+}
+
+
+@pytest.mark.parametrize("named", NAMED.values(), ids=NAMED)
+def test_a_word_of_cvxpy_names_a_backend_wherever_one_is_named(named):
+    for word, name in ((cp.CLARABEL, "clarabel"), (cp.SCS, "scs")):
+        assert named(word).backend == name
+    with pytest.raises(qr.QuasistaticError, match=r"is not a backend; did you mean 'clarabel'\?"):
+        named("CLARABLE")
 
 
 def test_bodies_that_cannot_touch_count_one_by_one():

@@ -48,6 +48,7 @@ def ends():
     return ends
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("name", [*installed_backends(), *OTHERS])
 def test_each_step_ends_as_without_a_backend(name, capfd):
     for step, end in zip((*PLAIN, *HOSTILE), ends(), strict=True):
@@ -57,6 +58,7 @@ def test_each_step_ends_as_without_a_backend(name, capfd):
     assert capfd.readouterr() == ("", "")  # and no interface warns, for warnings are errors here
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("name", installed_backends())
 def test_an_unproved_answer_is_near_the_optimum(name):
     for step in PLAIN:

@@ -7,8 +7,8 @@ from dataclasses import fields, replace
 import pytest
 
 from quasistatic_ref import Certificate, SolverStatistics, load_scenario, solve_step, verify
-from quasistatic_ref.certify.form import ExactForm
 from quasistatic_ref.certify.norm import correct_digits
+from quasistatic_ref.exact.program import ExactProgram
 from quasistatic_ref.solve import solve
 from tests.made import bits
 from tests.oracles.random_steps import drawn
@@ -21,7 +21,7 @@ def solution():
 
 def forms_alive():
     gc.collect()
-    return [one for one in gc.get_objects() if isinstance(one, ExactForm)]
+    return [one for one in gc.get_objects() if isinstance(one, ExactProgram)]
 
 
 def test_a_run_does_not_ask_how_rows_touch(monkeypatch):
@@ -56,9 +56,12 @@ def test_late_fields_are_those_of_the_data_that_they_stand_for(solution):
     assert replace(late, kind="none") != late
 
 
-def test_digits_are_those_of_the_answer_that_was_given(solution):
+def test_digits_are_those_of_the_reply_that_the_solver_gave(solution):
     statistics = solution.statistics
     unread = pickle.loads(pickle.dumps(statistics))
-    given = statistics.answer, solution.delta_q
-    assert statistics.digits == correct_digits(solution.step, *given) == unread.digits
+    assert (
+        statistics.digits
+        == correct_digits(solution.step, statistics.reply, solution.delta_q)
+        == unread.digits
+    )
     assert bits(at_once(statistics)) == bits(statistics) == bits(unread)

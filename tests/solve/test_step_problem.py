@@ -1,6 +1,9 @@
 """The page solves itself; ``StepProblem.solve`` in natural units, whatever its numbers are."""
 
+import copy
+import pickle
 from functools import cache
+from itertools import product
 
 import cvxpy as cp
 import numpy as np
@@ -9,7 +12,8 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.tolerances import UNMOVED
 from tests.closeness import assert_same, assert_within
-from tests.helpers import boxes_step, pinch, random_step, sphere_on_floor
+from tests.helpers import REQUIRED, boxes_step, changed, pinch, random_step, sphere_on_floor
+from tests.made import no_contacts
 from tests.solvers import installed_backends
 
 WEIGHT = -2.943 * np.eye(6)[2]
@@ -71,6 +75,34 @@ def test_the_ellipsoid_is_solved_with_its_multipliers():
         assert_within(form.A.T @ page.dual(), load, 1e-6 * np.abs(load).max())
     with pytest.raises(qr.BackendError, match="accepts only linear rows"):
         page.solve("piqp")
+
+
+HAVE_FRICTION = ((0, 0, 0), (1, 0, 1), (1, 1, 1))
+BY_CONE = [
+    *product(("pyramid", "product", "facets-8", "frictionless"), REQUIRED),
+    *product(["ellipsoid"], ("clarabel", "scs")),
+]
+
+
+@pytest.mark.shared
+@pytest.mark.parametrize(("cone", "solver"), BY_CONE)
+def test_contacts_without_friction_are_solved(cone, solver):
+    """mu_v and mu_omega are zero in all contacts, in some, in none; H delta_q - g = A'lam."""
+    for rows in ((6,), (6, 6), (6, 4, 6)):
+        step = random_step(len(rows), n_a=1, n_u=3, rows=rows)
+        form = qr.standard_form(step)
+        size = np.abs(np.linalg.solve(form.H, form.g)).max()
+        having = {has[: len(rows)] for has in HAVE_FRICTION}
+        for slides, spins in product(having, repeat=2):
+            mu_v = step.contacts.mu_v * slides
+            mu_omega = step.contacts.mu_omega * spins
+            contacts = changed(step.contacts, mu_v=mu_v, mu_omega=mu_omega)
+            posed = step.replace(contacts=contacts, cone=cone)
+            page = qr.StepProblem(posed)
+            assert_within(page.solve(solver), qr.solve_step(posed).delta_q, 1e-6 * size)
+            load = form.H @ page.primal() - form.g
+            forces = qr.standard_form(posed).A.T @ page.dual()
+            assert_within(forces, load, 1e-6 * np.abs(form.g).max())
 
 
 @pytest.mark.parametrize("solver", [name for name in ABLE if name != "proxqp"])  # test_known_issues
@@ -153,6 +185,81 @@ def test_a_page_of_more_than_a_thousand_numbers_is_solved_in_cvxpy_s_own_way():
 def test_a_solver_that_cvxpy_does_not_call_is_refused(solver, says):
     with pytest.raises(qr.BackendError, match=says):
         qr.StepProblem(pinch()).solve(solver)
+
+
+COPIES = {"pickle": lambda page: pickle.loads(pickle.dumps(page)), "deep copy": copy.deepcopy}
+PAGES = {
+    "four and six rows": lambda: qr.StepProblem(random_step(0)),
+    "a user's row and cost": lambda: qr.StepProblem(STEPS["a user's row and cost"]()),
+    "facets": lambda: qr.StepProblem(STEPS["facets"]()),
+    "the ellipsoid": lambda: qr.StepProblem(random_step(3).replace(cone="ellipsoid")),
+    "additions": lambda: qr.StepProblem(random_step(0), lambda page: [page.delta_q[0] >= 1e-3]),
+}
+
+
+@pytest.mark.shared
+@pytest.mark.parametrize("how", COPIES.values(), ids=COPIES)
+@pytest.mark.parametrize("kind", PAGES)
+def test_a_solved_page_is_copied_with_its_solution(kind, how):
+    page = PAGES[kind]()
+    able = ("clarabel", "scs") if kind == "the ellipsoid" else ABLE
+    for solver in able:
+        found = page.solve(solver)
+        other = how(page)
+        assert_same(other.primal(), found)
+        assert_same(other.dual(), page.dual())
+        assert other.problem.status == cp.OPTIMAL
+        assert other.problem.value == page.problem.value
+        assert_within(other.solve(solver), found, 1e-6 * np.abs(found).max())
+    other.fill(page.step.replace(tau_u=2 * page.step.tau_u))
+    other.solve(able[0])
+    assert not np.array_equal(other.primal(), found)
+    assert_same(page.primal(), found)
+
+
+def test_a_page_whose_problem_was_replaced_or_whose_additions_are_lost_has_no_deep_copy():
+    page = PAGES["additions"]()
+    with pytest.raises(qr.InputError, match="does not hold the function of its additions"):
+        copy.deepcopy(COPIES["pickle"](page))
+    page.problem = cp.Problem(page.problem.objective)
+    with pytest.raises(qr.InputError, match="is another problem than that of this step"):
+        copy.deepcopy(page)
+
+
+def test_a_page_and_its_deep_copy_are_two_parts_of_one_problem():
+    one = qr.StepProblem(pinch())
+    one.solve()
+    two = copy.deepcopy(one)
+    two.fill(one.step.replace(tau_u=2 * one.step.tau_u))
+    pages = one.page.problem, two.page.problem
+    objective = pages[0].objective + pages[1].objective
+    both = cp.Problem(objective, pages[0].constraints + pages[1].constraints)
+    both.solve(solver="CLARABEL")
+    for page in (one, two):
+        assert_within(page.primal(), qr.solve_step(page.step).delta_q, 1e-9)
+
+
+EQUATIONS = {
+    "z at least": (lambda z: z >= -2e-4, 1, -2e-4),
+    "z at most": (lambda z: z <= -3e-3, -1, -3e-3),
+    "z == 1 mm": (lambda z: z == 1e-3, -1, 1e-3),
+    "1 mm == z": (lambda z: cp.Constant(1e-3) == z, 1, 1e-3),
+    "-z == -1 mm": (lambda z: -z == -1e-3, 1, 1e-3),
+    "3 z == 3 mm": (lambda z: 3 * z == 3e-3, -1 / 3, 1e-3),
+}
+"""A row of a falling body's z, its dual value per force along z, and where z ends [m]."""
+
+
+@pytest.mark.parametrize(("row", "sign", "z"), EQUATIONS.values(), ids=EQUATIONS)
+def test_the_multiplier_of_an_equation_is_minus_the_force_along_its_left_side(row, sign, z):
+    """What holds a body of mass M and weight W at z bears W + M z / h^2."""
+    step = sphere_on_floor(wrench=WEIGHT).replace(cone="frictionless")
+    page = qr.StepProblem(step.replace(contacts=no_contacts(6)))
+    held = page.row(row(page.delta_q[2]))
+    problem = cp.Problem(page.problem.objective, [*page.problem.constraints, held])
+    problem.solve(solver="CLARABEL")
+    force = 2.943 + step.M_u[2, 2] * z / step.h**2
+    assert_within(held.dual_value, sign * force, 1e-6)
 
 
 @pytest.mark.extra("study")

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, standard_form
+from quasistatic_ref import Extra, StepDataError, solve_step, standard_form, verify
 from quasistatic_ref.step.standard_form import OUT_OF_REACH, clipped_gaps
 from tests.cases import cases
 from tests.closeness import assert_relative, assert_same
@@ -17,7 +17,7 @@ from tests.helpers import (
 )
 from tests.made import bits, free_step, no_contacts
 from tests.oracles.random_steps import smaller
-from tests.solvers import ScaledStep
+from tests.solvers import NaturalStep
 from tests.tolerances import NATURAL_HIGH, NATURAL_LOW
 
 
@@ -40,10 +40,10 @@ every_step = cases("step", STEPS)
 
 @every_step
 def test_units_are_powers_of_two_and_put_everything_near_one(step):
-    units = ScaledStep(step).units
+    units = NaturalStep(step).units
     mantissas, _ = np.frexp([*units.coordinate, units.length, units.size])
     assert_same(mantissas, 0.5)
-    natural = ScaledStep(step).natural
+    natural = NaturalStep(step).form
     assert NATURAL_LOW <= np.diag(natural.H).min() <= np.diag(natural.H).max() <= NATURAL_HIGH
     lengths = np.linalg.norm(natural.A, axis=1)
     assert not lengths.size or NATURAL_LOW <= np.median(lengths) <= NATURAL_HIGH
@@ -55,8 +55,8 @@ def test_units_are_powers_of_two_and_put_everything_near_one(step):
 @every_step
 def test_natural_units_keep_the_form_of_13_and_4(step):
     """The form of the step whose fields are in natural units is the form in these units."""
-    scaled = ScaledStep(step)
-    assert bits(standard_form(step_in_units(step, scaled.units))) == bits(scaled.natural)
+    scaled = NaturalStep(step)
+    assert bits(standard_form(step_in_units(step, scaled.units))) == bits(scaled.form)
 
 
 def step_in_units(step, units):
@@ -80,9 +80,9 @@ def step_in_units(step, units):
 def test_a_power_of_two_in_the_data_moves_the_units_and_nothing_else(power):
     # More motion and force, or so little that its square is 0: the natural form has the same bits.
     step = STEPS["random"]
-    one, two = ScaledStep(step), ScaledStep(smaller(step, power))
+    one, two = NaturalStep(step), NaturalStep(smaller(step, power))
     assert two.units.size == power * one.units.size
-    assert bits(two.natural) == bits(one.natural)
+    assert bits(two.form) == bits(one.form)
 
 
 def with_own_rows(rows, b):
@@ -96,30 +96,30 @@ def with_own_rows(rows, b):
 )
 def test_rows_in_which_nothing_moves_have_no_say_in_the_length(rows, length):
     step = with_own_rows(rows, [-1.0] * len(rows))
-    assert ScaledStep(step).units.length == length
-    assert ScaledStep(step).row_ratio == 1.0
+    assert NaturalStep(step).units.length == length
+    assert NaturalStep(step).row_ratio == 1.0
 
 
 def test_without_load_and_penetration_the_size_is_a_length_that_counts_as_unmoved():
     """Of the softest coordinate, however far the rows are: one micrometre, to a power of two."""
     step = with_own_rows([[64, 0], [0, 64]], [-0.5, -32.0])
-    coordinate, length, size = ScaledStep(step).units
+    coordinate, length, size = NaturalStep(step).units
     assert (coordinate.tolist(), length) == ([1.0, 1.0], 64.0)
     assert size == 2.0**-20
-    assert ScaledStep(with_own_rows(np.zeros((0, 2)), [])).units.size == size
+    assert NaturalStep(with_own_rows(np.zeros((0, 2)), [])).units.size == size
 
 
 @pytest.mark.parametrize("depth", [1e-3, 1.0])
 def test_a_deep_penetration_sets_the_size_where_the_load_is_small(depth):
     # ||H^-1 g||_H is nearly 0 here: without the push out, b' would be as large as depth / 0.
-    natural = ScaledStep(sphere_on_floor(phi=-depth, wrench=(0, 0, -1e-9, 0, 0, 0))).natural
+    natural = NaturalStep(sphere_on_floor(phi=-depth, wrench=(0, 0, -1e-9, 0, 0, 0))).form
     assert NATURAL_LOW <= natural.b[0] <= NATURAL_HIGH
 
 
 def test_contacts_and_rows_out_of_reach_are_moved_nearer_and_the_others_are_not():
     walls = Extra(("near", "far"), np.eye(6)[[0, 2]], np.array([-1e-3, -1e9]))
     step = sphere_on_floor(phi=1e9, wrench=(0, 0, -1.0, 0, 0, 0)).replace(extra=walls)
-    scaled = ScaledStep(step)
+    scaled = NaturalStep(step)
     natural = step_in_units(step, scaled.units)
     unit = scaled.units.size * scaled.units.length
     phi, b = (ends / unit for ends in clipped_gaps(step, scaled.units))
@@ -127,7 +127,18 @@ def test_contacts_and_rows_out_of_reach_are_moved_nearer_and_the_others_are_not(
     own = OUT_OF_REACH * max(1.0, np.linalg.norm(natural.extra.A[1]))
     assert_relative(b, [natural.extra.b[0], -own])
     assert scaled.out_of_reach.tolist() == [True] * (step.m - 2) + [False, True]
-    form = scaled.near
-    assert_same(form.A, scaled.natural.A)
+    form = scaled.within_reach
+    assert_same(form.A, scaled.form.A)
     assert_same(form.b, [*-np.repeat(phi, step.m - 2), *b])
     assert_same(clipped_gaps(step, scaled.units, np.inf)[0], step.contacts.phi)
+
+
+def test_a_step_beyond_natural_units_is_proved_without_a_backend_and_has_no_residuals():
+    """Its floor is 1e300 m away, and a load of 1e-250 N moves it by h^2 tau / m."""
+    step = sphere_on_floor(phi=1e300, wrench=(0, 0, -1e-250, 0, 0, 0))
+    with pytest.raises(StepDataError, match="exceed the range of float64"):
+        solve_step(step)
+    solution = solve_step(step, "none")
+    assert solution.delta_q[2] == -(step.h**2) * 1e-250 / step.M_u[0, 0]
+    assert solution.certificate.residuals == {}
+    assert verify(solution)

@@ -1,5 +1,7 @@
 """The parameterised CVXPY problem: its size, its cache, its empty cases, its multipliers."""
 
+import re
+
 import cvxpy as cp
 import numpy as np
 import pytest
@@ -8,10 +10,11 @@ from numpy.testing import assert_array_equal
 
 from quasistatic_ref import Extra, StepDataError, StepProblem, load_scenario, solve_step
 from quasistatic_ref.solve import step_problem
+from quasistatic_ref.solve.natural_step import NaturalStep
 from quasistatic_ref.solve.step_problem import CvxpySolver
-from quasistatic_ref.solve.units import ScaledStep, in_si
+from quasistatic_ref.solve.units import in_si
 from quasistatic_ref.step.problem import set_values
-from quasistatic_ref.step.standard_form import friction_rows, page_units, si_units
+from quasistatic_ref.step.standard_form import friction_rows, page_units, si_units, standard_form
 from tests.closeness import assert_close, assert_relative, assert_within
 from tests.helpers import (
     PAPER,
@@ -73,9 +76,9 @@ def test_the_data_of_the_filled_page_are_the_standard_form(name, rng):
     h = steps[0].h
     unit = si_units(13)
     for step in steps:
-        scaled = ScaledStep(step)
-        natural = ((scaled.units, scaled.ends), scaled.near, page_units(unit, h))
-        for placed, form, (S, ell, rho) in (((), scaled.form, unit), natural):
+        scaled = NaturalStep(step)
+        natural = ((scaled.units, scaled.ends), scaled.within_reach, page_units(unit, h))
+        for placed, form, (S, ell, rho) in (((), standard_form(step), unit), natural):
             set_values(page.page, step, *placed)
             data = step_problem.problem_data(page.problem, "clarabel", {}).numbers
             assert_relative(data["P"].toarray(), form.H * np.outer(S, S) * h)
@@ -90,7 +93,7 @@ def test_the_data_of_the_filled_page_are_the_standard_form(name, rng):
 def test_a_plain_step_is_the_page_filled_and_solved_in_public(name):
     """The backend's answer of a run is that of ``problem.solve``, in every bit."""
     step = load_scenario(name, steps=3).run(progress=False, findings=False).step_data(2)
-    scaled = ScaledStep(step)
+    scaled = NaturalStep(step)
     solver = CvxpySolver(step)
     accuracy, options = solver.option_sets(1e-12)[0]
     page = StepProblem(step)
@@ -98,8 +101,8 @@ def test_a_plain_step_is_the_page_filled_and_solved_in_public(name):
     page.problem.solve(solver="CLARABEL", canon_backend=step_problem.CANON, **options)
     units = page_units(scaled.units, step.h)
     delta_q, lam = in_si(page.primal(), page.dual(), units)
-    reply = solver.answer(scaled, accuracy)
-    found, impulses = in_si(*reply.answer, scaled.units)
+    reply = solver.reply(scaled, accuracy)
+    found, impulses = in_si(*reply.point, scaled.units)
     assert_array_equal(found, delta_q)
     assert_array_equal(impulses, np.where(scaled.out_of_reach, 0.0, lam))
     assert_array_equal(StepProblem(step).solve(), delta_q)
@@ -110,6 +113,17 @@ def test_the_page_is_dpp_where_quadratic_forms_are_affine_in_their_matrix(rng):
     assert not page.is_dpp()
     with quad_form_dpp_scope():
         assert page.is_dpp()
+
+
+def test_the_page_prints_with_the_names_of_the_paper(rng):
+    """Some contacts alone have torsion: their rows are taken by a product, which keeps brackets."""
+    printed = str(StepProblem(random_step(rng)).problem)
+    assert {"K_q", "M_u", "phi", "J_n", "mu_v", "mu_omega", "h^2"} <= set(
+        re.findall(r"[\w^]+", printed)
+    )
+    assert "float64" not in printed
+    assert "[" not in printed
+    assert len(printed) < 1500
 
 
 def test_a_step_of_another_kind_is_refused(rng):
