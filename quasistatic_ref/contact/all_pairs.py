@@ -8,9 +8,11 @@ import numpy as np
 
 from quasistatic_ref.contact.batches.balls import OnHalfSpaces, Spheres
 from quasistatic_ref.contact.batches.batch import Batch
-from quasistatic_ref.contact.batches.boxes import Boxes
 from quasistatic_ref.contact.batches.clouds import Clouds
-from quasistatic_ref.contact.distance import ClosestPoints, pair_closest_points
+from quasistatic_ref.contact.batches.rounded_boxes import RoundedBoxes
+from quasistatic_ref.contact.closest_points import ClosestPoints
+from quasistatic_ref.contact.distance import pair_closest_points
+from quasistatic_ref.contact.outlines import bearing_corners
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
@@ -33,7 +35,7 @@ from quasistatic_ref.tolerances import REPEATED
 Kind = tuple[type[Batch], Hashable]
 """A batch and what is the same of all of its pairs."""
 
-MOST_PAIRS: Final = 512
+MOST_CORNERS: Final = 512
 """Most corners of a solid of a batch: with more, numbers take the time and not calls."""
 
 FEW_POINTS: Final = 16_384
@@ -103,8 +105,14 @@ class AllPairs:
             check_finite(kinematics)
             known, every = self._every.contacts(kinematics.R, kinematics.t)
             if known.all():
-                points = ClosestPoints._make([one.reshape(n_c, *one.shape[2:]) for one in every])
-                return points._replace(phi=points.phi + 0.0, n=points.n + 0.0)  # never -0.0
+                return ClosestPoints(
+                    phi=every.phi.reshape(n_c) + 0.0,  # zero is 0.0, never -0.0
+                    alpha=every.alpha.reshape(n_c, 3),
+                    beta=every.beta.reshape(n_c, 3),
+                    n=every.n.reshape(n_c, 3) + 0.0,
+                    point=every.point.reshape(n_c),
+                    tie=every.tie.reshape(n_c),
+                )
         vectors = np.zeros((3, n_c, 3))
         contacts = ClosestPoints(np.zeros(n_c), *vectors, *np.zeros((2, n_c), dtype=np.int64))
         self.write(kinematics, contacts)
@@ -154,21 +162,28 @@ def kind_of(pair: ContactPair) -> Kind | None:
     ball, other = sides[::-1] if ball_last else sides
     if isinstance(ball, Sphere) and isinstance(other, Rounded) and pair.n_c == 1:
         return Spheres, ball_last
-    are_boxes = [isinstance(side, Box) for side in sides]
-    known = any(are_boxes) and all(isinstance(side, Box | Capsule) for side in sides)
-    if known and (pair.n_c == 1 or (all(are_boxes) and pair.n_c <= pair.corners)):
-        return Boxes, (*are_boxes, pair.n_c)
+    if all(isinstance(side, Box | Capsule | Sphere) for side in sides):
+        return RoundedBoxes, (*map(type, sides), pair.n_c)
     plane_first = isinstance(sides[0], HalfSpace)
     plane, solid = sides if plane_first else sides[::-1]
-    known = isinstance(solid, Box | Capsule | ConvexMesh)
-    known = known and 1 < pair.n_c <= solid.corner_count <= MOST_PAIRS and _corners_are_apart(solid)
-    if isinstance(plane, HalfSpace) and (known or isinstance(solid, Sphere)):
+    if isinstance(plane, HalfSpace) and _is_over_planes(solid, pair.n_c):
         return OnHalfSpaces, (plane_first, solid.corner_count, pair.n_c)
     return None
+
+
+def _is_over_planes(solid: Shape, n_c: int) -> bool:
+    """Whether the contacts of a solid with half-spaces follow from its corners."""
+    if isinstance(solid, Sphere):
+        return True
+    few = isinstance(solid, Box | Capsule | ConvexMesh) and solid.corner_count <= MOST_CORNERS
+    if not few or not _corners_are_apart(solid):
+        return False
+    return isinstance(solid, Rounded) or 1 < n_c <= int(bearing_corners(solid).sum())
 
 
 def _corners_are_apart(solid: Shape) -> bool:
     """Whether no corner is where another is: seen from any side, neither repeats the other."""
     corners, _ = solid.corners(DIRECTIONS[0])
+    corners = corners[bearing_corners(solid)]
     apart = norm(corners[:, None] - corners)
     return int(np.count_nonzero(apart <= 10 * REPEATED)) == len(corners)

@@ -18,11 +18,12 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.contact.normals import TURNED
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.numbers.ordered import norm
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, Shape
-from quasistatic_ref.tolerances import FACING, SAME_NORMAL
+from quasistatic_ref.tolerances import FACING, ON_RIM, SAME_NORMAL, UPRIGHT
 
 FEW_CORNERS: Final = 16
 """Corners of which all are looked at: bounds would take as long."""
@@ -77,3 +78,26 @@ def _above_top(vertices: Array, x: Array, n: Array, gives: float) -> Mask:
     above = x @ n - (vertices[top] @ n).min()
     beyond = x @ across.T - (vertices[top] @ across.T).max(axis=0)
     return np.asarray(beyond.max(axis=1) <= STEEP * above + gives)
+
+
+def towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
+    """A direction from this body to the other, in this body's frame, (3,), of any length.
+
+    Where the closest point is on a rim, the point itself gives this direction more accurately than
+    the normal does: near contact the normal is computed from a difference that cancels.
+
+    Parameters
+    ----------
+    body : ShapeInWorld
+    nearest : ndarray, shape (3,)
+        Its closest point to the other body, in the world frame [m].
+    n : ndarray, shape (3,)
+        The way to the other body, in the world frame [-].
+    """
+    local = body.pose.local(nearest)
+    way = body.pose.local_direction(n)
+    radius = body.shape.rim_radius
+    if radius is None:
+        return way
+    on_rim = norm(local[:2]) >= (1 - ON_RIM) * radius
+    return local if on_rim and norm(way[:2]) > UPRIGHT else way

@@ -12,12 +12,14 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.normals import TURNED
+from quasistatic_ref.contact.outlines import outlines
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, rotated
 from quasistatic_ref.parts import part
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Capsule, Cone, Cylinder
 from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.tolerances import FACING, OVER_FACE, SKEW
@@ -67,7 +69,9 @@ CurveCrossings = Callable[[ShapeInWorld, ShapeInWorld, Array, Array, Array], Cro
 """As :func:`crossings`, of solids with rims."""
 
 
-def crossings(a: ShapeInWorld, b: ShapeInWorld, alpha: Array, beta: Array, n: Array) -> Crossings:
+def crossings(
+    a: ShapeInWorld, b: ShapeInWorld, alpha: Array, beta: Array, n: Array, grain: float = 0.0
+) -> Crossings:
     """All crossings of two solids, in the world frame.
 
     Parameters
@@ -77,10 +81,12 @@ def crossings(a: ShapeInWorld, b: ShapeInWorld, alpha: Array, beta: Array, n: Ar
         Their closest points [m].
     n : ndarray, shape (3,)
         The pair's normal [-].
+    grain : float
+        Of faces that lie on each other; 0 of others [m].
     """
     flat = [polytope(solid.shape) is not None for solid in (a, b)]
     if all(flat):
-        return edge_crossings(edges(a, alpha, n), edges(b, beta, -n), n)
+        return edge_crossings(edges(a, alpha, n, grain), edges(b, beta, -n, grain), n, grain)
     rimmed = [isinstance(solid.shape, Cylinder | Cone) for solid in (a, b)]
     if all(np.logical_or(flat, rimmed)):
         curve_crossings: CurveCrossings = part("curve_crossings")
@@ -88,7 +94,7 @@ def crossings(a: ShapeInWorld, b: ShapeInWorld, alpha: Array, beta: Array, n: Ar
     return Crossings(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0, dtype=np.int64))
 
 
-def edges(body: ShapeInWorld, x: Array, n: Array) -> Edges:
+def edges(body: ShapeInWorld, x: Array, n: Array, grain: float = 0.0) -> Edges:
     """The edges of a polytope, or the line of a capsule, that may bear, in the world frame.
 
     These are the edges of faces that hold its closest point x and have a normal within 0.25 rad of
@@ -101,10 +107,12 @@ def edges(body: ShapeInWorld, x: Array, n: Array) -> Edges:
         [m].
     n : ndarray, shape (3,)
         The pair's normal out of the body [-].
+    grain : float
+        Of faces that lie on each other; 0 of others [m].
     """
     shape = body.shape
     way = body.pose.local_direction(n)
-    flat = polytope(shape)
+    flat = outlines(shape).flat if isinstance(shape, ConvexMesh) else polytope(shape)
     assert flat is not None
     if isinstance(shape, Capsule):
         ends, number = line(shape, shape.radius, way)
@@ -112,7 +120,7 @@ def edges(body: ShapeInWorld, x: Array, n: Array) -> Edges:
     else:
         out = flat.margin * way  # from the core to the surface
         at = body.pose.local(x) - out
-        number = np.flatnonzero(bearing(flat, shape.extent, at, way))
+        number = np.flatnonzero(bearing(flat, shape.extent, at, way, grain))
         ends = flat.vertices[flat.edges[number]] + out
         total = len(flat.edges)
     return Edges(rotated(body.R, ends) + body.t, number, total)
@@ -146,7 +154,9 @@ def line(shape: Revolved, above: float, way: Array) -> tuple[Array, Indices]:
     return ends, np.zeros(1, dtype=np.int64)
 
 
-def bearing(flat: Polytope, extent: float | Array, x: Array, way: Array) -> Mask:
+def bearing(
+    flat: Polytope, extent: float | Array, x: Array, way: Array, grain: float = 0.0
+) -> Mask:
     """Which edges of a box or a convex mesh may bear, shape (E,); of P stacked ones (P, E).
 
     Parameters
@@ -156,20 +166,30 @@ def bearing(flat: Polytope, extent: float | Array, x: Array, way: Array) -> Mask
         Of the shape [m].
     x, way : ndarray, shape (3,) or (P, 3)
         Its closest point [m] and the pair's normal out of it [-], in its frame.
+    grain : float
+        Of faces that lie on each other; 0 of others [m].
     """
     x = x[..., None, :]
     way = way[..., None, :]
-    on = dot(flat.normals, x) >= flat.offsets - OVER_FACE * extent
+    on = dot(flat.normals, x) >= flat.offsets - np.maximum(OVER_FACE * extent, grain)
     facing = on & (dot(flat.normals, way) >= TURNED)
     level = np.abs(dot(flat.ways, way)) <= EDGE_COSINE * norm(flat.ways)
     borne = facing[..., flat.sides].any(axis=-1) | on[..., flat.sides].all(axis=-1) & level
     return np.asarray(borne)
 
 
-def edge_crossings(on_a: Edges, on_b: Edges, n: Array) -> Crossings:
-    """Crossings of straight curves, seen along the pair's normal n, shape (3,) [-]."""
+def edge_crossings(on_a: Edges, on_b: Edges, n: Array, grain: float = 0.0) -> Crossings:
+    """Crossings of straight curves, seen along the pair's normal n, shape (3,) [-].
+
+    Parameters
+    ----------
+    on_a, on_b : Edges
+    n : ndarray, shape (3,)
+    grain : float
+        Of the pair [m].
+    """
     i, j = overlapping(on_a.ends, on_b.ends, n)
-    crossing, alpha, beta = lines_crossed(on_a.ends[i], on_b.ends[j], n)
+    crossing, alpha, beta = lines_crossed(on_a.ends[i], on_b.ends[j], n, grain)
     number = crossing_number(on_a.number[i], on_b.number[j], on_b.total)
     return Crossings(alpha[crossing], beta[crossing], number[crossing])
 
@@ -192,7 +212,9 @@ def overlapping(on_a: Array, on_b: Array, n: Array) -> tuple[Indices, ...]:
     return np.nonzero((np.maximum(low, high) <= gives).all(axis=2))
 
 
-def lines_crossed(on_a: Array, on_b: Array, n: Array) -> tuple[Mask, Array, Array]:
+def lines_crossed(
+    on_a: Array, on_b: Array, n: Array, grain: float = 0.0
+) -> tuple[Mask, Array, Array]:
     """Whether lines with ends (N, 2, 3) cross, and where on either: of shape (N, 3) [m].
 
     Parameters
@@ -201,6 +223,8 @@ def lines_crossed(on_a: Array, on_b: Array, n: Array) -> tuple[Mask, Array, Arra
         [m].
     n : ndarray, shape (3,) or (N, 3)
         Along which they are seen [-].
+    grain : float
+        Of faces that lie on each other; 0 of others [m].
     """
     tail = on_a[:, 0]
     start = on_b[:, 0]
@@ -214,6 +238,10 @@ def lines_crossed(on_a: Array, on_b: Array, n: Array) -> tuple[Mask, Array, Arra
     s = dot(crossed(w, v), n) / steep
     t = dot(crossed(w, u), n) / steep
     crossing &= (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
+    if grain:  # each goes on by more than a grain on either side of the other
+        beyond_v = np.minimum(s, 1 - s) * np.abs(steep) / norm(v)
+        beyond_u = np.minimum(t, 1 - t) * np.abs(steep) / norm(u)
+        crossing &= np.minimum(beyond_u, beyond_v) > grain
     return crossing, tail + s[:, None] * u, start + t[:, None] * v
 
 

@@ -24,13 +24,13 @@ Two solids:
   and bear nothing.
 """
 
-from collections.abc import Sequence
 from dataclasses import replace
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.contact.corners import least_distances
+from quasistatic_ref.contact.closest_points import ClosestPoints, joined_contacts
+from quasistatic_ref.contact.corners import least_distances, towards
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.normals import (
     BISECTOR,
@@ -43,19 +43,21 @@ from quasistatic_ref.contact.normals import (
     pair_normal,
     rounding,
 )
+from quasistatic_ref.contact.outlines import NO_LIE, Lie, bearing_corners, lie
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.ranks import closest, near_points, rounded_gaps
 from quasistatic_ref.contact.shape_in_world import (
     Pose,
     ShapeInWorld,
+    Witness,
+    Witnesses,
     on_plane,
     poses_in_world,
 )
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud
-from quasistatic_ref.text.quoting import counted
-from quasistatic_ref.tolerances import FILLED, ON_RIM, OVER_FACE, REPEATED, SAME_NORMAL, UPRIGHT
+from quasistatic_ref.tolerances import FILLED, OVER_FACE, REPEATED, SAME_NORMAL
 
 SPANNED: Final = 1e-6
 """How far out of the convex hull of other contacts a closest pair may be, relative to the smaller
@@ -71,62 +73,6 @@ FEW_POINTS = 50
 
 WEIGHTS: Final = np.cos(np.arange(7))
 """Of a candidate's distance, place and normal, in a sum that few have in common by symmetry [-]."""
-
-
-class ClosestPoints(NamedTuple):
-    """Contacts, in the world frame.
-
-    Parameters
-    ----------
-    phi : ndarray, shape (n_c,)
-        Signed distance [m].
-    alpha, beta : ndarray, shape (n_c, 3)
-        Closest points on alpha's body and on beta's [m]; beta - alpha = phi n.
-    n : ndarray, shape (n_c, 3)
-        Unit normal from alpha's body to beta's, also in penetration.
-    point : ndarray of int, shape (n_c,)
-        Index of the cloud's point; for two solids the number of the candidate, or 0 if only
-        one is kept; contacts that fill the number follow the closest pair's.
-    tie : ndarray of int, shape (n_c,)
-        How the normal was chosen, as :mod:`~quasistatic_ref.contact.normals` counts it.
-
-    Examples
-    --------
-    >>> scenario = qr.load_scenario("sphere_spin")
-    >>> result = scenario.simulator().step(scenario.system.q_start)
-    >>> points: qr.ClosestPoints = result.points
-    >>> points
-    <ClosestPoints of 1 contact, phi from 0 m>
-    """
-
-    phi: Array
-    alpha: Array
-    beta: Array
-    n: Array
-    point: Indices
-    tie: Indices
-
-    def __repr__(self) -> str:
-        nearest = f", phi from {self.phi.min():.3g} m" if self.phi.size else ""
-        return f"<{type(self).__name__} of {counted(self.phi.size, 'contact')}{nearest}>"
-
-    def swapped(self) -> "ClosestPoints":
-        """The same contacts with alpha's and beta's bodies exchanged."""
-        return self._replace(alpha=self.beta, beta=self.alpha, n=-self.n)
-
-    def chosen(self, index: Indices | Mask | tuple[Indices, ...]) -> "ClosestPoints":
-        """The contacts of an `index`, in its order and shape."""
-        return ClosestPoints._make(field[index] for field in self)
-
-
-def joined_contacts(lists: Sequence[ClosestPoints]) -> ClosestPoints:
-    """Several lists of contacts as one, in which zero is 0.0, never -0.0."""
-    if not lists:
-        empty = np.zeros((0, 3))
-        none = np.zeros(0, dtype=np.int64)
-        return ClosestPoints(np.zeros(0), empty, empty, empty, none, none)
-    every = ClosestPoints(*map(np.concatenate, zip(*lists, strict=True)))
-    return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
 
 
 def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
@@ -167,19 +113,39 @@ def _solid_on_solid(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> Clos
     nearest = nearest_of_solids(pair, a, b)
     if pair.n_c == 1:
         return nearest
-    candidates, rank = ranked_candidates(pair, a, b, nearest)
-    order = closest(rounded_gaps(rank, pair.resolution), pair.k)
+    candidates, rank, grain = ranked_candidates(pair, a, b, nearest)
+    order = closest(rounded_gaps(rank, max(pair.resolution, grain)), pair.k)
     kept = candidates.chosen(order)
-    beyond = np.maximum(FILLED, 2 * nearest.phi)
-    far = nearest._replace(phi=beyond, tie=np.array([UNIQUE_NORMAL]))
     missing = np.arange(pair.n_c - len(order))
-    filling = far.chosen(0 * missing)._replace(point=pair.corners + 1 + missing)
-    return joined_contacts([kept, filling])
+    copies = filling(Witnesses(*nearest[:4]), pair.corners + 1 + missing)
+    return joined_contacts([kept, copies.chosen((np.array(0), missing))])
+
+
+def closest_alone(nearest: Witnesses, number: int) -> ClosestPoints:
+    """P closest pairs as contacts of a `number`, with fields of shape (P, 1, ...)."""
+    numbers = np.full(len(nearest.phi), number)
+    points = ClosestPoints(*nearest, numbers, np.full_like(numbers, UNIQUE_NORMAL))
+    return ClosestPoints._make(field[:, None] for field in points)
+
+
+def filling(nearest: Witnesses, number: Indices) -> ClosestPoints:
+    """Copies of P closest pairs, farther than these, that fill up contacts: shape (P, N).
+
+    Parameters
+    ----------
+    nearest : Witnesses
+    number : ndarray of int, shape (N,) or (P, N)
+        Their numbers.
+    """
+    far = nearest._replace(phi=np.maximum(FILLED, 2 * nearest.phi))
+    pair = np.arange(len(far.phi))[:, None]
+    copies = closest_alone(far, 0).chosen((pair, 0 * number + 0 * pair))
+    return copies._replace(point=np.broadcast_to(number, copies.point.shape))
 
 
 def ranked_candidates(
     pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints
-) -> tuple[ClosestPoints, Array]:
+) -> tuple[ClosestPoints, Array, float]:
     """Candidates of two solids among which are the k that rank first, in order.
 
     Returns
@@ -187,11 +153,15 @@ def ranked_candidates(
     candidates : ClosestPoints
     rank : ndarray, shape (N,)
         Their distances, infinite of those that repeat an earlier one [m].
+    grain : float
+        Of faces that lie on each other; 0 of others [m].
     """
     n = nearest.n[0]
-    of_a = Corners(b, a, nearest.alpha[0], -n)
-    of_b = Corners(a, b, nearest.beta[0], n)
-    crossing = _crossings(pair, a, b, nearest)
+    faces = lie(pair.grain, a, b, Witness(nearest.phi[0], nearest.alpha[0], nearest.beta[0], n))
+    grain = faces.grain
+    of_a = Corners(b, a, nearest.alpha[0], -n, faces)
+    of_b = Corners(a, b, nearest.beta[0], n, faces)
+    crossing = _crossings(pair, a, b, nearest, grain)
     split = len(of_a.least)
     least = np.concatenate([of_a.least, of_b.least])
     order = least.argsort()[: np.count_nonzero(least < np.inf)]
@@ -201,17 +171,17 @@ def ranked_candidates(
         on_b = of_a.contacts(some[some < split]).swapped()
         on_a = of_b.contacts(some[some >= split] - split)
         on_a = on_a._replace(point=split + on_a.point)
-        candidates = _candidates(pair, nearest, on_b, on_a, crossing)
-        repeats = repeated(candidates, np.zeros_like(candidates.point))
+        candidates = _candidates(pair, nearest, on_b, on_a, crossing, grain)
+        repeats = repeated(candidates, np.zeros_like(candidates.point), grain)
         rank = np.where(repeats, np.inf, candidates.phi)
-        limit = _limit(rank[candidates.point != pair.corners], pair, nearest)
+        limit = _limit(rank[candidates.point != pair.corners], pair, nearest, grain)
         needed = int(np.count_nonzero(least[order] <= limit))
         if needed <= count:
-            return candidates, rank
+            return candidates, rank, grain
         count = needed if limit < np.inf else START * count
 
 
-def _limit(rank: Array, pair: ContactPair, nearest: ClosestPoints) -> float:
+def _limit(rank: Array, pair: ContactPair, nearest: ClosestPoints, grain: float) -> float:
     """The distance beyond which no other candidate counts [m], given the ranks of some.
 
     One beyond it neither ranks before the k-th of these, nor is repeated by it, nor spans the
@@ -220,7 +190,7 @@ def _limit(rank: Array, pair: ContactPair, nearest: ClosestPoints) -> float:
     if pair.k > len(rank):
         return np.inf
     kth = np.partition(rank, pair.k - 1)[pair.k - 1]
-    return float(max(kth, nearest.phi[0]) + 2 * pair.resolution + REPEATED)
+    return float(max(kth, nearest.phi[0]) + 2 * max(pair.resolution, grain) + max(REPEATED, grain))
 
 
 def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
@@ -239,18 +209,19 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
     if isinstance(b.shape, PointCloud):
         a, b = b, a
     if isinstance(a.shape, PointCloud):
+        grain = 0.0
         phi, _ = b.shape.signed_distance(b.pose.of(a.pose).points(a.shape.points))
     else:
         if _places(a, b) >= FAR_PLACES * pair.size:
             a, b, _ = _from_near(a, b)
         pair = replace(pair, k=pair.candidates)
-        _, phi = ranked_candidates(pair, a, b, nearest_of_solids(pair, a, b))
-    return int(np.count_nonzero(phi <= phi.min() + within + pair.resolution))
+        _, phi, grain = ranked_candidates(pair, a, b, nearest_of_solids(pair, a, b))
+    return int(np.count_nonzero(phi <= phi.min() + within + max(pair.resolution, grain)))
 
 
 def nearest_of_solids(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> ClosestPoints:
     """The closest pair of two solids, numbered after the corners if several contacts are kept."""
-    nearest, tie = pair_normal(pair.name, a, b)
+    nearest, tie = pair_normal(pair.name, a, b, pair.n_c < pair.candidates)
     return ClosestPoints(
         phi=np.array([nearest.phi]),
         alpha=nearest.alpha[None],
@@ -267,6 +238,7 @@ def _candidates(
     on_b: ClosestPoints,
     on_a: ClosestPoints,
     crossing: ClosestPoints,
+    grain: float,
 ) -> ClosestPoints:
     """All candidates: alpha's corners on beta, beta's on alpha, the closest pair, crossings.
 
@@ -275,7 +247,7 @@ def _candidates(
     """
     n = nearest.n[0]
     others = joined_contacts([on_b, on_a, crossing])
-    alone = [] if spanned(nearest, others, pair) else [nearest]
+    alone = [] if spanned(nearest, others, pair, grain) else [nearest]
     every = joined_contacts([on_b, on_a, *alone, crossing])
     if nearest.tie[0] == BISECTOR:
         alike = np.abs(every.n - n).max(axis=1) <= SAME_NORMAL
@@ -283,7 +255,7 @@ def _candidates(
     return every.chosen(np.flatnonzero(dot(every.n, n) >= TURNED))
 
 
-def spanned(nearest: ClosestPoints, others: ClosestPoints, pair: ContactPair) -> bool:
+def spanned(nearest: ClosestPoints, others: ClosestPoints, pair: ContactPair, grain: float) -> bool:
     """Whether a closest pair is in the convex hull of others that are as near and have its normal.
 
     Contacts of one normal have rows that are affine in their places and distances, so that the rows
@@ -300,9 +272,11 @@ def spanned(nearest: ClosestPoints, others: ClosestPoints, pair: ContactPair) ->
     others : ClosestPoints
         The other candidates.
     pair : ContactPair
+    grain : float
+        Of faces that lie on each other; 0 of others [m].
     """
     n = nearest.n[0]
-    level = others.phi <= nearest.phi + pair.resolution
+    level = others.phi <= nearest.phi + max(pair.resolution, grain)
     level &= np.abs(others.n - n).max(axis=1) <= SAME_NORMAL
     away = others.alpha[level] - nearest.alpha
     if not len(away):
@@ -317,7 +291,7 @@ def spanned(nearest: ClosestPoints, others: ClosestPoints, pair: ContactPair) ->
     length = norm(ways)
     ways = ways / np.where(length > 0, length, 1.0)[:, None]
     apart = product(ways, away.T).min(axis=1).max()
-    return bool(apart <= SPANNED * pair.size)
+    return bool(apart <= max(SPANNED * pair.size, grain))
 
 
 def _outline(points: Array, n: Array) -> Indices:
@@ -329,11 +303,11 @@ def _outline(points: Array, n: Array) -> Indices:
 
 
 def _crossings(
-    pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints
+    pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints, grain: float
 ) -> ClosestPoints:
     """Crossings of edges, with the pair's normal, numbered after contacts that fill the number."""
     n = nearest.n[0]
-    crossed = crossings(a, b, nearest.alpha[0], nearest.beta[0], n)
+    crossed = crossings(a, b, nearest.alpha[0], nearest.beta[0], n, grain)
     count = len(crossed.number)
     if not count:
         return joined_contacts([])
@@ -347,31 +321,26 @@ def _crossings(
     )
 
 
-def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
-    """A direction from this body to the other, in this body's frame, (3,), of any length.
-
-    Where the closest point is on a rim, the point itself gives this direction more accurately than
-    the normal does: near contact the normal is computed from a difference that cancels.
-    """
-    local = body.pose.local(nearest)
-    way = body.pose.local_direction(n)
-    radius = body.shape.rim_radius
-    if radius is None:
-        return way
-    on_rim = norm(local[:2]) >= (1 - ON_RIM) * radius
-    return local if on_rim and norm(way[:2]) > UPRIGHT else way
-
-
-def repeated(candidates: ClosestPoints, pair: Indices) -> Mask:
+def repeated(candidates: ClosestPoints, pair: Indices, grain: float = 0.0) -> Mask:
     """Mask of candidates, shape (N,), that repeat an earlier one of their `pair`, (N,).
 
     Those that are alike in all entries are near to each other in a weighted sum of these as well,
     so that only neighbours in its order are compared: next ones, next but one and so on.
+
+    Parameters
+    ----------
+    candidates : ClosestPoints
+    pair : ndarray of int, shape (N,)
+    grain : float
+        Of the pair's meshes: places within it are one [m].
     """
-    every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
+    gives = max(REPEATED, grain)
+    every = np.column_stack(
+        [candidates.phi, candidates.alpha, candidates.n * (gives / SAME_NORMAL)]
+    )
     total = (every * WEIGHTS).sum(axis=1)
     order = np.lexsort((total, pair))
-    near = 2 * len(WEIGHTS) * REPEATED  # twice, for what the sums round
+    near = 2 * len(WEIGHTS) * gives  # twice, for what the sums round
     repeats = np.zeros(len(total), dtype=bool)
     for shift in range(1, len(total)):
         a = order[:-shift]
@@ -381,7 +350,7 @@ def repeated(candidates: ClosestPoints, pair: Indices) -> Mask:
             break
         a = a[close]
         b = b[close]
-        same = np.abs(every[a] - every[b]).max(axis=1) <= REPEATED
+        same = np.abs(every[a] - every[b]).max(axis=1) <= gives
         repeats[np.maximum(a, b)[same]] = True
     return repeats
 
@@ -408,6 +377,8 @@ class Corners:
         The closest point of the other [m].
     n : ndarray, shape (3,)
         The pair's normal out of the solid [-].
+    faces : Lie
+        How faces of both lie on each other.
 
     Attributes
     ----------
@@ -415,16 +386,25 @@ class Corners:
         Lower bounds of their distances as candidates, infinite of those that are none [m].
     """
 
-    def __init__(self, solid: ShapeInWorld, other: ShapeInWorld, nearest: Array, n: Array) -> None:
-        self._points, self._radius = other.shape.corners(_towards(other, nearest, -n))
+    def __init__(
+        self,
+        solid: ShapeInWorld,
+        other: ShapeInWorld,
+        nearest: Array,
+        n: Array,
+        faces: Lie = NO_LIE,
+    ) -> None:
+        self._points, self._radius = other.shape.corners(towards(other, nearest, -n))
         self._solid = solid
         self._other = other
         self._x = solid.pose.of(other.pose).points(self._points)
         self._way = solid.pose.local_direction(n)
         self._within = rounding(solid, other)
-        self._near = OVER_FACE * solid.shape.extent + self._within
+        self._near = max(OVER_FACE * solid.shape.extent + self._within, faces.grain)
+        self._tilt = faces.tilt
         least = least_distances(solid.shape, self._x, self._way, self._near)
         self.least = least - self._radius
+        self.least[~bearing_corners(other.shape)] = np.inf
 
     def contacts(self, some: Indices) -> ClosestPoints:
         """Closest points of the corners of some numbers, the solid being alpha's."""
@@ -432,6 +412,10 @@ class Corners:
             return joined_contacts([])
         x = self._x[some]
         surface = corner_surface(self._solid.shape, x, self._way, self._within, self._near)
+        if self._tilt > SAME_NORMAL:
+            phi, normal, tie = surface
+            on_face = np.abs(normal - self._way).max(axis=1) <= self._tilt
+            surface = phi, np.where(on_face[:, None], self._way, normal), tie
         poses = self._solid.pose, self._other.pose
         return contacts_over(*poses, self._points[some], self._radius, surface, some)
 

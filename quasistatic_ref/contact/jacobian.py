@@ -5,13 +5,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.column_map import JacobianColumns
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.numbers.arrays import Array, Indices, Scalar, read_only
-from quasistatic_ref.numbers.compiled import compiled
-from quasistatic_ref.numbers.ordered import YZX, ZXY, crossed, dot
+from quasistatic_ref.numbers.ordered import crossed, dot
 from quasistatic_ref.step.contacts import Contacts, friction_coefficients
 
 AXES = np.eye(3)
@@ -99,29 +98,52 @@ class ContactGeometry:
         kinematics : Kinematics
             At the same configuration.
         """
-        layout = self.layout
         d1, d2, own = self.frames(kinematics.columns, points.alpha, points.beta, points.n)
+        phi = points.phi + 0.0  # zero is 0.0, never -0.0
+        n = points.n + 0.0
+        for array in (phi, n, d1, d2, own):
+            read_only(array)
+        return self.contacts_of(points.point, phi, n, d1, d2, own)
+
+    def contacts_of(
+        self,
+        point: Indices,
+        phi: Array,
+        n: Array,
+        d1: Array,
+        d2: Array,
+        own: Array,
+        pyramid: tuple[Array, Array] | None = None,
+    ) -> Contacts:
+        """The contacts of numbered points, (n_c,), from arrays that are theirs.
+
+        Their rows in the `pyramid` may be known. Shapes, phi (n_c,), n, d1 and d2 (n_c, 3), own
+        (n_c, 4, w), and units [m, -, m and rad] are those of
+        :class:`~quasistatic_ref.step.contacts.Contacts`.
+        """
+        layout = self.layout
         return Contacts.unchecked(
-            name=layout.contact_names(points.point),
-            phi=read_only(points.phi + 0.0),  # zero is 0.0, never -0.0
-            n=read_only(points.n + 0.0),
-            d1=read_only(d1),
-            d2=read_only(d2),
-            own=read_only(own),
+            name=layout.contact_names(point),
+            phi=phi,
+            n=n,
+            d1=d1,
+            d2=d2,
+            own=own,
+            pyramid=pyramid,
             column=self.column,
             n_v=self.n_v,
             mu_v=layout.mu_v,
             mu_omega=layout.mu_omega,
             rows=layout.rows,
-            mu=self._mu,
+            mu=self.mu,
         )
 
     @cached_property
-    def _mu(self) -> Array:
+    def mu(self) -> Array:
+        """Coefficients of friction, shape (n_c, 3), as of :class:`.Contacts` [-, -, m]."""
         layout = self.layout
         return friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
 
-    @compiled
     def frames(
         self, columns: Array, alpha: Array, beta: Array, n: Array
     ) -> tuple[Array, Array, Array]:
@@ -201,12 +223,8 @@ def columns_at(columns: Array, r: Array, n: Array) -> Array:
     nu_origin = columns[..., :3, :]
     omega = columns[..., 3:, :]
     J = np.empty((*r.shape[:-1], 4, columns.shape[-1]))
-    r_yzx = r.take(YZX, axis=-1)[..., None]
-    r_zxy = r.take(ZXY, axis=-1)[..., None]
-    turning = omega.take(YZX, axis=-2) * r_zxy - omega.take(ZXY, axis=-2) * r_yzx
-    np.add(nu_origin, turning, out=J[..., :3, :])
-    along = n[..., None] * omega
-    J[..., 3, :] = along[..., 0, :] + along[..., 1, :] + along[..., 2, :]
+    J[..., :3, :] = nu_origin + crossed(omega, r[..., None], axis=-2)  # Eq. (2)
+    J[..., 3, :] = dot(n[..., None, :], omega.swapaxes(-1, -2))
     return J
 
 

@@ -13,6 +13,7 @@ from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.contact.outlines import grain, outlines
 from quasistatic_ref.contact.shape_in_world import Pose, ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.errors import ContactError
@@ -20,7 +21,8 @@ from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
 from quasistatic_ref.numbers.ordered import dot, norm, product, total
 from quasistatic_ref.parts import part
-from quasistatic_ref.shapes.placed_shape import Capsule, HalfSpace, PointCloud, Shape, Sphere
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud, Shape, Sphere
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import CHUNK
 from quasistatic_ref.tolerances import FACING, SAME_NORMAL
@@ -33,6 +35,12 @@ another stays where it is to about that."""
 TOUCHING_FACES: Final = 1e-9
 """Depth relative to the same at which bodies that are as deep along two normals touch [-]: with one
 between them. Deeper, the push-out along it would part them along neither."""
+
+NEARLY_PARALLEL: Final = 40.0
+"""Angle [rad] up to which tied normals have a mean however deep bodies are, over the square root of
+what is rounding, relative to the smaller one's size: 4e-5 where all sizes are alike. A push-out
+along that parts them along each. Gaps of equal bodies, turned by t, differ by some t^2 / 2 of their
+size: they are tied where that is rounding."""
 
 FAR_PLACES: Final = 1e3
 """Places relative to a solid's size [-] up to which their rounding, 1e-16 of them, is far below the
@@ -70,7 +78,9 @@ def rounding(solid: ShapeInWorld, other: ShapeInWorld) -> float:
     return TIED_FACES * max([places, *(x for x in extents if np.isfinite(x))])
 
 
-def pair_normal(name: str, a: ShapeInWorld, b: ShapeInWorld) -> tuple[Witness, int]:
+def pair_normal(
+    name: str, a: ShapeInWorld, b: ShapeInWorld, may_raise_k: bool = True
+) -> tuple[Witness, int]:
     """Closest points of two solids with the normal by the rule, and how the rule chose it.
 
     Parameters
@@ -78,6 +88,8 @@ def pair_normal(name: str, a: ShapeInWorld, b: ShapeInWorld) -> tuple[Witness, i
     name : str
         Of the pair, for messages.
     a, b : ShapeInWorld
+    may_raise_k : bool
+        Whether the pair has more candidates than contacts.
 
     Raises
     ------
@@ -89,7 +101,9 @@ def pair_normal(name: str, a: ShapeInWorld, b: ShapeInWorld) -> tuple[Witness, i
     normals = tied_normals(a, b, nearest, within, every)
     if len(normals) == 1:
         return nearest, UNIQUE_NORMAL
-    refuse_unless_touching(name, nearest.phi, normals, within)
+    size = min(a.shape.extent, b.shape.extent)
+    of_pair = size, grain(a.shape, b.shape), may_raise_k
+    refuse_unless_touching(name, nearest.phi, normals, within, *of_pair)
     n = mean_direction(normals)
     phi = float(gaps(a._replace(t=a.t - b.t), b._replace(t=0 * b.t), n[None])[0])
     return Witness(phi, nearest.alpha, nearest.alpha + phi * n, n), BISECTOR
@@ -121,10 +135,6 @@ def tied_normals(
         return normal
     if any(isinstance(shape, Sphere) for shape in shapes):
         gaps_along, normals = _of_centre(a, b, nearest)
-    elif all(isinstance(shape, Capsule) for shape in shapes):
-        radii = sum(shape.radius for shape in shapes if isinstance(shape, Capsule))
-        gaps_along = np.array([-nearest.phi - 2 * radii])
-        normals = -normal
     else:
         if every is None:
             # Gaps along what may be normals, and these.
@@ -165,7 +175,15 @@ def mean_direction(normals: Array) -> Array:
     return np.asarray(mean / norm(mean))
 
 
-def refuse_unless_touching(name: str, phi: float, normals: Array, within: float) -> None:
+def refuse_unless_touching(
+    name: str,
+    phi: float,
+    normals: Array,
+    within: float,
+    size: float,
+    grain: float,
+    may_raise_k: bool,
+) -> None:
     """Refuse bodies that are as deep in each other along several normals, or along opposite ones.
 
     Parameters
@@ -177,25 +195,35 @@ def refuse_unless_touching(name: str, phi: float, normals: Array, within: float)
         In the world frame [-].
     within : float
         What is rounding, TIED_FACES of the sizes and places [m].
+    size, grain : float
+        Of the smaller body and of the pair [m].
+    may_raise_k : bool
+        Whether the pair has more candidates than contacts.
 
     Raises
     ------
     ContactError
-        If phi is not about zero, or the normals have no mean: a body is thinner than rounding.
+        If phi is not about zero and the normals are not nearly parallel, or if they have no mean: a
+        body is thinner than rounding.
     """
+    apart = norm(normals[:, None] - normals).max()
+    if apart < min(NEARLY_PARALLEL * np.sqrt(within / size), FACING):
+        return
     mean = total(normals)
     opposite = dot(mean, mean) < SAME_NORMAL
-    if opposite or phi < -TOUCHING_FACES / TIED_FACES * within:
+    if opposite or phi < -max(TOUCHING_FACES / TIED_FACES * within, grain):
         one, other = (
             np.array2string(normal + 0.0, precision=4, separator=", ") for normal in normals[:2]
         )
         remedy = "start them apart, or less deep along one of the two"
         if dot(normals[0], normals[1]) >= np.cos(FACING):
+            remedy = "start them apart"
             table = f"contacts.{name.partition('(')[0]}"
-            remedy = (
-                f"raise k of {table}: a face that lies on another turns into it where fewer "
-                "contacts are kept than it has corners"
-            )
+            if may_raise_k:
+                remedy = (
+                    f"raise k of {table}: a face that lies on another turns into it where fewer "
+                    f"contacts are kept than it has corners; at the start, {remedy}"
+                )
         raise ContactError(
             f"the bodies are as deep in each other along {one} as along {other}, {-phi:.3g} m: "
             f"the normal is not defined; {remedy}",
@@ -279,6 +307,8 @@ def _facing(
 ) -> tuple[Indices, Array, Array]:
     """Numbers of points over a face that faces n, and their heights and normals there."""
     heights, normals = shape.faces(x)
+    if isinstance(shape, ConvexMesh):
+        normals = np.broadcast_to(outlines(shape).normals, normals.shape)
     if not heights.size:
         return np.zeros(0, dtype=np.int64), np.zeros(0), np.zeros((0, 3))
     heights = np.where(dot(normals, n[:, None]) >= TURNED, heights, -np.inf)
@@ -344,16 +374,24 @@ def cloud_surface(
         return phi, normal, tie
     normal = normal.copy()
     decided: dict[bytes, tuple[Array, int]] = {}
+    assert isinstance(cloud.shape, PointCloud)
+    more = len(x) < len(cloud.shape.points)
     for i in undecided.tolist():
         ways = distinct([normals[i, highest[i]], *normals[i, rivals[i]]])
         if ways.tobytes() not in decided:
-            decided[ways.tobytes()] = _of_cloud(name, solid, cloud, relative, ways, within)
+            decided[ways.tobytes()] = _of_cloud(name, solid, cloud, relative, ways, within, more)
         normal[near[i]], tie[near[i]] = decided[ways.tobytes()]
     return phi, normal, tie
 
 
 def _of_cloud(
-    name: str, solid: ShapeInWorld, cloud: ShapeInWorld, relative: Pose, ways: Array, within: float
+    name: str,
+    solid: ShapeInWorld,
+    cloud: ShapeInWorld,
+    relative: Pose,
+    ways: Array,
+    within: float,
+    may_raise_k: bool,
 ) -> tuple[Array, int]:
     """The one of several normals along which a cloud is farthest out."""
     assert isinstance(cloud.shape, PointCloud)
@@ -362,5 +400,6 @@ def _of_cloud(
     level = out >= out.max() - within
     if np.count_nonzero(level) == 1:
         return ways[level][0], OF_CLOUD
-    refuse_unless_touching(name, out.max(), product(ways[level], solid.R.T), within)
+    normals = product(ways[level], solid.R.T)
+    refuse_unless_touching(name, out.max(), normals, within, solid.shape.extent, 0.0, may_raise_k)
     return mean_direction(ways[level]), BISECTOR

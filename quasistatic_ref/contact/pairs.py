@@ -11,12 +11,13 @@ from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.contact.outlines import grain
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.numbers.arrays import Array, Indices, checked_array
+from quasistatic_ref.quoting import clipped
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.quoting import clipped
 
 RANKED: Final = 1e-9
 """Fraction of the size of a pair's smaller shape to whose nearest multiple distances are rounded
@@ -136,6 +137,11 @@ class ContactPair(Plain):
     def resolution(self) -> float:
         """Length [m] to whose multiples distances are rounded before they are ranked."""
         return RANKED * self.size
+
+    @cached_property
+    def grain(self) -> float:
+        """How far corners of one face may be off its plane, or parted [m]; 0 without a mesh."""
+        return grain(self.alpha.shape, self.beta.shape)
 
     @cached_property
     def corners(self) -> int:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.numbers.arrays import Array, Indices, read_only
+from quasistatic_ref.numbers.arrays import Array, Indices, checked_numbers, read_only
 from quasistatic_ref.shapes.frozen import freeze_array
 from quasistatic_ref.shapes.shape import Shape, dimensions
 
@@ -58,7 +58,7 @@ class PointCloud(Shape):
         def __init__(self, points: ArrayLike) -> None: ...
 
     def __post_init__(self) -> None:
-        points = np.asarray(self.points)
+        points = checked_numbers(self.points, "points", ModelError)
         if points.ndim != 2 or points.shape[0] < 1:
             problem = "must contain at least one point, as an array of shape (N, 3)"
             raise ModelError(problem, field="points", value=points.shape)

@@ -4,7 +4,8 @@ import numpy as np
 
 from quasistatic_ref import ContactError, ContactPair, PlacedShape
 from quasistatic_ref.contact.all_pairs import closest_points
-from quasistatic_ref.contact.distance import joined_contacts, pair_closest_points
+from quasistatic_ref.contact.closest_points import joined_contacts
+from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.model.system import Kinematics

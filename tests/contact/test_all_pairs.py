@@ -4,6 +4,7 @@
 """
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -166,3 +167,22 @@ def test_pairs_at_once_are_those_one_by_one(first, count):
         sound = [one for one, each in zip(pairs, every, strict=True) if not isinstance(each, str)]
         written = AllPairs(sound).closest_points(links)
         assert bits(written) == bits(one_by_one(sound, links)), seed
+
+
+def test_rounded_solids_in_any_pose_are_searched_at_once(monkeypatch):
+    """No pair of boxes, capsules, spheres and half-spaces singly, with few contacts or many."""
+    rng = np.random.default_rng(0)
+    names = ["half-space", "box", "capsule", "sphere"]
+    kinds = [*itertools.product(names, names)][1:]
+    monkeypatch.setattr(all_pairs, "pair_closest_points", None)
+    for k in (1, 2, 4, 12):
+        sides = [[placed_shape(SOLIDS[name](rng), 0) for name in kind] for kind in kinds]
+        pairs = [
+            pair(*(replace(side, link=2 * i + j + 1) for j, side in enumerate(both)), k)
+            for i, both in enumerate(sides)
+        ]
+        poses = [
+            (Rotation.random(rng=rng).as_matrix(), np.array([0.0, 0.0, 0.1 * (i % 2)]))
+            for i in range(2 * len(pairs))
+        ]
+        assert len(AllPairs(pairs).closest_points(standing_links(*poses)).phi)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Box, ClosestPoints, ContactError, Sphere
-from quasistatic_ref.contact.distance import joined_contacts
+from quasistatic_ref.contact.closest_points import joined_contacts
 from quasistatic_ref.tolerances import FILLED
 from tests.contact.still import found_for, placed_shape, standing_links
 from tests.tolerances import EXACT

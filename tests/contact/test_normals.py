@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, Capsule, ContactError, Sphere
-from quasistatic_ref.contact.normals import BISECTOR, UNIQUE_NORMAL, pair_normal, rounding
+from quasistatic_ref import Box, Capsule, ContactError, Sphere, convex_hull
+from quasistatic_ref.contact.normals import BISECTOR, UNIQUE_NORMAL, gaps, pair_normal, rounding
 from tests.closeness import assert_within
 from tests.contact.still import in_world as at
 from tests.tolerances import CLOSED_FORM
@@ -46,12 +46,40 @@ def test_solids_as_deep_along_several_normals_are_refused(a, b):
     assert "-0." not in str(refusal.value)
 
 
-@pytest.mark.parametrize("turn", [1e-5, 1e-4, 0.1])
-def test_faces_that_turn_into_each_other_want_more_contacts(turn):
-    """Two cubes are turned by as much, one to the right and one to the left."""
+def turned_apart(turn, solid=CUBE, away=0.0):
+    """Two solids, one over the other, turned by as much: one to the right and one to the left."""
     right, left = (Rotation.from_rotvec(angle * Y).as_matrix() for angle in (turn, -turn))
+    place = away * X
+    return at(solid, place, R=right), at(solid, place + 1.99 * Z, left)
+
+
+@pytest.mark.parametrize("turn", [1e-4, 0.1])
+def test_faces_that_turn_into_each_other_want_more_contacts(turn):
     with pytest.raises(ContactError, match=r"not defined; raise k of contacts.grip: a face that"):
-        pair_normal("grip(a, b)", at(CUBE, R=right), at(CUBE, 1.99 * Z, left))
+        pair_normal("grip(a, b)", *turned_apart(turn))
+    with pytest.raises(ContactError, match=r"not defined; start them apart$"):
+        pair_normal("grip(a, b)", *turned_apart(turn), may_raise_k=False)
+
+
+@pytest.mark.parametrize(
+    ("turn", "solid", "away"),
+    [
+        (1e-6, CUBE, 0.0),
+        (1.9e-5, CUBE, 0.0),
+        (1.9e-5, convex_hull(CUBE.corners(Z)[0]), 0.0),
+        (1e-4, CUBE, 100.0),  # there gaps are right to ten times less
+    ],
+)
+def test_faces_that_are_nearly_parallel_have_the_mean_of_their_normals(turn, solid, away):
+    """Along z each reaches cos t + sin t from its middle, and the middles are 1.99 apart."""
+    a, b = turned_apart(turn, solid, away)
+    nearest, tie = pair_normal("p", a, b)
+    assert tie == BISECTOR
+    assert_within(nearest.n, Z, CLOSED_FORM)
+    assert abs(nearest.phi - (1.99 - 2 * (np.cos(turn) + np.sin(turn)))) <= rounding(a, b)
+    pushed_out = b._replace(t=b.t - nearest.phi * nearest.n)
+    normals = np.array([a.R @ Z, b.R @ Z])
+    assert gaps(a, pushed_out, normals).min() >= -rounding(a, b)
 
 
 @pytest.mark.parametrize("shape", [CAPSULE, Sphere(0.25)])

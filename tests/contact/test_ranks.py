@@ -20,7 +20,7 @@ from quasistatic_ref import (
 from quasistatic_ref.contact.distance import repeated
 from quasistatic_ref.contact.normals import OF_CLOUD
 from quasistatic_ref.contact.pairs import RANKED
-from quasistatic_ref.tolerances import REPEATED
+from quasistatic_ref.tolerances import REPEATED, SAME_NORMAL
 from tests.closeness import assert_within
 from tests.contact.still import found_for, pair, placed_shape, standing_links
 
@@ -105,11 +105,12 @@ def test_candidates_that_repeat_an_earlier_one_are_those_that_every_two_tell():
     for _ in range(200):
         count = int(rng.integers(2, 30))
         few = rng.normal(size=(count, 7))[rng.integers(0, 1 + count // 2, count)]
-        few += REPEATED * rng.choice([-3, -1, -0.5, 0, 0.5, 1, 3], size=few.shape)
+        gives = np.repeat([REPEATED, SAME_NORMAL], [4, 3])
+        few += gives * rng.choice([-3, -1, -0.5, 0, 0.5, 1, 3], size=few.shape)
         none = np.zeros(count, dtype=np.int64)
         every = ClosestPoints(few[:, 0], few[:, 1:4], few[:, 1:4], few[:, 4:], none, none)
         of = rng.integers(0, rng.integers(1, 4), count)
-        same = (np.abs(few[:, None] - few).max(axis=2) <= REPEATED) & (of[:, None] == of)
+        same = (np.abs(few[:, None] - few) <= gives).all(axis=2) & (of[:, None] == of)
         assert repeated(every, of).tolist() == np.tril(same, -1).any(axis=1).tolist()
 
 

@@ -9,10 +9,10 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.active_set import Combination
 from quasistatic_ref.certify.degeneracy import form_degeneracy
-from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.optimum import form_optimum
+from quasistatic_ref.exact.active_set import Combination
+from quasistatic_ref.exact.minimiser import Minimiser
 from tests.made import bits
 from tests.oracles.forms import exact_form_of
 from tests.oracles.lemke import multipliers_near, only_multipliers, optimum

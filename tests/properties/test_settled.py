@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import solve_step
-from quasistatic_ref.certify.active_set import dual_active_set
-from quasistatic_ref.certify.step_form import StepForm
+from quasistatic_ref.certify.step_program import StepProgram
+from quasistatic_ref.exact.active_set import dual_active_set
 from tests.cases import first
 from tests.made import bits
 from tests.oracles.settled_scenes import KINDS, settled_step
@@ -32,6 +32,6 @@ def test_a_refined_start_and_walks_alone_end_at_the_same_bits(kind, count):
     solution = solve_step(step, "daqp")
     assert len(solution.certificate.active) > 32
     warm = np.flatnonzero(solve_step(step, "daqp", certify="residual").lam > 0).tolist()
-    end = dual_active_set(StepForm(step), warm)
-    assert end.walks > 0
+    end = dual_active_set(StepProgram(step), warm)
+    assert end.iterations > 0
     assert bits(end.rounded(lambda point: point.x)) == bits(solution.delta_q)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.contact.normals import FAR_PLACES
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import Pose, poses_in_world

@@ -6,7 +6,8 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.contact.batches.batch import Batch
-from quasistatic_ref.contact.distance import ClosestPoints, contacts_over
+from quasistatic_ref.contact.closest_points import ClosestPoints
+from quasistatic_ref.contact.distance import contacts_over
 from quasistatic_ref.contact.normals import TIED_FACES, UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import Pose, poses_in_world
@@ -22,8 +23,6 @@ BLOCKS: Final = 32
 
 class Clouds(Batch):
     """Pairs of one cloud, always on the same side, with solids that have a closed form.
-
-    It is small enough that calls take the time, and not its numbers.
 
     Attributes
     ----------

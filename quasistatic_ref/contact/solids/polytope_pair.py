@@ -36,8 +36,7 @@ def polytope_pairs(
     Parameters
     ----------
     a, b : Polytope
-        P of each, as of :func:`~quasistatic_ref.contact.solids.polytope.stacked`; of two capsules
-        one pair.
+        P of each, as of :func:`~quasistatic_ref.contact.solids.polytope.stacked`.
     pose_a, pose_b : tuple of ndarray
         Of their frames in the world.
     within : float
@@ -52,8 +51,13 @@ def polytope_pairs(
     back = pose_a.R.mT
     R = product(back, pose_b.R)
     t = rotated(back, pose_b.t - pose_a.t)
-    gaps, normals = gaps_between(a, b.in_frame(R, t), within)
-    phi, alpha, beta, n = _closest(a, b, R, t, gaps, normals)
+    if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
+        phi, alpha, beta, n = _capsule_pairs(a, b.in_frame(R, t))
+        gaps = -(phi + a.margin + b.margin)[:, None]  # the other way, as wide where axes meet
+        normals = -n[:, None]
+    else:
+        gaps, normals = gaps_between(a, b.in_frame(R, t), within)
+        phi, alpha, beta, n = _closest(a, b, R, t, gaps, normals)
     turn = pose_a.R[:, None]
     alpha, beta, n = rotated(turn, np.stack([alpha, beta, n], axis=1)).swapaxes(0, 1)
     points = Witnesses(phi, alpha + pose_a.t, beta + pose_a.t, n)
@@ -64,8 +68,6 @@ def _closest(
     a: Polytope, b: Polytope, R: Array, t: Array, gaps: Array, normals: Array
 ) -> Witnesses:
     """The closest points in the frames of `a`, from the gaps of the cores along all normals."""
-    if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
-        return _capsule_pair(a, b.in_frame(R, t))
     every = np.arange(len(t))
     best = gaps.argmax(axis=1)
     gap = gaps[every, best]
@@ -91,30 +93,31 @@ def _with_margins(a: Polytope, b: Polytope, gap: Array, on_a: Array, n: Array) -
     return Witnesses(gap - a.margin - b.margin, alpha, on_b - b.margin[:, None] * n, n)
 
 
-def _capsule_pair(a: Polytope, b: Polytope) -> Witnesses:
+def _capsule_pairs(a: Polytope, b: Polytope) -> Witnesses:
     """Two segments have no volume: the distance is never negative, but may be without direction."""
-    tail_a = a.tails[0, :1]
-    tail_b = b.tails[0, :1]
-    way_a = a.ways[0, :1]
-    way_b = b.ways[0, :1]
+    tail_a = a.tails[:, 0]
+    tail_b = b.tails[:, 0]
+    way_a = a.ways[:, 0]
+    way_b = b.ways[:, 0]
     s, r = nearest_on_segments(tail_a, way_a, tail_b, way_b)
-    on_a = tail_a + s * way_a
-    on_b = tail_b + r * way_b
-    apart = (on_b - on_a)[0]
-    gap = float(norm(apart))
-    size = float(np.abs([a.vertices, b.vertices]).max())
-    across = np.cross(way_a, way_b)[0]
-    steepness = float(np.sqrt(dot(across, across) / (dot(way_a, way_a) * dot(way_b, way_b))[0]))
-    inside = 0 < s[0] < 1 and 0 < r[0] < 1
-    n = apart
-    if gap <= ON_SURFACE * size:  # axes that cross, or lie in each other
-        n = across if norm(across) > ON_SURFACE * size**2 else a.normals[0, 0]
-    elif inside and steepness * size > gap:  # the difference of near points has few digits
-        n = across
-    if n is not apart:
-        n = n * (1.0 if dot(n, apart) >= 0 else -1.0)
-        gap = float(dot(n, apart) / norm(n))
-    return _with_margins(a, b, np.array([gap]), on_a, (n / norm(n))[None])
+    on_a = tail_a + s[:, None] * way_a
+    on_b = tail_b + r[:, None] * way_b
+    apart = on_b - on_a
+    gap = norm(apart)
+    size = np.maximum(*(np.abs(one.vertices).max(axis=(1, 2)) for one in (a, b)))
+    across = crossed(way_a, way_b)
+    steepness = np.sqrt(dot(across, across) / (dot(way_a, way_a) * dot(way_b, way_b)))
+    inside = (s > 0) & (s < 1) & (r > 0) & (r < 1)
+    meet = gap <= ON_SURFACE * size  # axes that cross, or lie in each other
+    oblique = norm(across) > ON_SURFACE * size**2
+    # Elsewhere inside of both, the difference of near points has few digits.
+    along = np.where(meet, oblique, inside & (steepness * size > gap))
+    n = np.where(along[:, None], across, np.where(meet[:, None], a.normals[:, 0], apart))
+    chosen = along | meet
+    n = np.where((chosen & (dot(n, apart) < 0))[:, None], -n, n)
+    length = norm(n)
+    gap = np.where(chosen, dot(n, apart) / length, gap)
+    return _with_margins(a, b, gap, on_a, n / length[:, None])
 
 
 def gaps_between(a: Polytope, b: Polytope, within: float) -> tuple[Array, Array]:

@@ -23,6 +23,7 @@ from quasistatic_ref.contact.normals import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.errors import ContactError, ModelError
 from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.optional.curved.measured_by_coal import MeasuredByCoal, measured_witness
 from quasistatic_ref.optional.curved.settle import settled
 from quasistatic_ref.optional.curved.ways_out import rival_directions
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
@@ -107,6 +108,8 @@ def coal_witness(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     ContactError
         If coal has no answer that proves itself.
     """
+    if isinstance(a.shape, MeasuredByCoal) and isinstance(b.shape, MeasuredByCoal):
+        return measured_witness(name, a, b, (a.shape.solid, b.shape.solid))
     best, scale = _answer(a, b)
     if not best.proves_its_normal:
         raise ContactError(

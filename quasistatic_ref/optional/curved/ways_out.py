@@ -14,6 +14,7 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.ordered import product
+from quasistatic_ref.optional.curved.measured_by_coal import MeasuredByCoal
 
 SPREAD = 1024
 """Directions over the sphere, about 0.11 rad apart: no direction is farther than REACH from one."""
@@ -85,6 +86,8 @@ def known_gaps(a: ShapeInWorld, b: ShapeInWorld, nearest: Witness) -> tuple[Arra
     nearest : Witness
         Their closest points.
     """
+    if isinstance(a.shape, MeasuredByCoal):  # of axes that are apart: no other normal is as near
+        return np.zeros(0), np.zeros((0, 3))
     ways = [sharp_directions(a), -sharp_directions(b)]
     for solid, end, sign in ((a, nearest.alpha, 1.0), (b, nearest.beta, -1.0)):
         _, normals = solid.shape.faces(product(end - solid.t, solid.R)[None])

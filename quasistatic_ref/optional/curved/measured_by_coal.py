@@ -1,8 +1,9 @@
-"""Distances of a cloud's points as coal gives them: ``distances = "coal"``.
+"""Distances as coal gives them: ``distances = "coal"``.
 
-A point is a sphere of radius 0. For the solids of ``EXACT`` coal has closed forms of its own. Its
-other distances are left out, since the general search behind them is off: inside a cylinder by
-centimetres, at cones and ellipsoids by micrometres.
+A point of a cloud is a sphere of radius 0. For the solids of ``EXACT`` coal has closed forms of its
+own; of two solids for those of ``ROUND``, with one contact. Its other distances are left out: the
+general search behind them is off, inside a cylinder by centimetres, at cones and ellipsoids by
+micrometres, and which normal it picks on a face of a box is not the model's rule.
 """
 
 from __future__ import annotations
@@ -13,10 +14,12 @@ from functools import lru_cache
 import coal
 import numpy as np
 
+from quasistatic_ref.contact.normals import gaps
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.numbers.ordered import dot
+from quasistatic_ref.numbers.ordered import dot, rotated
 from quasistatic_ref.shapes.placed_shape import (
     Box,
     Capsule,
@@ -30,8 +33,15 @@ from quasistatic_ref.shapes.placed_shape import (
 EXACT = (Box, Sphere, Capsule, HalfSpace)
 """Solids to which coal's distances of points are right to rounding."""
 
+ROUND = (Sphere, Capsule, HalfSpace)
+"""Solids whose distances to each other are, where their axes are apart."""
+
 UNIT_LENGTH = 1e-10
 """Largest difference from 1 of the square of a unit normal's length [-]."""
+
+RIGHT = 1e-14
+"""Largest difference of a distance and the gap along its normal, relative to the larger solid [-],
+that is rounding."""
 
 ORIGIN = coal.Transform3s(np.eye(3), np.zeros(3))
 POINT = coal.Sphere(0.0)
@@ -39,7 +49,7 @@ POINT = coal.Sphere(0.0)
 
 @dataclass(frozen=True, eq=False)
 class MeasuredByCoal(Shape):
-    """A solid whose distances to points are coal's; all else is the solid's own."""
+    """A solid whose distances are coal's; all else is the solid's own."""
 
     solid: Shape
 
@@ -81,6 +91,48 @@ class MeasuredByCoal(Shape):
         return phi, n
 
 
+def measured_witness(
+    name: str, a: ShapeInWorld, b: ShapeInWorld, solids: tuple[Shape, Shape]
+) -> Witness:
+    """Closest points of two `solids` of ``ROUND`` as coal gives them, in the world frame.
+
+    Parameters
+    ----------
+    name : str
+        Of the pair, for messages.
+    a, b : ShapeInWorld
+        Where they are.
+    solids : (Shape, Shape)
+
+    Raises
+    ------
+    ContactError
+        If coal has no normal: axes meet; or if the gap along its normal is not its distance, as of
+        capsules whose axes are turned by less than 1e-3 rad, but are not parallel.
+    """
+    request = coal.DistanceRequest()
+    request.enable_signed_distance = True
+    result = coal.DistanceResult()
+    one, other = map(geometry, solids)
+    there = a.pose.of(b.pose)
+    phi = coal.distance(one, ORIGIN, other, coal.Transform3s(there.R, there.t), request, result)
+    n = rotated(a.R, np.asarray(result.normal).ravel())
+    axes = [solid.radius for solid in solids if isinstance(solid, Sphere | Capsule)]
+    bounded = len(axes) == 2
+    size = max(a.shape.extent, b.shape.extent)
+    meet = bounded and phi + sum(axes) <= RIGHT * size
+    if meet or not abs(dot(n, n) - 1) <= UNIT_LENGTH:
+        problem = 'their axes meet, where coal has no normal; use distances = "closed"'
+        raise ContactError(problem, field=name)
+    alpha = rotated(a.R, np.asarray(result.getNearestPoint1()).ravel()) + a.t
+    if bounded:
+        gap = gaps(a._replace(t=a.t - b.t), b._replace(t=0 * b.t), n[None])[0]
+        if not abs(gap - phi) <= RIGHT * size:
+            problem = f'coal\'s distance is off by {abs(gap - phi):.1g} m; use distances = "closed"'
+            raise ContactError(problem, field=name)
+    return Witness(float(phi), alpha, alpha + phi * n, n)
+
+
 @lru_cache(maxsize=256)
 def geometry(solid: Shape) -> coal.CollisionGeometry:
     """A solid of ``EXACT`` as coal's own."""
@@ -101,7 +153,8 @@ def pairs_by_coal(pairs: tuple[ContactPair, ...]) -> tuple[ContactPair, ...]:
     Raises
     ------
     ContactError
-        If a pair is not of a cloud and a solid of ``EXACT``.
+        If a pair is not of a cloud and a solid of ``EXACT``, or of two of ``ROUND`` with one
+        contact.
     """
     return tuple(_pair_by_coal(pair) for pair in pairs)
 
@@ -109,11 +162,14 @@ def pairs_by_coal(pairs: tuple[ContactPair, ...]) -> tuple[ContactPair, ...]:
 def _pair_by_coal(pair: ContactPair) -> ContactPair:
     shapes = pair.alpha.shape, pair.beta.shape
     solids = [shape for shape in shapes if not isinstance(shape, PointCloud)]
-    if not (pair.has_cloud and isinstance(solids[0], EXACT)):
+    round_solids = all(isinstance(shape, ROUND) for shape in shapes) and pair.n_c == 1
+    if not (round_solids or (pair.has_cloud and isinstance(solids[0], EXACT))):
         kinds = " and ".join(type(shape).__name__.lower() for shape in shapes)
+        several = f" with k = {pair.n_c}" if pair.n_c > 1 else ""
         problem = (
             "coal's distances are right to rounding for clouds on boxes, spheres, capsules and "
-            f'half-spaces alone, and {pair.name} is of {kinds}: use distances = "closed"'
+            "half-spaces, and with k = 1 for spheres, capsules and half-spaces on each other, and "
+            f'{pair.name} is of {kinds}{several}: use distances = "closed"'
         )
         raise ContactError(problem, field="distances", value="coal")
     return replace(pair, alpha=_side_by_coal(pair.alpha), beta=_side_by_coal(pair.beta))

@@ -1,6 +1,7 @@
-"""``distances = "coal"``: coal's distances of clouds as they are, beside the closed forms."""
+"""``distances = "coal"``: coal's distances as they are, beside the closed forms."""
 
 import copy
+import itertools
 
 import coal
 import numpy as np
@@ -25,7 +26,7 @@ from quasistatic_ref import (
     load_trajectory,
     save_trajectory,
 )
-from quasistatic_ref.optional.curved.clouds_by_coal import MeasuredByCoal
+from quasistatic_ref.optional.curved.measured_by_coal import MeasuredByCoal
 from tests.closeness import assert_same, assert_within
 from tests.contact.still import pair, placed_shape, standing_links
 from tests.made import bits
@@ -71,6 +72,59 @@ def test_contacts_at_all_points_of_a_cloud_are_those_of_the_closed_forms(name, c
         for field in ("phi", "alpha", "beta", "n"):
             assert_within(getattr(by_coal, field), getattr(closed, field), CLOSED_FORM)
     assert inside
+
+
+ROUND = {name: SOLIDS[name] for name in ("sphere", "capsule", "half-space")}
+ROUND_PAIRS = [*itertools.product(ROUND, ROUND)][:-1]
+
+
+@pytest.mark.parametrize("kinds", ROUND_PAIRS, ids="-".join)
+def test_round_solids_have_the_distances_of_the_closed_forms(kinds):
+    """Apart, touching and in penetration; turned in any way, or with parallel axes."""
+    rng = np.random.default_rng(2)
+    solids = [ROUND[kind] for kind in kinds]
+    inside = 0
+    for i in range(40):
+        turns = [Rotation.random(rng=rng).as_matrix() for _ in kinds]
+        if i % 4 == 0:
+            turns[1] = turns[0]
+        places = rng.uniform(-0.1, 0.1, (2, 3))
+        sides = [
+            placed_shape(solid, link, R, t)
+            for link, (solid, R, t) in enumerate(zip(solids, turns, places, strict=True))
+        ]
+        links = standing_links((np.eye(3), np.zeros(3)))
+        closed = simulator(pair(*sides), distances="closed").closest_points(links)
+        by_coal = simulator(pair(*sides)).closest_points(links)
+        inside += closed.phi[0] < 0
+        for field in ("phi", "alpha", "beta", "n"):
+            assert_within(getattr(by_coal, field), getattr(closed, field), 10 * CLOSED_FORM)
+    assert 0 < inside < 40
+
+
+CAPSULE = SOLIDS["capsule"]
+ACROSS = Rotation.from_euler("x", np.pi / 2).as_matrix()
+NEARLY = Rotation.from_rotvec([-0.9e-7, -0.5e-7, 0.0]).as_matrix()
+
+
+@pytest.mark.parametrize(
+    ("sides", "k", "words"),
+    [
+        ([(CAPSULE, np.eye(3), 0.0), (CAPSULE, ACROSS, 0.0)], 1, "p: their axes meet, where coal"),
+        ([(Sphere(0.1), np.eye(3), 0.0), (Sphere(0.2), np.eye(3), 0.0)], 1, "p: their axes meet"),
+        ([(CAPSULE, np.eye(3), 0.0), (Sphere(0.1), np.eye(3), 0.0)], 1, "p: their axes meet"),
+        ([(CAPSULE, np.eye(3), 0.0), (CAPSULE, NEARLY, 0.1)], 1, "p: coal's distance is off by"),
+        ([(CAPSULE, np.eye(3), 0.0), (CAPSULE, ACROSS, 0.1)], 2, "and p is of capsule .* k = 2"),
+        ([(SOLIDS["half-space"], np.eye(3), 0.0), (CAPSULE, ACROSS, 0.1)], 2, "capsule with k = 2"),
+        ([(SOLIDS["box"], np.eye(3), 0.0), (Sphere(0.1), ACROSS, 0.4)], 1, "box and sphere: use"),
+    ],
+)
+def test_where_coal_is_off_two_solids_are_refused(sides, k, words):
+    placed = [
+        placed_shape(solid, link, R, [x, 0.0, 0.0]) for link, (solid, R, x) in enumerate(sides)
+    ]
+    with pytest.raises(ContactError, match=words):
+        simulator(pair(*placed, k)).closest_points(standing_links((np.eye(3), np.zeros(3))))
 
 
 def test_distances_of_a_run_are_what_coal_says(monkeypatch):
@@ -119,7 +173,7 @@ def test_solids_that_coal_s_general_search_answers_for_are_refused_and_off(name)
 
 
 def test_two_solids_are_refused_by_the_pair_s_name():
-    message = r"distances: coal's .* and rest\(floor, block/block#0\) is of halfspace and box: use"
+    message = r"distances: coal's .* and rest\(floor, block/block#0\) is of halfspace and box"
     with pytest.raises(ContactError, match=message):
         load_scenario("arm_push", distances="coal")
 
