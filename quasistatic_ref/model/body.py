@@ -6,30 +6,29 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pinocchio as pin
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import ModelError, about_field, check_kind
+from quasistatic_ref.errors import ModelError, about_field, check_kind, fields_named
 from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.solid import Homogeneous, solid_tree
-from quasistatic_ref.model.tree import Tree
+from quasistatic_ref.model.tree import ALL, ALL_BUT_BASE, Tree
 from quasistatic_ref.parts import part
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.shapes.frozen import finite_number, freeze_array
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.quoting import suggestion
-
-if TYPE_CHECKING:
-    import pinocchio as pin
 
 FIXED = "fixed"
 BASE_WORDS = (FIXED, *BASES)
 
-Described = Callable[["pin.Model", "pin.GeometryModel | None"], tuple[Tree, str]]
+Described = Callable[[pin.Model, pin.GeometryModel | None], tuple[Tree, str]]
 """pinocchio's model of a body and of its shapes -> its tree, and the kind of its base."""
 
 
+@fields_named(pose="give xyz=pose.translation and rpy=pinocchio.rpy.matrixToRpy(pose.rotation)")
 @dataclass(frozen=True, eq=False)
 class Body(Plain):
     """One mechanism in the world: a URDF, a shape or a pinocchio Model, and its base.
@@ -44,8 +43,9 @@ class Body(Plain):
     base : str
         ``"fixed"``, ``"floating"``, ``"planar"`` (moving in the horizontal plane at the height of
         xyz, turning about the vertical) or ``"ball"`` (turning about xyz).
-    actuated : tuple of str, or "all"
-        Names of its joints, without the prefix; ``"base"`` is the base.
+    actuated : tuple of str, "joints" or "all"
+        Names of its joints, without the prefix; ``"base"`` is the base, which ``"all"`` takes, and
+        ``"joints"`` does not.
     xyz : array_like, shape (3,)
         Where the root link is (fixed) or starts (otherwise), in the world [m].
     rpy : array_like, shape (3,)
@@ -87,10 +87,15 @@ class Body(Plain):
         if self.base not in BASE_WORDS:
             problem = f"is not a base{suggestion(str(self.base), BASE_WORDS)}"
             raise ModelError(problem, field=f"{self.name}.base", value=self.base)
-        if self.actuated != "all":
-            names = self.actuated
+        names = self.actuated
+        if isinstance(names, str) and names in (ALL, ALL_BUT_BASE):
+            object.__setattr__(self, "actuated", str(names))
+        else:
             if not isinstance(names, list | tuple) or not all(isinstance(n, str) for n in names):
-                problem = 'must be "all" or a list of joint names, of which "base" is the base'
+                problem = (
+                    'must be "all", "joints" (all but the base) or a list of joint names, of which '
+                    '"base" is the base'
+                )
                 raise ModelError(problem, field=f"{self.name}.actuated", value=names)
             object.__setattr__(self, "actuated", tuple(names))
         for key in ("xyz", "rpy"):
@@ -102,7 +107,11 @@ class Body(Plain):
         if obstacle is not None:
             raise ModelError(obstacle, field=f"{self.name}.rpy", value=rpy.tolist())
         for key, kinds, wanted in (
-            ("urdf", str | PathLike | Tree, "a path, or a URDF as text"),
+            (
+                "urdf",
+                str | PathLike | Tree,
+                "a path, or a URDF as text; of_pinocchio takes a Model",
+            ),
             ("positions", Mapping, "a mapping of joints to numbers, as in {'elbow': 0.3}"),
             ("package_dirs", list | tuple, "a list of folders"),
         ):

@@ -122,7 +122,11 @@ class UnitParts:
         if not self._joints:
             return
         squares = np.square(q.take(self._entries, axis=-1))
-        lengths = np.sqrt(np.add.reduceat(squares, self._starts, axis=-1))
+        squares = np.add.reduceat(squares, self._starts, axis=-1)
+        off = squares.ravel() - 1.0  # by more than the length is
+        if off.dot(off) < UNIT_QUATERNION * UNIT_QUATERNION / 4:
+            return
+        lengths = np.sqrt(squares)
         wrong = np.abs(lengths - 1) > UNIT_QUATERNION
         if not wrong.any():
             return

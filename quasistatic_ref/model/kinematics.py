@@ -6,12 +6,14 @@ from functools import cached_property
 from quasistatic_ref.model.column_map import JacobianColumns
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import crossed
-from quasistatic_ref.text.quoting import counted
+from quasistatic_ref.quoting import counted
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Kinematics:
     """Where every link is, and how it moves with delta_q; link 0 is the world.
+
+    ``system.kinematics`` makes it; its constructor checks nothing.
 
     Parameters
     ----------
@@ -26,6 +28,13 @@ class Kinematics:
         angular velocity [rad].
     column_map : JacobianColumns
         Which columns move a link.
+
+    Examples
+    --------
+    >>> system = qr.load_scenario("sphere_spin").system
+    >>> kinematics: qr.Kinematics = system.kinematics(system.q_start)
+    >>> kinematics.t[1], kinematics.J.shape
+    (array([0.  , 0.  , 0.05]), (2, 6, 6))
     """
 
     R: Array

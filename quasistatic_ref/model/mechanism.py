@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from threading import RLock
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,8 +31,8 @@ from quasistatic_ref.numbers.arrays import (
     with_shape,
 )
 from quasistatic_ref.numbers.ordered import product
+from quasistatic_ref.quoting import clipped, counted, suggestion
 from quasistatic_ref.shapes.placed_shape import PlacedShape
-from quasistatic_ref.text.quoting import clipped, counted, suggestion
 
 
 class Mechanism(ABC):
@@ -77,9 +78,12 @@ class Mechanism(ABC):
         Held by who takes a step.
     of_mjcf : bool
         Whether its bodies are those of an MJCF scene, of whose elements a finding then speaks.
+    margins : mapping of str to float
+        Distances at which pairs bear, by the names of pairs whose is not zero [m].
     """
 
     of_mjcf = False
+    margins: Mapping[str, float] = MappingProxyType({})
     column_map: JacobianColumns
 
     def __init__(

@@ -10,7 +10,7 @@ from quasistatic_ref.model.joints.joint import COSINE_SINE, QUATERNION, Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.numbers.angles import cos_sin
 from quasistatic_ref.numbers.arrays import Array, Indices, checked_array, checked_numbers
-from quasistatic_ref.text.quoting import clipped, suggestion
+from quasistatic_ref.quoting import clipped, suggestion
 
 Values = Mapping[str, ArrayLike | Mapping[str, ArrayLike]]
 """Positions of joints and poses of bases by name, as :meth:`Named.placed` takes them."""

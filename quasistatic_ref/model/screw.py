@@ -112,16 +112,21 @@ def turned(q_joint: Vector, w: Vector, half: HalfTurn) -> list[Number]:
     return [chosen(stays, before, shorter * new) for new, before in after]
 
 
-def rotation_between(q_joint: Vector, q_joint_next: Vector) -> tuple[list[Number], Number, Number]:
-    """The rotation vector w between two quaternions, a = |w| <= pi [rad], 1 - (a/2) cot(a/2)."""
+def between(q_joint: Vector, q_joint_next: Vector) -> list[Number]:
+    """The quaternion by which another follows from one: its inverse times the other."""
     x, y, z, s = q_joint
     p, q, r, k = q_joint_next
-    v = [
+    return [
         s * p - x * k - y * r + z * q,
         s * q - y * k - z * p + x * r,
         s * r - z * k - x * q + y * p,
+        s * k + x * p + y * q + z * r,
     ]
-    w = s * k + x * p + y * q + z * r
+
+
+def rotation_between(q_joint: Vector, q_joint_next: Vector) -> tuple[list[Number], Number, Number]:
+    """The rotation vector w between two quaternions, a = |w| <= pi [rad], 1 - (a/2) cot(a/2)."""
+    *v, w = between(q_joint, q_joint_next)
     S = length(v)
     C = abs(w)
     b = angle_of(S, C)

@@ -38,7 +38,9 @@ def solid_tree(shape: Homogeneous, mass: float, name: str) -> Tree:
     """
     if not isinstance(shape, Homogeneous):
         problem = "must be a Sphere, Box, Cylinder or Capsule; other bodies need a URDF"
-        raise ModelError(problem, field=f"{name}.shape", value=shape)
+        if type(shape).__module__.startswith("coal"):
+            problem = "must be one of this package, such as Box(box.halfSide) of a coal.Box"
+        raise ModelError(problem, field=f"{name}.shape", value=type(shape).__name__)
     m = finite_number(mass, f"{name}.mass")
     if not m > 0:
         raise ModelError("must be greater than 0", field=f"{name}.mass", value=mass)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.numbers.arrays import Array, read_only
-from quasistatic_ref.text.quoting import shown_value
+from quasistatic_ref.quoting import shown_value
 
 
 class State(ABC):
@@ -46,16 +46,18 @@ class State(ABC):
         """Pose and Jacobian of every link."""
 
     @property
+    def t(self) -> Array:
+        """Origin of each link's frame in the world, shape (L, 3) [m]."""
+        return self.kinematics.t
+
+    @property
     @abstractmethod
     def M_u(self) -> Array:
         """Un-actuated block of the mass matrix, shape (n_u, n_u) [kg, kg m, kg m^2]."""
 
     @property
     def masses(self) -> Array:
-        """M_u, or its diagonal blocks, (k, n_u / k, n_u / k) [kg, kg m, kg m^2].
-
-        M_u by its entries, shape (k,), or whole, (n_u, n_u).
-        """
+        """M_u, (n_u, n_u), or its diagonal blocks, (k, n_u / k, n_u / k) [kg, kg m, kg m^2]."""
         return self.M_u
 
     @abstractmethod

@@ -6,7 +6,6 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.model.joints import BY_ENTRIES
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.compiled import compiled
@@ -41,13 +40,11 @@ class Sums:
             kinds[type(joint)].append(joint)
         self.many = [
             (some[0], _entries([one.q for one in some]), _entries([one.v for one in some]))
-            for kind, some in kinds.items()
-            if kind in BY_ENTRIES and len(some) >= MANY_JOINTS
+            for some in kinds.values()
+            if len(some) >= MANY_JOINTS
         ]
         at_once = {type(joint) for joint, _, _ in self.many}
         self.few = [joint for joint in joints if type(joint) not in at_once]
-        self.joints = joints
-        self._by_entries = all(kind in BY_ENTRIES for kind in kinds)
         self.n_q: int = joints[-1].q.stop if joints else 0
         self.n_v: int = joints[-1].v.stop if joints else 0
 
@@ -64,7 +61,6 @@ class Sums:
             there[joint.q] = joint.integrated(here[joint.q], change[joint.v])
         return there
 
-    @compiled
     def change(self, q: Array, q_next: Array) -> Array:
         """Entries of q_next (-) q, shape (n,) [m, rad], from those of both [m, rad, -]."""
         change = np.empty(self.n_v)
@@ -79,8 +75,6 @@ class Sums:
 
     def plus_each(self, q: Array, delta_q: Array) -> Array:
         """Entries of q (+) each of N changes, (N, n_v): shape (N, n_q) [m, rad, -]."""
-        if not self._by_entries:
-            return np.reshape([self.plus(q, change) for change in delta_q], (-1, len(q)))
         there = np.empty((len(delta_q), len(q)))
         for joint in self.joints:
             with np.errstate(all="ignore"):  # as plain arithmetic
@@ -90,8 +84,6 @@ class Sums:
 
     def changes(self, q: Array, q_next: Array) -> Array:
         """Entries of q_next (-) q, of each of N q_next (N, n): shape (N, n_v) [m, rad]."""
-        if not self._by_entries:
-            return np.reshape([self.change(q, one) for one in q_next], (-1, self.n_v))
         change = np.empty((len(q_next), self.n_v))
         for joint in self.joints:
             with np.errstate(all="ignore"):

@@ -87,6 +87,8 @@ class System(Mechanism):
         What gives M_u at a configuration; None if M_u is constant.
     mass_blocks : ndarray, shape (n_u / 6, 6, 6)
         The diagonal blocks of M_u [kg, kg m, kg m^2]; no blocks unless M_u is constant.
+    welded : tuple of str
+        Links of pinocchio Models of which these have but the mass of all welded to each other.
     texts : tuple of str
         The URDF of each body; of one that has none, words that only an equal one has.
     shapes : tuple of PlacedShape
@@ -116,7 +118,9 @@ class System(Mechanism):
         check_kind(bodies, Iterable, "bodies", "a list of bodies: System([body])")
         every = tuple(bodies)
         for body in every:
-            check_kind(body, Body, "bodies", "a list of bodies, each as Body makes it")
+            check_kind(
+                body, Body, "bodies", "a list of bodies, each as Body or Body.of_pinocchio makes it"
+            )
         self._make(every, trees_of(every))
 
     def __getstate__(self) -> tuple[tuple[Body, ...], tuple[Tree, ...]]:
@@ -141,6 +145,10 @@ class System(Mechanism):
         self._workspace = self.workspace()
         self.mimics = world.mimics
         self.texts = tuple(tree.text for tree in trees)
+        of_bodies = zip(bodies, trees, strict=True)
+        self.welded = tuple(
+            f"{body.name}/{link}" for body, tree in of_bodies for link in tree.welded
+        )
         super().__init__(
             bodies=bodies,
             joints=self._order.joints,
@@ -225,11 +233,26 @@ class SystemState(State):
         return self.system._workspace.q_parts(self.q)
 
     @cached_property
+    def poses(self) -> Array:
+        """R' and t of all links and columns' of all joints, shape (12 L + 6 n_x,) [-, m, rad].
+
+        As ``Workspace.poses`` has them.
+        """
+        return self.system._workspace.poses(self._q_parts)
+
+    @property
+    def t(self) -> Array:
+        """Origin of each link's frame in the world, shape (L, 3) [m]."""
+        L = len(self.system.links)
+        return self.poses[9 * L : 12 * L].reshape(L, 3)
+
+    @cached_property
     def kinematics(self) -> Kinematics:
         """Pose and Jacobian of every link."""
-        workspace = self.system._workspace
-        workspace.move(self._q_parts)
-        return Kinematics(*workspace.poses(), self.system.column_map)
+        L = len(self.system.links)
+        R = np.ascontiguousarray(self.poses[: 9 * L].reshape(L, 3, 3).mT)
+        columns = np.ascontiguousarray(self.poses[12 * L :].reshape(-1, 6).T)
+        return Kinematics(read_only(R), self.t, read_only(columns), self.system.column_map)
 
     @cached_property
     def M_u(self) -> Array:
@@ -239,19 +262,19 @@ class SystemState(State):
 
     @property
     def masses(self) -> Array:
-        """M_u, or the blocks that it has at every q.
-
-        M_u by its entries, shape (k,), or whole, (n_u, n_u).
-        """
+        """M_u, (n_u, n_u), or its blocks, as :attr:`.State.masses` [kg, kg m, kg m^2]."""
         constant = self.system.constant_mass_matrix
         return self.system.mass_blocks if constant else self.M_u
 
     def gravity(self, acceleration: ArrayLike) -> Array:
         """Generalised force of gravity, (3,) [m/s^2], shape (n_v,) [N, N m]."""
-        down = tuple(np.asarray(acceleration).tolist())
+        down = tuple(with_shape(acceleration, "acceleration", (3,), ModelError).tolist())
         # pinocchio's g(q) stands on the left of M dv + g = tau: it is minus the force.
-        torque = self.system._workspace.gravity_torque(self._q_parts, down)
-        return 0.0 - self.system.column_map.order.paper_v(torque)
+        return 0.0 - self.system.column_map.order.paper_v(self.gravity_torque(down))
+
+    def gravity_torque(self, down: tuple[float, ...]) -> Array:
+        """Minus the force of gravity in pinocchio's order, (n_v,) [N, N m], `down` [m/s^2]."""
+        return self.system._workspace.gravity_torque(self._q_parts, down)
 
     def change_to(self, q_a: ArrayLike) -> Array:
         """Change of the actuated coordinates q_a (-) q, shape (n_a,); ModelError of its shape."""

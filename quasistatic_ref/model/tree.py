@@ -5,16 +5,16 @@ Readers of files make it, and :meth:`Body.of_shape <quasistatic_ref.model.body.B
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Final, NamedTuple
 
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.quoting import counted
 from quasistatic_ref.shapes.shape import Shape
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.quoting import counted
 
 MOST_COORDINATES = 250
 """Most coordinates of the joints of a tree: pinocchio takes memory with the cube of their number,
@@ -22,6 +22,9 @@ MOST_COORDINATES = 250
 
 BASE = "base"
 """Name of the joint of a base that moves."""
+ALL = "all"
+ALL_BUT_BASE = "joints"
+"""Words for actuated joints."""
 
 Defect = tuple[str, str, object]
 """What is wrong with an inertia: ``"mass"`` or ``"inertia"``, the problem, the value."""
@@ -139,6 +142,8 @@ class Tree(Plain):
         What its source says and the model does not use, e.g. ``link[base].visual``.
     notes : tuple of str
         What was left out or taken in another way than it is written.
+    welded : tuple of str
+        Links of which the source has but the mass of all that are welded to each other.
     """
 
     path: Path
@@ -147,6 +152,7 @@ class Tree(Plain):
     joints: tuple[TreeJoint, ...]
     ignored: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    welded: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.path}: {counted(len(self.links), 'link')}>"
@@ -168,3 +174,17 @@ class Tree(Plain):
         for joint in self.moved_by.values():
             if joint.mimic is not None:
                 yield joint, joint.mimic
+
+
+def is_actuated(joint: str, actuated: str | Sequence[str]) -> bool:
+    """Whether a joint, or the base, is actuated by the names or the word of a body.
+
+    Parameters
+    ----------
+    joint : str
+        Its name, without the body's.
+    actuated : sequence of str, "joints" or "all"
+    """
+    if actuated == ALL_BUT_BASE:
+        return joint != BASE
+    return actuated == ALL or joint in actuated

@@ -8,7 +8,7 @@ import pinocchio as pin
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.model.inertia import checked_inertias, link_inertia
 from quasistatic_ref.model.joints import BASES, JOINTS
-from quasistatic_ref.model.tree import BASE, Tree, TreeLink
+from quasistatic_ref.model.tree import BASE, Tree, TreeLink, is_actuated
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 
@@ -44,8 +44,9 @@ def tree_model(tree: Tree, base: str = "fixed", actuated: str | Sequence[str] = 
     base : str
         ``"fixed"``; or ``"floating"``, ``"planar"`` or ``"ball"``: a joint named ``base``, with
         six, three or three degrees of freedom, between the world and the root link.
-    actuated : sequence of str, or "all"
-        Joints that have a stiffness. The inertia of a link that only these move need not be
+    actuated : sequence of str, "joints" or "all"
+        As of :class:`~quasistatic_ref.model.body.Body`:
+        joints that have a stiffness. The inertia of a link that only these move need not be
         physically consistent.
 
     Raises
@@ -55,7 +56,7 @@ def tree_model(tree: Tree, base: str = "fixed", actuated: str | Sequence[str] = 
     """
     with about_file(tree.path):
         moving = _moving_joints(tree, base)
-        unactuated = [] if actuated == "all" else [name for name in moving if name not in actuated]
+        unactuated = [name for name in moving if not is_actuated(name, actuated)]
         model = _pinocchio_model(tree, base)
         inertias = checked_inertias(tree, model, unactuated, base)
     return TreeModel(tree, model, tuple(_placed_shapes(tree, model)), (*tree.notes, *inertias))

@@ -5,6 +5,7 @@ those of the C library.
 """
 
 from collections.abc import Iterator, Sequence
+from threading import Lock
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +15,7 @@ from quasistatic_ref.model.coordinates import Order
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.world import World
 from quasistatic_ref.numbers.angles import cos_sin
-from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.arrays import Array, Indices, read_only
 
 
 class WorkspacePart(NamedTuple):
@@ -45,6 +46,8 @@ class WorkspacePart(NamedTuple):
 class Workspace:
     """The memory in which pinocchio computes poses and Jacobians of all bodies of a world.
 
+    Threads wait for their turn to use it.
+
     Parameters
     ----------
     world : World
@@ -54,22 +57,24 @@ class Workspace:
 
     def __init__(self, world: World, order: Order) -> None:
         self.parts: list[WorkspacePart] = []
-        # Poses of all links and columns of all joints: views that pinocchio overwrites.
-        self._R = [np.eye(3)]
-        self._t = [np.zeros(3)]
-        self._columns = [np.zeros((6, 0))]
+        R = [np.eye(3)]
+        t = [np.zeros(3)]
+        columns = []
         of_paper = np.argsort(order.q)
         joints = iter(world.joints)
         for part in world.parts:
             model = pin.Model(part.model)  # its gravity is written
             data = pin.Data(model)
             placements = [data.oMf[frame] for frame in part.frames]
-            self._R += [p.rotation for p in placements]
-            self._t += [p.translation for p in placements]
-            self._columns.append(data.J.reshape(6, -1))  # a single column comes as a vector
+            R += [p.rotation for p in placements]
+            t += [p.translation for p in placements]
+            columns.append(data.J.reshape(6, -1))  # a single column comes as a vector
             entries, turns = _sources(model, joints)
             self.parts.append(WorkspacePart(model, data, of_paper[entries], turns))
+        # Poses of all links and columns of all joints: views that pinocchio overwrites.
+        self._views = [*map(_by_columns, R), *t, *map(_by_columns, columns)]
         self._gravity: tuple[float, ...] | None = None
+        self._turn = Lock()
 
     def q_parts(self, q: Array) -> list[Array]:
         """Each part's own q, shape (n,), from the paper's, shape (n_q,)."""
@@ -87,16 +92,20 @@ class Workspace:
             pin.computeJointJacobians(part.model, part.data, q_part)
             pin.updateFramePlacements(part.model, part.data)
 
-    def poses(self) -> tuple[Array, Array, Array]:
-        """R (L, 3, 3) and t (L, 3) of all links, the world first, and all joints' columns (6, n_x).
+    def poses(self, q_parts: Sequence[Array]) -> Array:
+        """One array of R' (L, 3, 3) and t (L, 3) of all links, and of columns' (n_x, 6).
 
-        They are those of the last move. Columns are as in
-        :class:`~quasistatic_ref.model.kinematics.Kinematics`; all are read-only.
+        The world is first. They are those of
+        :class:`~quasistatic_ref.model.kinematics.Kinematics`, and read-only.
+
+        Parameters
+        ----------
+        q_parts : sequence of ndarray, each of shape (n,)
+            As of :meth:`q_parts` [m, rad, -].
         """
-        arrays = np.array(self._R), np.array(self._t), np.concatenate(self._columns, axis=1)
-        for array in arrays:
-            array.setflags(write=False)
-        return arrays
+        with self._turn:
+            self.move(q_parts)
+            return read_only(np.concatenate(self._views))
 
     def gravity_torque(self, q_parts: Sequence[Array], gravity: tuple[float, ...]) -> Array:
         """The negative force of gravity on all coordinates, shape (n_v,) [N, N m].
@@ -110,15 +119,21 @@ class Workspace:
         gravity : tuple of float, length 3
             The acceleration of free fall in the world frame [m/s^2].
         """
-        if gravity != self._gravity:
-            for part in self.parts:
-                part.model.gravity.linear = np.array(gravity)
-            self._gravity = gravity
-        torques = [
-            pin.computeGeneralizedGravity(part.model, part.data, q_part)
-            for part, q_part in zip(self.parts, q_parts, strict=True)
-        ]
+        with self._turn:
+            if gravity != self._gravity:
+                for part in self.parts:
+                    part.model.gravity.linear = np.array(gravity)
+                self._gravity = gravity
+            torques = [
+                pin.computeGeneralizedGravity(part.model, part.data, q_part)
+                for part, q_part in zip(self.parts, q_parts, strict=True)
+            ]
         return torques[0] if len(torques) == 1 else np.concatenate([np.zeros(0), *torques])
+
+
+def _by_columns(matrix: Array) -> Array:
+    """A view of a matrix, (m, n), column after column, (m n,), as pinocchio keeps it [any unit]."""
+    return matrix.T.reshape(-1)
 
 
 def _sources(model: pin.Model, joints: Iterator[Joint]) -> tuple[Indices, list[int]]:

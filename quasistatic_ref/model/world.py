@@ -22,12 +22,12 @@ from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import QUATERNION, Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.model.tree import BASE, Tree
+from quasistatic_ref.model.tree import BASE, Tree, is_actuated
 from quasistatic_ref.model.tree_model import TreeModel, body_frame, tree_model
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import part
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.shapes.placed_shape import PlacedShape
-from quasistatic_ref.text.quoting import suggestion
 from quasistatic_ref.text.together import together
 
 ReadUrdf = Callable[[str | PathLike[str], Sequence[str | Path]], Tree]
@@ -230,7 +230,7 @@ def _check_joint_names(body: Body, tree: Tree) -> None:
     scalar = {name for name in free if issubclass(JOINTS[kinds[name].kind], AxisJoint)}
     moves = body.base != FIXED
     known = free | {BASE} if moves else free
-    actuated = () if body.actuated == "all" else body.actuated
+    actuated = () if isinstance(body.actuated, str) else body.actuated
     for key, names, allowed in (
         ("actuated", actuated, known),
         ("positions", tuple(body.positions), scalar),
@@ -258,10 +258,10 @@ def _add_joints(body: Body, tree: Tree, joints: list[Joint], start: list[float])
     """Append a body's joints with coordinates, numbered as pinocchio does, and their start."""
 
     def add(kind: type[Joint], name: str, entries: Sequence[float]) -> None:
-        is_actuated = body.actuated == "all" or name in body.actuated
+        actuated = is_actuated(name, body.actuated)
         q = slice(len(start), len(start) + len(entries))
         first = joints[-1].v.stop if joints else 0
-        joint = kind(f"{body.name}/{name}", is_actuated, q, slice(first, first))
+        joint = kind(f"{body.name}/{name}", actuated, q, slice(first, first))
         joints.append(replace(joint, v=slice(first, first + len(joint.coordinates))))
         start.extend(entries)
 

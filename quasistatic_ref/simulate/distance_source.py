@@ -6,7 +6,7 @@ from typing import Final, Literal, get_args
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.parts import part
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.quoting import suggestion
 
 CLOSED: Final = "closed"
 COAL: Final = "coal"
@@ -26,7 +26,7 @@ def measured_pairs(pairs: tuple[ContactPair, ...], distances: str) -> tuple[Cont
         If coal's distances are asked for, and a pair is none of a cloud and a solid for which they
         are right to rounding.
     """
-    if distances not in DISTANCES:
+    if not (isinstance(distances, str) and distances in DISTANCES):
         problem = f"is not a choice{suggestion(str(distances), DISTANCES)}"
         raise InputError(problem, field="distances", value=distances)
     if distances == CLOSED:

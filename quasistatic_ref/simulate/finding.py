@@ -5,13 +5,15 @@ from dataclasses import dataclass
 
 from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.parts import is_there, part
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.quoting import suggestion
 
 
 @dataclass(frozen=True, eq=False)
 class Finding(Plain):
     """One finding: what is wrong with a scene or doubtful in a run, and what to do.
+
+    Runs and scenarios have them; their constructor checks nothing.
 
     Parameters
     ----------

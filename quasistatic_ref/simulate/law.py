@@ -4,7 +4,7 @@ from typing import Final, Literal, get_args
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.parts import part
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.quoting import suggestion
 
 CONVEX: Final = "convex"
 COULOMB: Final = "coulomb"
@@ -20,7 +20,7 @@ def check_law(law: str, certify: str) -> None:
     InputError
         Also if ``optional/coulomb`` is missing.
     """
-    if law not in LAWS:
+    if not (isinstance(law, str) and law in LAWS):
         raise InputError(f"is not a choice{suggestion(str(law), LAWS)}", field="law", value=law)
     if law == COULOMB:
         part(COULOMB)  # or its sentence

@@ -83,8 +83,9 @@ class Limits:
         ------
         LimitExceeded
         """
-        phi = step.contacts.phi
-        if phi.size and phi[j := int(phi.argmin())] < -self.penetration:
+        if step.deepest > self.penetration:
+            phi = step.contacts.phi
+            j = int(phi.argmin())
             raise LimitExceeded(
                 f"contact {step.contacts.name[j]} is {-phi[j]:.3g} m deep, deeper than "
                 f"limits.penetration = {self.penetration:g} m; start the bodies apart, move "

@@ -1,17 +1,16 @@
 """What watches a run: before each step, after it, and at the end."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from numpy.typing import ArrayLike, NDArray
 
-if TYPE_CHECKING:
-    from quasistatic_ref.model.system import System
-    from quasistatic_ref.numbers.arrays import Array
-    from quasistatic_ref.simulate.record.trajectory import Trajectory
-    from quasistatic_ref.simulate.result import StepArrays, StepResult
-    from quasistatic_ref.simulate.simulator import Simulator
-    from quasistatic_ref.simulate.target import JointTrack
+from quasistatic_ref.model.system import System
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.simulate.record.trajectory import Trajectory
+from quasistatic_ref.simulate.result import StepArrays, StepResult
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.target import JointTrack
 
 
 class Recording(Protocol):
@@ -29,14 +28,23 @@ class Recording(Protocol):
         What the targets follow, where the run knows.
     idle_columns : sequence of str
         Columns of the targets' table that drive nothing.
+
+    Examples
+    --------
+    >>> class Watch(qr.Observer):
+    ...     def before(self, recorder: qr.Recording):
+    ...         print(recorder.steps, recorder.q[2].round(3))
+    >>> run = qr.load_scenario("sphere_spin", steps=2).run(progress=False, observers=[Watch()])
+    0 0.05
+    1 0.05
     """
 
-    simulator: "Simulator"
-    system: "System"
-    start: "Array"
-    q: "Array"
+    simulator: Simulator
+    system: System
+    start: Array
+    q: Array
     steps: int
-    tracks: "Sequence[JointTrack]"
+    tracks: Sequence[JointTrack]
     idle_columns: Sequence[str]
 
     def noted(self, name: str) -> NDArray[Any]:
@@ -71,7 +79,7 @@ class Observer:
         """Before a step from `recorder.q`; a QuasistaticError that is raised here ends the run."""
 
     def after(
-        self, recorder: Recording, results: "Sequence[StepResult]", arrays: "StepArrays"
+        self, recorder: Recording, results: Sequence[StepResult], arrays: StepArrays
     ) -> Mapping[str, ArrayLike]:
         """After a step, or several: numbers (steps, ...) [any unit] that are kept, None for NaN.
 
@@ -89,6 +97,6 @@ class Observer:
         """
         return {}
 
-    def end(self, recorder: Recording, trajectory: "Trajectory", interrupted: bool) -> "Trajectory":
+    def end(self, recorder: Recording, trajectory: Trajectory, interrupted: bool) -> Trajectory:
         """Called at the end of a run, also of one that failed: may replace the trajectory."""
         return trajectory

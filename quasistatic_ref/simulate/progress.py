@@ -1,4 +1,4 @@
-"""The progress of long work, on standard error where that is a terminal."""
+"""The progress of long work, on standard error where that is a terminal, and in notebooks."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Unseen(AbstractContextManager["Unseen", None]):
-    """A progress bar where no terminal shows one: tqdm takes as long to import as a short run.
+    """A progress bar where nothing shows one: tqdm takes as long to import as a short run.
 
     Parameters
     ----------
@@ -54,13 +54,20 @@ def progress_bar(
     words : str, optional
         What is done.
     shown : bool
-        Whether a terminal is to show it.
+        Whether a terminal or a notebook is to show it.
     """
-    if not (shown and sys.stderr.isatty()):
+    terminal = sys.stderr.isatty()
+    if not (shown and (terminal or in_notebook())):
         return Unseen(() if items is None else items)
-    from tqdm import tqdm
+    from tqdm.auto import tqdm
 
     # tqdm by itself prints nothing on a terminal that does not know its size.
-    size = shutil.get_terminal_size()
-    return tqdm(items, desc=words, total=total, unit=unit, leave=False,
-                ncols=size.columns, nrows=size.lines)  # fmt: skip
+    columns, lines = shutil.get_terminal_size()
+    size = {"ncols": columns, "nrows": lines} if terminal else {}
+    return tqdm(items, desc=words, total=total, unit=unit, leave=False, **size)
+
+
+def in_notebook() -> bool:
+    """Whether a Jupyter kernel runs this, whose standard error is no terminal."""
+    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    return hasattr(shell, "kernel")

@@ -7,7 +7,7 @@ from array import array
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from itertools import takewhile, zip_longest
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,11 +16,11 @@ from quasistatic_ref.errors import InputError, check_kind
 from quasistatic_ref.numbers.arrays import Array, read_only, with_shape
 from quasistatic_ref.parts import is_there, part
 from quasistatic_ref.simulate.observer import Observer
+from quasistatic_ref.simulate.record.block import Block
 from quasistatic_ref.simulate.record.header import RECORDS, Header, Record
 from quasistatic_ref.simulate.record.table import (
     ARRAYS,
     FULL,
-    Reading,
     arrays_of,
     names_of,
     no_steps,
@@ -29,10 +29,8 @@ from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Drives, JointTrack, Targets
+from quasistatic_ref.simulate.user_functions import Target
 from quasistatic_ref.step.solution import UNKNOWN
-
-if TYPE_CHECKING:
-    from quasistatic_ref.simulate.user_functions import Target
 
 PACKED = 100
 """Steps that are kept one by one before they become arrays, all at once."""
@@ -103,7 +101,7 @@ class Recorder:
     >>> simulator, q = scenario.simulator(), scenario.system.q_start
     >>> recorder = qr.Recorder(simulator, q)
     >>> recorder.add(np.zeros(0), simulator.step(q))
-    >>> len(recorder.trajectory())
+    >>> recorder.trajectory().steps
     1
     """
 
@@ -120,7 +118,7 @@ class Recorder:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         if record == "forces":
             part("contact_forces", 'record = "forces"')
-        entries = 4 * len(simulator.layout.names) * simulator.system.n_v
+        entries = 4 * len(simulator.plan.layout.names) * simulator.system.n_v
         if record == FULL and entries > LARGEST:
             problem = (
                 f"of steps whose J has {entries} entries, more than {LARGEST}, takes too much "
@@ -229,25 +227,25 @@ class Recorder:
         before = self.parts[-1] if self.parts else arrays
         self.parts.append(arrays)  # before an observer may raise
         for observer in self.observers:
-            notes = observer.after(self, results, every | arrays)
+            notes = observer.after(self, results, StepArrays(every | arrays))
             for name, note in notes.items():
                 arrays[name] = _checked_note(name, note, len(results), before.get(name))
 
     def _arrays(self, results: Sequence[StepResult]) -> tuple[StepArrays, StepArrays]:
         """Arrays of the last steps for the trajectory, and those for the observers."""
-        readings = [Reading(result, self.system.n_v) for result in results]
+        block = Block(results, self.system.n_v)
         law, rows, cost = self.simulator.law, bool(self.extra), bool(self.with_cost)
-        arrays: StepArrays = {
+        arrays = StepArrays({
             "t": np.arange(self.steps - len(results) + 1, self.steps + 1) * results[0].step.h,
             "q_bar_a": np.array(self._targets),
-            "q": np.array([result.q for result in results]),
-            "tau": np.array([reading.tau for reading in readings]),
-            **arrays_of(readings, names_of(self.record, law, rows, cost)),
-        }
+            "q": block.of_each("q"),
+            "tau": block.tau,
+            **arrays_of(block, names_of(self.record, law, rows, cost)),
+        })  # fmt: skip
         for name in results[0].seconds:
             arrays[SECONDS + name] = np.array([result.seconds[name] for result in results])
         asked = [] if "motion" in arrays or not self.observers else ["motion"]
-        return arrays, arrays_of(readings, asked)
+        return arrays, arrays_of(block, asked)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -279,7 +277,7 @@ class Recorder:
         parts = self.parts
         kept = parts[0] if parts else {}
         simulator = self.simulator
-        layout = simulator.layout
+        layout = simulator.plan.layout
         header = Header(
             h=simulator.h,
             backend=simulator.backend,
@@ -319,7 +317,7 @@ class Recorder:
     def _contact_names(self) -> tuple[tuple[str, ...], ...]:
         """Names of the contacts in each step."""
         points = [point for part in self.parts for point in part["point"]]
-        return tuple(map(tuple, map(self.simulator.layout.contact_names, points)))
+        return tuple(map(tuple, map(self.simulator.plan.layout.contact_names, points)))
 
     def _seconds_of_run(self) -> dict[str, Array]:
         """What a run takes beyond its steps, step by step, shape (steps,) [s]; its end at the last.

@@ -4,32 +4,48 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.contact.normals import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.state import State
 from quasistatic_ref.numbers.arrays import Array, freeze_copies
+from quasistatic_ref.shown import Shown
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.wrenches import ContactsOverSteps
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.shown import Shown
 
-StepArrays = dict[str, NDArray[Any]]
-"""Arrays over some steps that follow one another."""
+
+class StepArrays(dict[str, NDArray[Any]]):
+    """Arrays over some steps that follow one another, by their names.
+
+    A run makes them; their constructor checks nothing.
+
+    Examples
+    --------
+    >>> class Lowest(qr.Observer):
+    ...     def after(self, recorder, results, arrays: qr.StepArrays):
+    ...         print(sorted(arrays)[:4], arrays["phi"].shape)
+    ...         return {}
+    >>> ball = qr.load_scenario("sphere_spin", steps=3)
+    >>> run = ball.run(progress=False, observers=[Lowest()])
+    ['A', 'H', 'J', 'K_q'] (3, 1)
+    """
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StepResult(Plain, Shown):
     """The result of one step of a simulator.
+
+    ``simulator.step`` makes it; its constructor checks nothing.
 
     Parameters
     ----------
@@ -42,12 +58,12 @@ class StepResult(Plain, Shown):
         Where the contacts were, before the step.
     seconds : dict of str to float
         Wall time of the parts: distances, rows, solve, proof, integrate [s]; not compared.
+    end : State
+        The system at q, from which the next step may start; not compared, copied or pickled.
     q_start : ndarray, shape (n_q,), optional
         Configuration before the step [m, rad, -]; a copy, read-only.
     scene : Scene, optional
-        The system and the pairs; not compared, copied or pickled.
-    end : State, optional
-        The system at q, from which the next step may start; as the scene.
+        The system and the pairs; as the end.
 
     Examples
     --------
@@ -63,14 +79,22 @@ class StepResult(Plain, Shown):
     solution: StepSolution
     points: ClosestPoints
     seconds: dict[str, float] = field(compare=False)
+    end: State = field(compare=False)
     q_start: Array | None = field(default=None, compare=False)
     scene: Scene | None = field(default=None, compare=False)
-    end: State | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         freeze_copies(self, "q")
         if self.q_start is not None:
             freeze_copies(self, "q_start")
+
+    if not TYPE_CHECKING:  # it would answer any name
+
+        def __getattr__(self, name: str) -> State:
+            problem = f"a {type(self).__name__} has no {name!r}"
+            if name == "end":
+                problem = "this result is a copy, which has no end: system.at(result.q) makes it"
+            raise AttributeError(problem)
 
     @classmethod
     @cache

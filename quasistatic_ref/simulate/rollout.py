@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,6 +18,7 @@ from quasistatic_ref.simulate.record.failures import RunFailed
 from quasistatic_ref.simulate.record.header import Record
 from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.recorder import Recorder, doctors
+from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.user_functions import (
     Force,
@@ -26,9 +26,6 @@ from quasistatic_ref.simulate.user_functions import (
     force_function,
     target_function,
 )
-
-if TYPE_CHECKING:
-    from quasistatic_ref.simulate.result import StepResult
 
 
 @keywords_named
@@ -67,7 +64,7 @@ def rollout(
         ``"full"``; ``"light"`` to leave out the quadratic programs; ``"forces"`` to have the forces
         of single contacts in their place.
     progress : bool
-        Whether to show a progress bar on standard error, where that is a terminal.
+        Whether to show a progress bar on a terminal or in a notebook.
     findings : bool
         Whether to print there, at the end of a run, its
         :attr:`~quasistatic_ref.simulate.record.trajectory.Trajectory.findings`. Findings that are
@@ -88,15 +85,15 @@ def rollout(
         If the target or the force takes other arguments than these, q is no configuration, steps no
         whole number, or a name to ignore none of a finding.
     RunFailed
-        If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
-        trajectory so far, and the failing step.
+        If a step fails, or Ctrl-C, SIGTERM or SIGHUP end it, which is answered between two steps;
+        it holds the trajectory so far, and the failing step.
 
     Examples
     --------
     >>> scenario = qr.load_scenario("sphere_spin")
     >>> simulator, q = scenario.simulator(), scenario.system.q_start
     >>> run = qr.rollout(simulator, q, [], steps=3, progress=False)
-    >>> len(run), run.phi.shape
+    >>> run.steps, run.phi.shape
     (3, (3, 1))
     """
     if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
@@ -120,7 +117,7 @@ def rollout(
                     observer.before(recorder)
                 q = recorder.q
                 q_bar_a = q_bar_a_at(recorder.t, q, last)
-                start = q if last is None or last.end is None else last.end
+                start = q if last is None else last.end
                 last = simulator.step(start, q_bar_a, force_at(recorder.t, q, last))
                 recorder.add(q_bar_a, last)
                 if recorder.steps == steps:
@@ -128,7 +125,7 @@ def rollout(
             except (QuasistaticError, KeyboardInterrupt) as failure:
                 interrupted = isinstance(failure, KeyboardInterrupt)
                 last_or_next = max(k, recorder.steps - 1)
-                reason = f"step {last_or_next}: {'interrupted' if interrupted else failure}"
+                reason = f"step {last_or_next}: {str(failure) or 'interrupted'}"
                 step = failure.step if isinstance(failure, StepNotSolved) else None
                 with suppress(QuasistaticError):  # of an observer: the run has failed already
                     recorder.flush()

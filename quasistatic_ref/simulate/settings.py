@@ -9,7 +9,7 @@ from quasistatic_ref.simulate.distance_source import CLOSED, Distances, measured
 from quasistatic_ref.simulate.law import CONVEX, Law, check_law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.scene import Scene
-from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, Certify, check_backend
+from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, Certify, check_backend, name_here
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -67,6 +67,7 @@ class Settings(Scene):
         object.__setattr__(self, "accuracy", positive_number(self.accuracy, "accuracy"))
         check_law(self.law, self.certify)
         measured_pairs(self.pairs, self.distances)
+        object.__setattr__(self, "backend", name_here(self.backend))
         check_backend(self.backend, self.cone, self.certify)
         freeze_copies(self, "K_q", "gravity", "gravity_acts")
 

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.contact.pairs import ContactPair, checked_pairs
 from quasistatic_ref.errors import InputError, StepDataError, check_kind, keywords_named
 from quasistatic_ref.model.mechanism import Mechanism
@@ -21,26 +20,26 @@ from quasistatic_ref.model.state import State
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Mask, checked_array, without_warnings
 from quasistatic_ref.parts import part
+from quasistatic_ref.quoting import counted
+from quasistatic_ref.shown import Shown
 from quasistatic_ref.simulate.distance_source import Distances
 from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.form_step import checked_force, form_step
 from quasistatic_ref.simulate.law import CONVEX, Law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.standing import Standings
-from quasistatic_ref.simulate.step_maker import checked_force
 from quasistatic_ref.simulate.step_solver import StepSolver
-from quasistatic_ref.simulate.steps import Steps, Ways, targets_and_loads
+from quasistatic_ref.simulate.steps import ReachBound, Steps, targets_and_loads
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.solve.backends import DAQP, DEFAULT, Certify
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.many import KnownAnswers, ManyLoads
+from quasistatic_ref.solve.many import ManyLoads, PrecomputedReplies
 from quasistatic_ref.step.data import seconds
-from quasistatic_ref.step.extension import ExtensionOfQ
+from quasistatic_ref.step.extension import ExtensionOfQ, Posed
 from quasistatic_ref.step.hessian import hessian
 from quasistatic_ref.step.solution import StepSolution
-from quasistatic_ref.text.quoting import counted
-from quasistatic_ref.text.shown import Shown
 
 GRAVITY = (0.0, 0.0, -9.81)
 SceneFindings = Callable[["Simulator", Array, Array], list[Finding]]
@@ -102,8 +101,8 @@ class Simulator(StepSolver, Shown):
 
     A simulator keeps what is slow to make and serves many steps: which coordinates move which
     contact, the solver. A copy is a new simulator with the same settings. Simulators of one system
-    are for one thread: a step that is asked for while another thread takes one is refused. A deep
-    copy has a system of its own.
+    take steps in one thread: a step that is asked for while another thread takes one is refused.
+    All else may be asked in any thread. A deep copy has a system of its own.
 
     Parameters
     ----------
@@ -201,7 +200,7 @@ class Simulator(StepSolver, Shown):
             limits=Limits() if limits is None else limits,
         )
         self.extension = extension
-        self.named_backend = backend
+        self.named_backend = None if backend is None else self.backend
         # H of Eq. (13): refused where it leaves float64's range
         if system.constant_mass_matrix:
             largest = np.abs(system.mass_blocks).max(axis=0, initial=0.0)
@@ -226,7 +225,7 @@ class Simulator(StepSolver, Shown):
         return _remade, (type(self), self.settings() | chosen)
 
     def step(
-        self, q: ArrayLike | State, q_bar_a: ArrayLike = (), force: ArrayLike | None = 0.0
+        self, q: ArrayLike | State, q_bar_a: ArrayLike = (), force: ArrayLike | None = None
     ) -> StepResult:
         """One step from q towards the target q_bar_a.
 
@@ -264,9 +263,9 @@ class Simulator(StepSolver, Shown):
             here = self.system.at(q)
             points = self.closest_points(here.kinematics)
             lap("distances")
-            step = self.step_data(here, q_bar_a, force, points)
+            step = form_step(self.plan, here, q_bar_a, force, points)
             lap("rows")
-            solution = self.extended(step, here.q)
+            solution = self.solution(step, here.q)
             # After the solve: a proof of infeasibility says more.
             self.limits.check_penetration(step)
             # An extension adds rows and coordinates: from here on the step is the one that was
@@ -277,9 +276,18 @@ class Simulator(StepSolver, Shown):
             times["solve"] -= times["proof"]
             delta_q = solution.delta_q[: self.system.n_v]
             end = here.plus(delta_q)  # q (+) delta_q
-            self.limits.check_reach(step, self.system.links, end.kinematics.t)
+            self.limits.check_reach(step, self.system.links, end.t)
             lap("integrate")
-            return StepResult(end.q, step, solution, points, times, here.q, self, end)
+            return StepResult.unchecked(  # a state's q is a copy, and read-only
+                q=end.q,
+                step=step,
+                solution=solution,
+                points=points,
+                seconds=times,
+                end=end,
+                q_start=here.q,
+                scene=self,
+            )
 
     def steps(
         self, q: ArrayLike | State, targets: ArrayLike, force: ArrayLike | None = None
@@ -311,49 +319,50 @@ class Simulator(StepSolver, Shown):
             here = system.at(q)
             q_bar_a, loads = targets_and_loads(system, targets, force)
             points = self.closest_points(here.kinematics)
-            contacts = self.geometry.contacts(points, here.kinematics)
             tau = self.generalised_force(here, None) + loads
             changes = here.changes_to(q_bar_a) + 0.0
             if len(tau):
                 k = np.isfinite(np.hstack([changes, tau])).all(axis=1).argmin()
-                first = self.step_under(here, q_bar_a[k], tau[k], contacts)  # or its refusal
+                first = form_step(self.plan, here, q_bar_a[k], loads[k], points)  # or its refusal
             else:
                 q_a = here.q[: system.n_q_a]
-                first = self.step_under(here, q_a, np.zeros(system.n_v), contacts)
+                first = form_step(self.plan, here, q_a, None, points)
             kept = self.solver, self.working_set
             try:
-                answers = self._answers(ManyLoads(first, changes, tau), here)
+                solutions = self._solutions(ManyLoads(first, changes, tau), here)
             finally:
                 self.solver, self.working_set = kept
-            return Steps(self, here, points, first, *answers)
+            return Steps(self, here, points, first, *solutions)
 
-    def _answers(
+    def _solutions(
         self, many: ManyLoads, here: State
     ) -> tuple[Array, Array, Callable[[int], StepSolution]]:
         """delta_q (N, n_v), lam (N, m) of steps from one state, and what gives their solutions."""
-        first = many.first
-        scaled = self.scaled(first)
         found: dict[int, StepSolution] = {}
-        known: KnownAnswers | None = None
-        if self.backend == DAQP and self.law == CONVEX and self.extension is None:
-            solver = solver_for(first, DAQP)
-            known = without_warnings(KnownAnswers, many, scaled, solver, self.accuracy)
+        known: PrecomputedReplies | None = None
+        posed = self._posed(many, here) if self.backend == DAQP and self.law == CONVEX else None
+        if posed is not None:
+            natural = self.natural_step(posed.first)
+            solver = solver_for(posed.first, DAQP)
+            known = without_warnings(PrecomputedReplies, posed, natural, solver, self.accuracy)
+        many = many if posed is None else posed
+        first = many.first
 
         def solution(k: int) -> StepSolution:
             if k in found:
                 return found[k]
             step = many.step(k)
             if known is not None:
-                try:
-                    return self.solved(known.scaled(k, step), known.solver(k))
-                except StepNotSolved as failure:
-                    return self.otherwise_solved(step, failure)
+                return self.solution(step, precomputed=(known.natural(k, step), known.solver(k)))
             self.start_cold()
-            return self.extended(step, here.q)
+            return self.solution(step, here.q)
 
-        delta_q = known.delta_q if known is not None else np.zeros((len(many), first.n_v))
-        lam = known.lam if known is not None else np.zeros((len(many), first.m))
         n_v = self.system.n_v
+        delta_q = np.zeros((len(many), n_v))
+        lam = np.zeros((len(many), first.m))
+        if known is not None:
+            delta_q = known.delta_q[:, :n_v].copy()
+            lam = known.lam
         for k in known.failed if known is not None and self.certify == "off" else range(len(many)):
             found[k] = one = solution(k)
             delta_q[k] = one.delta_q[:n_v]
@@ -361,15 +370,26 @@ class Simulator(StepSolver, Shown):
                 lam = np.zeros((len(many), len(one.lam)))
             lam[k] = one.lam
         self.limits.check_penetration(first)
-        bounds = self._ways.farthest(here.kinematics.t, delta_q)
+        bounds = self._reach_bound.farthest(here.kinematics.t, delta_q)
         for k in np.flatnonzero(~(bounds <= self.limits.reach)).tolist():
             end = here.plus(delta_q[k]).kinematics
             self.limits.check_reach(many.step(k), self.system.links, end.t)
         return delta_q, lam, solution
 
+    def _posed(self, many: ManyLoads, here: State) -> ManyLoads | None:
+        """Steps from one state with what the user adds; None where that may depend on the loads."""
+        if self.extension is None:
+            return many
+        extension = self.extension(here.q)
+        if not getattr(extension, "same_for_all_loads", False):  # of no kind that is known: refused
+            return None
+        posed: Posed = part("posed")
+        first, whole = posed(many.first, extension)
+        return many.posed(first) if whole else None
+
     @cached_property
-    def _ways(self) -> Ways:
-        return Ways(self.system)
+    def _reach_bound(self) -> ReachBound:
+        return ReachBound(self.system)
 
     def findings(
         self, q: ArrayLike | None = None, force: ArrayLike | None = None

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from quasistatic_ref.errors import MissingKey
+from quasistatic_ref.quoting import aligned, nearest_name
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.quoting import aligned, nearest_name
 
 NOTHING_FREE = "nothing in this scene is free: all of its coordinates are actuated"
 WORDS = {True: "yes", False: "no", None: "not decided"}
@@ -30,7 +30,7 @@ class Standing(Plain):
     held_with : tuple of str
         Other bodies that press on it without slipping, and move with it: their verdict is the same.
     reason : str
-        Why it is not decided.
+        Why it is not decided; or that it was asked otherwise than it begins.
     """
 
     body: str
@@ -43,14 +43,17 @@ class Standing(Plain):
 
     @property
     def words(self) -> str:
-        """What is missing, or why that is not known."""
+        """What is missing, why that is not known, and what was taken otherwise than it is."""
         parts = {"N": self.missing_N, "N m": self.missing_Nm}
-        return " and ".join(f"{x:.4g} {unit}" for unit, x in parts.items() if x) or self.reason
+        missing = " and ".join(f"{x:.4g} {unit}" for unit, x in parts.items() if x)
+        return "; ".join(filter(None, (missing, self.reason)))
 
 
 @dataclass(frozen=True, eq=False)
 class Standings(Plain):
     """Whether the bodies of a scene stand: a row a body; none where nothing is free.
+
+    ``simulator.stands`` makes them; their constructor checks nothing.
 
     Parameters
     ----------
@@ -61,8 +64,9 @@ class Standings(Plain):
     Examples
     --------
     >>> run = qr.load_scenario("block_incline", steps=2).run(progress=False)
-    >>> [(row.body, row.stands, round(row.missing_N, 3)) for row in run.stands(1)]
-    [('block', False, 0.739)]
+    >>> standings: qr.Standings = run.stands(1)
+    >>> [(row.body, row.stands, round(row.missing_N, 3)) for row in standings]
+    [('rough', True, 0.0), ('smooth', False, 0.739)]
     """
 
     rows: tuple[Standing, ...]

@@ -4,26 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, overload
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import ModelError, StepDataError
 from quasistatic_ref.model.state import State
+from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Indices, checked_numbers, read_only
+from quasistatic_ref.quoting import counted
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.wrenches import ContactsOverSteps
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import StepSolution
-from quasistatic_ref.text.quoting import counted
-
-if TYPE_CHECKING:
-    from quasistatic_ref.model.system import System
 
 SURELY = 1 - 2.0**-30
 """Factor that covers the rounding of sums of some lengths."""
@@ -32,8 +30,8 @@ SURELY = 1 - 2.0**-30
 class Steps(Sequence[StepResult]):
     """Steps from one state, towards many targets or under many loads.
 
-    ``simulator.steps`` makes it. Each item is the result that ``simulator.step`` would give of a
-    solver that starts cold.
+    ``simulator.steps`` makes it; its constructor checks nothing. Each item is the result that
+    ``simulator.step`` would give of a solver that starts cold.
 
     Parameters
     ----------
@@ -103,7 +101,7 @@ class Steps(Sequence[StepResult]):
         solution = self._solution(i)
         end = self._here.plus(self.delta_q[i])
         here = self._here.q
-        return StepResult(end.q, solution.step, solution, self._points, {}, here, self._scene, end)
+        return StepResult(end.q, solution.step, solution, self._points, {}, end, here, self._scene)
 
     @cached_property
     def q(self) -> Array:
@@ -168,7 +166,7 @@ def targets_and_loads(
     return np.broadcast_to(q_bar_a, (N, system.n_q_a)), np.broadcast_to(tau, (N, system.n_v))
 
 
-class Ways:
+class ReachBound:
     """How far the origins of links can come by a change of the coordinates, without forming it.
 
     Parameters

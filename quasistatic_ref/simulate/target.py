@@ -76,24 +76,20 @@ class JointTrack(Plain):
         if isinstance(joint, AxisJoint):
             positions = piecewise_linear(self.times, self.values, t)[:, 0]
             rows = [joint.at(position) for position in positions.tolist()]
-        else:
-            intervals, shares = _interval(self.times, t)
-            each = zip(intervals.tolist(), shares.tolist(), strict=True)
-            rows = [self._within(i, s) for i, s in each]
-        return np.reshape(rows, (len(t), joint.q.stop - joint.q.start)).astype(np.float64)
-
-    def _within(self, i: int, s: float) -> list[float]:
-        """Entries of q in interval i, after the share s of its duration."""
-        start: list[float] = self.values[i].tolist()
-        if s == 0:
-            return start
-        # The geodesic of (+): a screw when the base both moves and turns.
-        return self.joint.integrated(start, [s * x for x in self._ways[i]])
+            return np.reshape(rows, (len(t), joint.q.stop - joint.q.start)).astype(np.float64)
+        intervals, shares = _interval(self.times, t)
+        start = self.values[intervals]
+        ways = shares[:, None] * self._ways[intervals]
+        with np.errstate(all="ignore"):  # as plain arithmetic
+            # The geodesic of (+): a screw when the base both moves and turns.
+            within = joint.integrated([*start.T.copy()], [*ways.T.copy()])
+        return np.where(shares[:, None] == 0, start, np.stack(within, axis=1))
 
     @cached_property
-    def _ways(self) -> list[list[float]]:
-        """The displacement from each waypoint to the next, n_v numbers of the joint."""
-        return [self.joint.change(*ends) for ends in pairwise(self.values.tolist())]
+    def _ways(self) -> Array:
+        """The displacement from each waypoint to the next, none from the last, shape (w, n_v)."""
+        ways = [self.joint.change(*ends) for ends in pairwise(self.values.tolist())]
+        return np.array([*ways, [0.0] * len(self.joint.coordinates)])
 
 
 @runtime_checkable
@@ -112,6 +108,8 @@ class Drives(Protocol):
 @dataclass(frozen=True, eq=False)
 class Targets(Plain):
     """q_bar_a as a function of time.
+
+    ``scenario.targets`` are such; their constructor checks nothing.
 
     Parameters
     ----------

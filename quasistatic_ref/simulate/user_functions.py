@@ -5,7 +5,6 @@ They are functions of the time, of where the step starts, and of the result of t
 
 from collections.abc import Callable, Mapping
 from inspect import Parameter, signature
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,19 +14,16 @@ from quasistatic_ref.model.configuration import surely_configurations
 from quasistatic_ref.model.named import Values
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, checked_numbers, read_only
-from quasistatic_ref.simulate.step_maker import FROM_LOADS, checked_force
+from quasistatic_ref.quoting import known_names
+from quasistatic_ref.simulate.form_step import FROM_LOADS, checked_force
+from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.target import Targets
-from quasistatic_ref.text.quoting import known_names
-
-if TYPE_CHECKING:
-    from quasistatic_ref.simulate.result import StepResult
-
 
 Value = ArrayLike | Values
 OfTime = Callable[[float], Value]
 OfTimeAndQ = Callable[[float, Array], Value]
-OfTimeQAndLast = Callable[[float, Array, "StepResult | None"], Value]
-Checked = Callable[[float, Array, "StepResult | None"], Array]
+OfTimeQAndLast = Callable[[float, Array, StepResult | None], Value]
+Checked = Callable[[float, Array, StepResult | None], Array]
 """A function of (t, q, last) whose results have the right shape."""
 Target = OfTime | OfTimeAndQ | OfTimeQAndLast | Value
 Force = OfTime | OfTimeAndQ | OfTimeQAndLast | ArrayLike
@@ -153,7 +149,7 @@ def _returning(
 ) -> Checked:
     """A user's function whose results are arrays of one shape."""
 
-    def value(t: float, q: Array, last: "StepResult | None") -> Array:
+    def value(t: float, q: Array, last: StepResult | None) -> Array:
         returned = unnamed(function(t, q, last))
         try:
             array = np.asarray(returned, dtype=np.float64)

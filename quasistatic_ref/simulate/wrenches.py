@@ -8,8 +8,8 @@ import numpy as np
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import InputError, MissingKey, check_kind
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.quoting import known_names
 from quasistatic_ref.simulate.scene import Scene
-from quasistatic_ref.text.quoting import known_names
 
 
 class ContactsOverSteps(NamedTuple):

@@ -3,21 +3,21 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.model.joints import BY_ENTRIES
+from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.sums import MANY_JOINTS, Sums
 from tests.closeness import assert_same
 from tests.made import bits
 
-KINDS = sorted(BY_ENTRIES, key=lambda kind: kind.__name__)
+KINDS = sorted({*BASES.values(), *JOINTS.values()}, key=lambda kind: kind.__name__)
 
 
 class Odd(KINDS[0]):
-    """A kind of a user's own, whose sum is another."""
+    """A kind whose sum is another, which compiled code does not know."""
 
     def integrated(self, q, delta_q):
         """Half of its last entry."""
-        return [*q[:-1], float(q[-1]) / 2]
+        return [*q[:-1], q[-1] / 2]
 
 
 def joints_of(*kinds):
@@ -57,11 +57,16 @@ def test_joints_by_compiled_code_are_each_by_itself(kind, other, rng):
     check(joints_of(*[kind] * (1 + 2 * MANY_JOINTS)), rng)
 
 
-def test_each_of_several_changes_of_a_kind_of_a_user_s_own_is_its_own(rng):
-    joints = joints_of(KINDS[0], Odd)
+def test_each_of_several_changes_is_its_own(rng):
+    joints = joints_of(*KINDS)
     sums = Sums(joints)
-    q, delta_q = turned(joints, rng), rng.normal(size=(3, 6))
+    q, delta_q = turned(joints, rng), rng.normal(size=(3, sums.n_v))
     assert_same(sums.plus_each(q, delta_q), [sums.plus(q, one) for one in delta_q])
+
+
+def numbers(array):
+    """The bits of an array; which NaN comes of an overflow depends on how Python adds."""
+    return bits(np.where(np.isnan(array), np.nan, array))
 
 
 def check(joints, rng):
@@ -73,9 +78,9 @@ def check(joints, rng):
         each = [
             joint.integrated(q[joint.q].tolist(), delta_q[joint.v].tolist()) for joint in joints
         ]
-        assert bits(sums.plus(q, delta_q)) == bits(np.concatenate(each))
+        assert numbers(sums.plus(q, delta_q)) == numbers(np.concatenate(each))
         for here, there in ((q, other), (q, q), (q, sums.plus(q, delta_q))):
             one = [
                 joint.change(here[joint.q].tolist(), there[joint.q].tolist()) for joint in joints
             ]
-            assert bits(sums.change(here, there)) == bits(np.concatenate(one))
+            assert numbers(sums.change(here, there)) == numbers(np.concatenate(one))

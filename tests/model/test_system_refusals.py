@@ -35,7 +35,7 @@ BAD_BODY = {
     "space": ({"name": "a b"}, "body.name: must not contain"),
     "spherical": ({"base": "spherical"}, r"c.base: is not a base; .* \(got 'spherical"),
     "tilted": ({"base": "planar", "rpy": (0.1, 0, 0)}, "c.rpy: moves or turns by z, rx, ry"),
-    "bare string": ({"actuated": "swing"}, 'c.actuated: must be "all" or a list'),
+    "bare string": ({"actuated": "swing"}, 'c.actuated: must be "all", "joints"'),
     "unknown joint": ({"actuated": ("swong",)}, "c.actuated: has no such joint; did you mean 'swi"),
     "mimic joint": (
         {"actuated": ("swing_mimic",)},

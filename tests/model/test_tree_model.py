@@ -48,6 +48,22 @@ def test_an_inertia_that_moves_nothing_is_noted():
         loaded_urdf(text, base="floating", actuated=("j",))
 
 
+@pytest.mark.parametrize("base", ["floating", "planar", "ball", "fixed"])
+def test_joints_are_all_but_the_base_and_all_takes_it_too(base):
+    """Of the base and two joints, however the base moves; a name is no part of a word."""
+    text = robot(link("a"), link("b"), link("c"), joint("j", "a", "b") + joint("join", "b", "c"))
+    moves = base != "fixed"
+    expected = {
+        "joints": {"r/j", "r/join"},
+        "all": {"r/j", "r/join"} | ({"r/base"} if moves else set()),
+        ("join",): {"r/join"},
+        (): set(),
+    }
+    for actuated, names in expected.items():
+        system = System([Body("r", text, base=base, actuated=actuated)])
+        assert {joint.name for joint in system.actuated} == names
+
+
 def test_a_link_that_only_connects_joints_needs_no_mass():
     """Its joints turn about one axis: where neither is actuated, M_u is singular."""
     chain = joint("j", "a", "b") + joint("i", "b", "c")

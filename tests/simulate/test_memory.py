@@ -61,7 +61,7 @@ def test_a_recorder_holds_what_its_trajectory_does_and_a_few_numbers_more():
     arrays = sum(array.nbytes for array in recorder.trajectory().arrays.values()) / 2
     # tau and momentum; gap, motion and compliance of each contact; two artifacts, six wall times.
     n = scenario.system.n_v + scenario.system.n_u
-    more = 8 * (n + 6 * simulator.layout.rows.size + 2 + 6)
+    more = 8 * (n + 6 * simulator.plan.layout.rows.size + 2 + 6)
     assert grown < arrays + STEPS * (more + APIECE)
 
 

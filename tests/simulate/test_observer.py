@@ -71,8 +71,8 @@ def test_a_run_whose_steps_are_packed_one_by_one_is_the_same(name):
     scene = load_scenario(name, steps=PACKED + 5, record="full", fast=True)
     of_each, of_packs = Witness(), Witness(every_step=False)
     single, whole = (scene.run(observers=[one]) for one in (of_each, of_packs))
-    assert len(of_each.asked) == 2 * len(whole) + 1
-    assert len(of_packs.asked) == len(whole) + 2 + 1
+    assert len(of_each.asked) == 2 * whole.steps + 1
+    assert len(of_packs.asked) == whole.steps + 2 + 1
     assert of_each.noted == of_packs.noted
     assert single == whole
 
@@ -100,7 +100,7 @@ class Failing(Observer):
         for array in arrays.values():
             with pytest.raises(ValueError, match="read-only"):
                 array[:] = array
-        assert len(recorder.trajectory()) == recorder.steps
+        assert recorder.trajectory().steps == recorder.steps
         self.found.append((recorder.steps, len(recorder.noted("note"))))
         arrays.clear()
         first = len(self.found) == 1

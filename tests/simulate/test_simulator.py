@@ -1,5 +1,7 @@
 """The simulator: its targets and forces at the right times; steps are those of the vectors."""
 
+import copy
+import pickle
 import time
 
 import numpy as np
@@ -14,6 +16,18 @@ from quasistatic_ref import (
 from tests.closeness import assert_close, assert_relative, assert_same
 
 GRAVITY = 9.81
+
+
+@pytest.mark.parametrize("copied", [copy.copy, lambda one: pickle.loads(pickle.dumps(one))])
+def test_a_copy_of_a_result_has_no_end_and_says_what_makes_it(copied):
+    scenario = load_scenario("sphere_spin", fast=True)
+    result = scenario.simulator().step(scenario.system.q_start)
+    assert (result.end.q == result.q).all()
+    assert copied(result) == result
+    with pytest.raises(AttributeError, match=r"system\.at\(result\.q\)"):
+        assert copied(result).end
+    with pytest.raises(AttributeError, match="no 'ends'"):
+        assert result.ends
 
 
 @pytest.mark.parametrize("fast", [False, True])

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.simulate.steps import Ways
+from quasistatic_ref.simulate.steps import ReachBound
 from tests.cases import cases
+from tests.files.urdf.urdf_texts import joint, link, robot
 from tests.helpers import results_of
 from tests.made import bits
 from tests.model.mechanisms import every_joint
@@ -82,6 +83,25 @@ def test_steps_at_once_are_those_of_a_cold_simulator_in_any_order(words):
     assert repr(results) == "<Steps: 5 steps from one state>"
 
 
+@pytest.mark.parametrize("n_a", [1, 2, 6, 12])
+def test_unproved_steps_of_a_group_without_rows_are_those_of_each_alone(n_a, rng):
+    """Coupled springs of hands that touch nothing: whatever LAPACK does of several right sides."""
+    slides = [link("world")]
+    for k in range(n_a):
+        slides.append(link(f"l{k}"))
+        slides.append(joint(f"j{k}", "world", f"l{k}", "prismatic", "1 0 0"))
+    A = rng.normal(size=(n_a, n_a))
+    system = qr.System([qr.Body("hand", robot(*slides), actuated="all")])
+    K_q = A @ A.T + np.eye(n_a)
+    simulator = qr.Simulator(system, [], h=0.01, K_q=K_q, backend="daqp", certify="off")
+    q = system.q_start
+    loads = rng.normal(size=(9, n_a))
+    many = simulator.steps(q, q, loads)
+    for k, load in enumerate(loads):
+        assert bits(many.delta_q[k]) == bits(simulator.step(q, q, load).solution.delta_q)
+        assert bits(many.delta_q[k]) == bits(simulator.steps(q, q, load).delta_q[0])
+
+
 def test_steps_at_once_refuse_a_target_or_load_as_a_step_does():
     simulator, here, targets, loads = place("bunny_grasp", "solver.backend=daqp")
     wrong = np.zeros((N, 1))
@@ -141,7 +161,7 @@ def test_sums_of_many_changes_have_the_bits_of_each(rng):
 
 def test_no_link_comes_farther_than_the_bound_of_its_ways(rng):
     system = every_joint()
-    ways = Ways(system)
+    ways = ReachBound(system)
     for size in (1e-3, 0.1, 1.0, 10.0):
         here = system.at(system.integrate(system.q_start, rng.normal(size=system.n_v)))
         changes = size * rng.normal(size=(20, system.n_v))
@@ -151,3 +171,59 @@ def test_no_link_comes_farther_than_the_bound_of_its_ways(rng):
         far = np.linalg.norm(ends, axis=2).max(axis=1)
         assert (far <= bounds).all()
         assert bounds[0] <= far[0] * (1 + 1e-8)
+
+
+def planar_push(certify):
+    """A scenario in which a finger pushes a box on a floor whose friction is in private rises."""
+    finger = qr.Body.of_shape(
+        "finger", qr.Sphere(0.008), 0.05, base="planar", actuated=["base"], xyz=(0, -0.0279, 0.015)
+    )
+    box = qr.Body.of_shape("box", qr.Box((0.02, 0.02, 0.015)), 0.3, base="planar")
+    bodies = {
+        "finger": {"body": finger, "K_q": {"base": [500, 500, 1]}},
+        "box": {"body": box, "support": {"mu_v": 0.3, "mu_omega": 0.012}},
+    }
+    push = {"alpha": "finger", "beta": "box", "mu_v": 0.3, "rows": 4}
+    words = {"h": 0.02, "steps": 1, "bodies": bodies, "contacts": {"push": push}}
+    return qr.load_scenario(words, {"solver.certify": certify}, backend="daqp")
+
+
+COST = qr.Extra((), np.zeros((0, 6)), [], H=np.diag([0, 0, 0, 2.0, 1, 0]), g=np.full(6, 1e-4))
+STOP = qr.Extra(("stop",), np.array([[0, -1.0, 0, 0, -1, 0]]), [-1e-3])
+EXTENSIONS = {
+    "support": None,
+    "a row": lambda q: qr.Extension(rows=STOP),
+    "a cost": lambda q: qr.Extension(rows=COST),
+    "a term": lambda q: qr.Extension(terms=lambda x: [x.delta_q_u[0] <= 1e-4]),
+    "a term of the target": lambda q: qr.Extension(
+        terms=lambda x: [x.delta_q_a[0] <= 0.5 * x.delta_q_bar_a[0]]
+    ),
+}
+
+
+@pytest.mark.parametrize("certify", ["full", "off"])
+@cases("extension", EXTENSIONS)
+def test_steps_with_an_extension_are_those_of_a_cold_simulator(extension, certify):
+    scenario = planar_push(certify)
+    simulator = scenario.simulator(extension) if extension else scenario.simulator()
+    q = scenario.system.q_start
+    rng = np.random.default_rng(0)
+    targets = q[:4] + np.hstack([[0.0, 0.004] + 2e-3 * rng.normal(size=(N, 2)), np.zeros((N, 2))])
+    loads = 0.1 * rng.normal(size=(N, scenario.system.n_v))
+    results = simulator.steps(q, targets, loads)
+    for k in range(N):
+        simulator.start_cold()
+        expected = simulator.step(q, targets[k], loads[k])
+        said = expected.q, expected.solution.delta_q[:6], expected.solution.lam
+        assert bits((results.q[k], results.delta_q[k], results.lam[k])) == bits(said)
+        assert data(results[k]) == data(expected)
+    assert len(simulator.steps(q, targets[:0], loads[:0])) == 0
+    assert np.ptp(results.delta_q, axis=0)[:5].min() > 1e-5  # the box moves, too
+
+
+def test_what_is_numbers_alone_is_asked_for_once():
+    asked = []
+    scenario = planar_push("off")
+    simulator = scenario.simulator(lambda q: asked.append(q) or qr.Extension(rows=STOP))
+    simulator.steps(scenario.system.q_start, np.zeros((9, 4)) + scenario.system.q_start[:4])
+    assert len(asked) == 1

@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import get_type_hints
 
 import numpy as np
+import pandas as pd
 import pytest
 from numpy.typing import NDArray
 
@@ -162,6 +163,22 @@ def test_a_trajectory_is_a_mapping_of_its_arrays(run):
     assert "phi" in run
     assert "phii" not in run
     assert list(run) == list(run.keys()) == list(run.arrays)
+    assert len(run) == len(run.arrays) == len(dict(run)) > run.steps == 5
+    assert run.get("phii") is None
+    assert run._ipython_key_completions_() == list(run)
+
+
+AS_ONE_ARRAY = {
+    "asarray": np.asarray, "with a type": lambda run: np.asarray(run, np.float64),
+    "array": np.array, "stack": lambda run: np.stack([run, run]), "sum": np.sum,
+    "times": lambda run: np.ones(3) * run, "frame": pd.DataFrame,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("read", AS_ONE_ARRAY.values(), ids=AS_ONE_ARRAY)
+def test_a_trajectory_is_not_one_array_and_names_the_table(run, read):
+    with pytest.raises(InputError, match=r"run\.to_pandas\(\)"):
+        read(run)
 
 
 def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):

@@ -17,6 +17,3 @@ JOINTS: dict[str, type[AxisJoint] | type[TwistJoint]] = {
     "ball": Ball,
 }
 """By the word that a URDF says of a joint; the last is not URDF's."""
-
-BY_ENTRIES = frozenset([Floating, Planar, Ball, Continuous, Revolute, Prismatic])
-"""Kinds whose sums and differences depend on entries alone, which may be arrays of many joints'."""

@@ -7,8 +7,8 @@ from typing import ClassVar, NamedTuple
 
 from quasistatic_ref.model.screw import Vector
 from quasistatic_ref.numbers.angles import Number
+from quasistatic_ref.quoting import clipped, counted
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.quoting import clipped, counted
 
 QUATERNION = "quaternion"
 COSINE_SINE = "(cos, sin)"
@@ -81,6 +81,12 @@ class Joint(Plain, ABC):
         What its other entries of q are called if they are a vector of length one.
     free : bool
         Whether nothing guides the link that it moves.
+
+    Examples
+    --------
+    >>> joints: list[qr.Joint] = [*qr.load_scenario("two_finger_pinch").system.joints]
+    >>> joints[0].name, joints[0].q
+    ('near/close_left', slice(0, 1, None))
     """
 
     name: str
@@ -121,8 +127,11 @@ class Joint(Plain, ABC):
 
     @abstractmethod
     def integrated(self, q: Vector, delta_q: Vector) -> list[Number]:
-        """The joint's entries of q (+) delta_q, from its entries of both [m, rad, -]."""
+        """The joint's entries of q (+) delta_q, from its entries of both [m, rad, -].
+
+        Entries may be arrays, of many joints of a kind or of many changes: each by itself.
+        """
 
     @abstractmethod
     def change(self, q: Vector, q_next: Vector) -> list[Number]:
-        """The joint's entries of q_next (-) q, from its entries of both [m, rad]."""
+        """The joint's entries of q_next (-) q, from its entries of both, as above [m, rad]."""

@@ -1,41 +1,17 @@
-"""The compiled library, which is called by cffi."""
+"""The compiled library, which is called by cffi in its out-of-line mode, without a parser of C.
 
-import ctypes
+``declared.h`` has the functions, and ``declared.py`` is what cffi makes of it.
+"""
+
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import cache
-from typing import Any, Final
-
-import numpy as np
-from _cffi_backend import FFI  # cffi itself imports a parser of C, which takes longer than a step
-from numpy.typing import NDArray
+from typing import Any
 
 from quasistatic_ref.optional.compiled.build import LIBRARY, PROBLEM, VARIABLE, digest
 
-ARGUMENTS: Final = {
-    "cloud_contacts": 14,
-    "plus": 6,
-    "change": 6,
-    "frames": 11,
-    "pyramid_rows": 10,
-    "step_sizes": 9,
-}
-"""Numbers of arguments of each function, all of them addresses of arrays."""
-
-_ffi = FFI()
-_address = _ffi.from_buffer
-
-
-def addresses(read: Iterable[NDArray[Any]], written: Iterable[NDArray[Any]] = ()) -> list[Any]:
-    """Addresses of arrays, as C takes them, which keep these alive.
-
-    Parameters
-    ----------
-    read, written : iterable of ndarray [any unit]
-        Of numbers of 64 bits or truth values, of any shape and unit. Those that are read are copied
-        where they are not contiguous.
-    """
-    return [*map(_address, map(np.ascontiguousarray, read)), *map(_address, written)]
+KEPT: list[Any] = []
+"""Libraries that were loaded: when cffi lets one go, its functions lead nowhere."""
 
 
 def missing() -> str | None:
@@ -46,8 +22,7 @@ def missing() -> str | None:
 
 def function(name: str) -> Callable[..., int]:
     """A function of the library by its name, where nothing is :func:`missing`."""
-    arguments = ", ".join(["const void *"] * ARGUMENTS[name])
-    found: Callable[..., int] = _of_type(_loaded(), name, f"int64_t(*)({arguments})")
+    found: Callable[..., int] = getattr(_loaded(), name)
     return found
 
 
@@ -59,15 +34,15 @@ def _loaded() -> Any:
         why = PROBLEM.read_text("utf-8") if PROBLEM.exists() else "the package was copied"
         return f"it was not compiled when the package was installed: {why}"
     try:
-        library = ctypes.CDLL(str(LIBRARY))
-        sources = _ffi.string(_of_type(library, "digest", "const char *(*)(void)")()).decode()
+        from quasistatic_ref.optional.compiled.declared import ffi  # not in a light installation
+
+        library = ffi.dlopen(str(LIBRARY))
+        KEPT.append(library)
+        sources = ffi.string(library.digest()).decode()
     except (OSError, AttributeError) as failure:  # another machine's; without the function
         return f"it cannot be loaded: {failure}"
+    except ImportError:
+        return "cffi, which calls it, is not installed"
     if sources != digest():
         return "it was compiled from other sources than those here; install the package again"
     return library
-
-
-def _of_type(library: ctypes.CDLL, name: str, written: str) -> Any:
-    """A function of a library by its name, of a type as it is written in C."""
-    return _ffi.cast(written, ctypes.cast(getattr(library, name), ctypes.c_void_p).value)

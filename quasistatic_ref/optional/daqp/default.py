@@ -5,8 +5,8 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.certify.groups import connected_components
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.exact.components import connected_components
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.solve.backends import DAQP, DEFAULT

@@ -13,10 +13,10 @@ import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array, Indices, all_finite
 from quasistatic_ref.solve.backends import DAQP, Options
-from quasistatic_ref.solve.by_group import GroupLayout, Programs
-from quasistatic_ref.solve.many import ManyAnswers
+from quasistatic_ref.solve.by_group import GroupIndex, GroupPrograms
+from quasistatic_ref.solve.many import ManyReplies
+from quasistatic_ref.solve.natural_step import NaturalStep
 from quasistatic_ref.solve.solver import BackendSolver, Reply
-from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.data import StepData
 
 STATUS = {1: "optimal", 2: "soft optimal", -1: "infeasible", -2: "cycling", -3: "unbounded",
@@ -121,7 +121,7 @@ class Workspace:
         flags = np.ones(N, np.int64)
         iterations = np.zeros(N, np.int64)
         if not len(b):
-            x[:] = np.linalg.solve(self._H, -f.T).T
+            x[:] = np.linalg.solve(self._H, -f[..., None])[..., 0]  # one right side a call
             return x, lam, flags, iterations
         f_now, _, _, b_now = self._program
         update, solve = self._model.update, self._model.solve
@@ -150,48 +150,44 @@ class Workspaces:
 
     Parameters
     ----------
-    programs : Programs
-        Of a step.
+    programs : GroupPrograms
+        Of a step. DAQP reads A and b where they are: those of the next step are written there.
     options : dict
         DAQP's own.
 
     Attributes
     ----------
-    program : Programs
-        What is solved, with f = -g in the place of g.
     each : list of Workspace
     """
 
-    def __init__(self, programs: Programs, options: Options) -> None:
-        self.layout: GroupLayout = programs.layout
-        f = -programs.g
-        self.program = programs._replace(g=f, A=programs.A.copy(), b=programs.b.copy())
-        forms = zip(self.program.forms, programs.blocks, strict=True)
-        self.each = [Workspace(H, form.g, form.A, form.b, options) for form, H in forms]
+    def __init__(self, programs: GroupPrograms, options: Options) -> None:
+        self.layout: GroupIndex = programs.layout
+        self._f = -programs.g
+        self._of_coordinate = np.argsort(self.layout.coordinates)
+        self._of_row = np.argsort(self.layout.rows)
+        forms = programs._replace(g=self._f).forms
+        self.each = [Workspace(form.H, form.g, form.A, form.b, options) for form in forms]
 
-    def reply(self, programs: Programs) -> Reply:
-        """Solve the programs of a step: solved if all are."""
-        np.negative(programs.g, out=self.program.g)
-        self.program.A[:] = programs.A
-        self.program.b[:] = programs.b
+    def reply(self, programs: GroupPrograms) -> Reply:
+        """Solve what has been written where it reads: solved if the programs of all groups are."""
+        np.negative(programs.g, out=self._f)
         answers = [one.answer(H) for one, H in zip(self.each, programs.blocks, strict=True)]
         each_x, each_lam, flags, iterations, seconds = zip(*answers, strict=True)
         flag = next((flag for flag in flags if flag != 1), 1)
-        x = programs.joined(each_x)
-        lam = np.zeros(len(programs.b))
-        lam[self.layout.rows] = 0.0 - np.concatenate(each_lam)
+        x = np.concatenate(each_x).take(self._of_coordinate)
+        lam = (0.0 - np.concatenate(each_lam)).take(self._of_row)
         status = STATUS.get(flag) or str(flag)
         return Reply(x, lam, flag == 1, status, sum(iterations), sum(seconds))
 
 
-def cold_answers(scaled: ScaledStep, g: Array, sizes: Array, options: Options) -> ManyAnswers:
+def cold_replies(natural: NaturalStep, g: Array, sizes: Array, options: Options) -> ManyReplies:
     """Answers to N programs that differ from a step's in g alone, each from a cold start.
 
     So that none depends on the order in which they are asked for.
 
     Parameters
     ----------
-    scaled : ScaledStep
+    natural : NaturalStep
     g : ndarray, shape (N, n_v)
         [N s, N m s]
     sizes : ndarray, shape (N,)
@@ -199,15 +195,15 @@ def cold_answers(scaled: ScaledStep, g: Array, sizes: Array, options: Options) -
     options : dict
         DAQP's own.
     """
-    programs = scaled.programs
+    programs = natural.programs
     workspaces = Workspaces(programs, options)
     N = len(g)
     x = np.zeros((N, len(programs.g)))
     lam = np.zeros((N, len(programs.b)))
     worst = np.ones(N, np.int64)
     iterations = np.zeros(N, np.int64)
-    f = -(g * scaled.units.coordinate / sizes[:, None])
-    b = programs.b * scaled.units.size
+    f = -(g * natural.units.coordinate / sizes[:, None])
+    b = programs.b * natural.units.size
     both = zip(workspaces.each, programs.layout.groups, programs.layout.slices, strict=True)
     for one, group, (_, _, m) in both:
         of_group = one.cold(f[:, group.coordinates], b[m], sizes)
@@ -215,7 +211,7 @@ def cold_answers(scaled: ScaledStep, g: Array, sizes: Array, options: Options) -
         worst = np.where(worst == 1, flags, worst)
         iterations += count
     status = [STATUS.get(flag) or str(flag) for flag in worst.tolist()]
-    return ManyAnswers(x, lam, status, iterations)
+    return ManyReplies(x, lam, status, iterations)
 
 
 class DaqpSolver(BackendSolver):
@@ -237,16 +233,23 @@ class DaqpSolver(BackendSolver):
     def __init__(self, template: StepData, name: str = DAQP) -> None:
         super().__init__(template, name)
         self._kept: dict[int, Workspaces] = {}
+        self._programs: GroupPrograms | None = None
 
-    def write(self, scaled: ScaledStep) -> None:
-        """Form the programs of the step's groups; StepDataError if a number is not finite."""
-        scaled.check_range()
+    def write(self, natural: NaturalStep) -> None:
+        """Write the programs of the step's groups; StepDataError if a number is not finite."""
+        layout = natural.layout
+        programs = self._programs
+        if programs is None or programs.layout is not layout:
+            programs = layout.empty_programs(layout.natural_hessian_of(natural.step))
+            self._kept.clear()
+        self._programs = natural.write(programs)
 
-    def reply(self, options: Options, scaled: ScaledStep) -> Reply:
-        """One attempt, in the kept workspaces if the groups of the step are as before."""
+    def reply_with(self, options: Options, natural: NaturalStep) -> Reply:
+        """One attempt, in the kept workspaces if there are any."""
+        assert self._programs is not None
         kept = self._kept.pop(id(options), None)  # what has raised is set up again
-        if kept is None or kept.layout is not scaled.layout:
-            kept = Workspaces(scaled.programs, options)
-        reply = kept.reply(scaled.programs)
+        if kept is None:
+            kept = Workspaces(self._programs, options)
+        reply = kept.reply(self._programs)
         self._kept[id(options)] = kept
         return reply

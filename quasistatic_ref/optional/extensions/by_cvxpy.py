@@ -17,13 +17,14 @@ from quasistatic_ref.optional.extensions.own_rows import joined
 from quasistatic_ref.optional.extensions.quadratic import quadratic_program
 from quasistatic_ref.optional.extensions.terms import checked_terms
 from quasistatic_ref.solve.backends import backend, check_takes_cones
+from quasistatic_ref.solve.natural_step import NaturalStep
 from quasistatic_ref.solve.step_problem import StepProblem, divided, problem_data
-from quasistatic_ref.solve.units import ScaledStep, in_si
+from quasistatic_ref.solve.units import in_si
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.problem import set_values
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, StepSolution
-from quasistatic_ref.step.standard_form import Units, page_units, si_units
+from quasistatic_ref.step.standard_form import Units, linear_term, page_units, si_units
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 
 
@@ -80,7 +81,7 @@ def extension_data(step: StepData, extension: Extension) -> Extra | None:
     return None if program is None else joined(rows, program)
 
 
-def extended_solution(
+def cvxpy_solution(
     step: StepData, extension: Extension, name: str, accuracy: float, certify: str
 ) -> StepSolution:
     """The optimum of a step with an extension that is more than rows and a quadratic cost.
@@ -111,9 +112,9 @@ def extended_solution(
         If it does not solve the problem, or its residuals are not small.
     """
     check_takes_cones(name, "an extension with nonlinear constraints or costs")
-    scaled = ScaledStep(step)
-    units = scaled.units
-    if not (scaled.form.g.any() or (scaled.form.b > 0).any()):  # the extension alone drives it
+    natural = NaturalStep(step)
+    units = natural.units
+    if not (linear_term(step).any() or natural.deepest > 0):  # the extension alone drives it
         units = units._replace(size=1.0)
     of_page = page_units(units, step.h)
     problem = StepProblem(step, partial(_terms, extension, step, of_page))

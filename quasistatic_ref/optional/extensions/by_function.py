@@ -16,8 +16,8 @@ import numpy as np
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.numbers.arrays import Array, Mask, as_caller
 from quasistatic_ref.solve.backends import Options
+from quasistatic_ref.solve.natural_step import NaturalStep
 from quasistatic_ref.solve.solver import BackendSolver, Reply
-from quasistatic_ref.solve.units import ScaledStep
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 
@@ -61,12 +61,12 @@ class FunctionSolver(BackendSolver):
         """The accuracy of the call [-], with no options."""
         return [(accuracy, {})]
 
-    def write(self, scaled: ScaledStep) -> Mask:
+    def write(self, natural: NaturalStep) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
-        self.form = scaled.near
-        return scaled.out_of_reach
+        self.form = natural.within_reach
+        return natural.out_of_reach
 
-    def reply(self, options: Options, scaled: ScaledStep) -> Reply:
+    def reply_with(self, options: Options, natural: NaturalStep) -> Reply:
         """The reply of the user's function to the program in natural units."""
         H, g, A, b = self.form
         with apart():
@@ -178,9 +178,9 @@ def function_at(target: str) -> Function:
         function: Function = getattr(module, name)
     except Exception as error:  # a module may raise anything when it is imported
         words = f"cannot be imported: {type(error).__name__}: {error}"
-        raise InputError(words[:WORDS], value=target) from None
+        raise InputError(words[:WORDS], field="backend", value=target) from None
     if not callable(function):
-        raise InputError("must be a function", value=target)
+        raise InputError("must be a function", field="backend", value=target)
     return function
 
 

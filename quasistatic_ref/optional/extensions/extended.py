@@ -42,7 +42,7 @@ def posed(step: StepData, extension: StepExtension) -> tuple[StepData, bool]:
         return step, False  # rounding leaves too little of H beside so large a cost
 
 
-def extended_step(
+def extended_solution(
     step: StepData,
     extension: StepExtension,
     solver: str | Callable[..., Any] | Solver | None,
@@ -70,10 +70,10 @@ def extended_step(
         problem = "takes linear constraints and quadratic costs only; for other costs or a "
         problem += "nonlinear constraint pass the name of a backend"
         raise BackendError(problem, field="backend", value=words)
-    from quasistatic_ref.optional.extensions.by_cvxpy import extended_solution
+    from quasistatic_ref.optional.extensions.by_cvxpy import cvxpy_solution
 
     name = DEFAULT if solver is None else solver
-    return extended_solution(step, own, name, accuracy, certify)
+    return cvxpy_solution(step, own, name, accuracy, certify)
 
 
 def simulated_solution(
@@ -97,8 +97,8 @@ def simulated_solution(
             "costs"
         )
         raise InputError(problem, field="extension")
-    from quasistatic_ref.optional.extensions.by_cvxpy import extended_solution
+    from quasistatic_ref.optional.extensions.by_cvxpy import cvxpy_solution
 
     named = simulator.named_backend
     name = DEFAULT if named is None or named in simulator.replaceable else named
-    return extended_solution(step, own, name, simulator.accuracy, simulator.certify)
+    return cvxpy_solution(step, own, name, simulator.accuracy, simulator.certify)

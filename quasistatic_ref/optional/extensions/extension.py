@@ -12,13 +12,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.errors import InputError, StepDataError, check_kind
 from quasistatic_ref.numbers.arrays import Array, Indices, checked_array, freeze_copies
 from quasistatic_ref.step.data import Extra
+from quasistatic_ref.text.module_on_demand import ModuleOnDemand
 from quasistatic_ref.text.plain import Plain
 
 if TYPE_CHECKING:
     import cvxpy as cp
+else:
+    cp = ModuleOnDemand("cvxpy")
 
 
 def none(symbols: object) -> tuple[()]:
@@ -29,6 +32,8 @@ def none(symbols: object) -> tuple[()]:
 @dataclass(frozen=True, eq=False)
 class Symbols:
     """What an extension may use: CVXPY expressions in SI units, whatever units the problem has.
+
+    An extension's function gets them; their constructor checks nothing.
 
     Parameters
     ----------
@@ -123,6 +128,11 @@ class Extension:
     rows : Extra, optional
         Linear inequalities of delta_q as numbers, which need no CVXPY.
 
+    Raises
+    ------
+    InputError
+        If an argument is of another type.
+
     Examples
     --------
     >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
@@ -135,6 +145,20 @@ class Extension:
     without_stiffness: bool = False
     rises: Rises = NO_RISES
     rows: Extra | None = None
+
+    def __post_init__(self) -> None:
+        if not callable(self.terms):
+            problem = "must be a function of the symbols"
+            raise InputError(problem, field="extension.terms", value=type(self.terms).__name__)
+        field = "extension.without_stiffness"
+        check_kind(self.without_stiffness, bool, field, "True or False")
+        check_kind(self.rises, Rises, "extension.rises", "Rises")
+        check_kind(self.rows, Extra | None, "extension.rows", "an Extra")
+
+    @property
+    def same_for_all_loads(self) -> bool:
+        """Whether it is rows and rises alone: terms may use the step's loads and targets."""
+        return self.terms is none
 
 
 def checked_extension(extension: object) -> Extension:

@@ -17,7 +17,7 @@ import cvxpy.settings as words
 import numpy as np
 from flint import fmpq_mat
 
-from quasistatic_ref.certify.form import exact_matrix
+from quasistatic_ref.exact.program import exact_matrix
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import nearest_fraction
 from quasistatic_ref.optional.extensions.conic import conic_program

@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.text.module_on_demand import ModuleOnDemand
 
-if TYPE_CHECKING:  # a trajectory needs pinocchio, which the commands of single steps do without
-    from quasistatic_ref.simulate.record.trajectory import Trajectory
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.record import trajectory as record
+else:  # it needs pinocchio, which the commands of single steps do without
+    record = ModuleOnDemand("quasistatic_ref.simulate.record.trajectory")
 
 
 class LimitExceeded(StepNotSolved):
@@ -61,14 +64,14 @@ class RunFailed(QuasistaticError):
     >>> try:
     ...     qr.rollout(storm, system.q_start, [], steps=3, progress=False)
     ... except qr.RunFailed as error:
-    ...     print(len(error.trajectory))
+    ...     print(error.trajectory.steps)
     0
     """
 
     def __init__(
         self,
         reason: str,
-        trajectory: Trajectory,
+        trajectory: record.Trajectory,
         step: StepData | None = None,
     ) -> None:
         self.reason = reason

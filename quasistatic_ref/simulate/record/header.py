@@ -18,6 +18,8 @@ RECORDS: tuple[Record, ...] = get_args(Record)
 class Header(Plain):
     """The header of a trajectory: settings, names, findings and outcome of its run.
 
+    A run makes it; its constructor checks nothing.
+
     Parameters
     ----------
     h : float
@@ -57,6 +59,12 @@ class Header(Plain):
         Names of findings that the user has asked not to hear.
     scene_sha256 : str
         Fingerprint of the scene, see :attr:`.Scenario.fingerprint`; empty for that of a simulator.
+
+    Examples
+    --------
+    >>> header: qr.Header = qr.load_scenario("sphere_spin", steps=3).run(progress=False).header
+    >>> header.backend, header.coordinates[:2], header.units[:2]
+    ('clarabel', ('sphere/base.x', 'sphere/base.y'), ('m', 'm'))
     """
 
     h: float

@@ -1,20 +1,17 @@
 """The arrays of a record of a run: one table, which reads them of results."""
 
 from collections.abc import Mapping, Sequence
-from functools import cached_property
-from operator import attrgetter
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.arrays import Indices
 from quasistatic_ref.simulate.law import COULOMB
+from quasistatic_ref.simulate.record.block import Block
 from quasistatic_ref.simulate.record.header import Header
-from quasistatic_ref.simulate.result import StepArrays, StepResult
+from quasistatic_ref.simulate.result import StepArrays
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 EVERY: Final = "every"
 FULL: Final = "full"
@@ -37,7 +34,8 @@ class Recorded(NamedTuple):
     of : str
         Which records have it.
     read : str
-        Where a :class:`Reading` has it; empty of what the recorder itself knows.
+        Where a :class:`Block` has it, or each of its results; empty of what the recorder itself
+        knows.
     dtype : type
     nan : bool
         Whether NaN stands for what is not known.
@@ -64,16 +62,16 @@ ARRAYS: Final[dict[str, Recorded]] = {
     "d2": Recorded("T n_c 3", "second tangent [-]", read="step.contacts.d2"),
     "point": Recorded("T n_c", "number of the cloud's point", read="points.point", dtype=np.int64),
     "lam": Recorded("T m", "multipliers of the contacts [N s]", read="lam"),
-    "wrench": Recorded("T n_c 4", "f_d1, f_d2, f_n, tau_n of lam [N, N m]", read="solution.wrench"),
+    "wrench": Recorded("T n_c 4", "f_d1, f_d2, f_n, tau_n of lam [N, N m]", read="wrench"),
     "certificate": Recorded("T", "its kind", read="solution.certificate.kind", dtype=np.str_),
     "worst_residual": Recorded("T", "in natural units [-]", read="worst_residual", nan=True),
     "digits": Recorded("T", "correct digits of the backend", read="solution.statistics.digits",
                    nan=True),
     "H": Recorded("T N N", "of the quadratic program", FULL, "step.H"),
-    "g": Recorded("T N", "of the quadratic program", FULL, "form.g"),
-    "A": Recorded("T M N", "of the quadratic program", FULL, "form.A"),
-    "b": Recorded("T M", "of the quadratic program", FULL, "form.b"),
-    "J": Recorded("T n_c 4 N", "contact Jacobian [m, m, m, rad]", FULL, "step.contacts.J"),
+    "g": Recorded("T N", "of the quadratic program", FULL, "g"),
+    "A": Recorded("T M N", "of the quadratic program", FULL, "A"),
+    "b": Recorded("T M", "of the quadratic program", FULL, "b"),
+    "J": Recorded("T n_c 4 N", "contact Jacobian [m, m, m, rad]", FULL, "J"),
     "K_q": Recorded("T n_a n_a", "stiffness [N/m, N m/rad]", FULL, "step.K_q"),
     "M_u": Recorded("T N_u N_u", "un-actuated block of M [kg, kg m, kg m^2]", FULL, "step.M_u"),
     "tau_a": Recorded("T n_a", "force on the actuated coordinates [N, N m]", FULL, "step.tau_a"),
@@ -98,73 +96,6 @@ ARRAYS: Final[dict[str, Recorded]] = {
 """All arrays, in the order of files."""
 
 
-class Reading:
-    """The numbers of one step's result, in the form in which a trajectory stores them.
-
-    Parameters
-    ----------
-    result : StepResult
-    n_v : int
-        Number of coordinates without private ones.
-    """
-
-    def __init__(self, result: StepResult, n_v: int) -> None:
-        self.result = result
-        self.n_v = n_v
-        self.step = result.step
-        self.points = result.points
-        self.solution = result.solution
-
-    @property
-    def delta_q(self) -> Array:
-        """The displacement delta_q of the step, shape (n_v,) [m, rad]."""
-        return self.solution.delta_q[: self.n_v]
-
-    @property
-    def tau(self) -> Array:
-        """All generalised forces except those of springs, shape (n_v,) [N, N m]."""
-        return np.concatenate([self.step.tau_a, self.step.tau_u])[: self.n_v]
-
-    @property
-    def lam(self) -> Array:
-        """Multipliers of the contacts, shape (m,) [N s]."""
-        return self.solution.lam[: self.step.offsets[-1]]
-
-    @property
-    def worst_residual(self) -> float:
-        """The largest residual in natural units [-]; NaN if nothing was certified."""
-        return max(self.solution.certificate.residuals.values(), default=np.nan)
-
-    @property
-    def motion(self) -> Array:
-        """J delta_q of the contacts, shape (n_c, 4) [m, m, m, rad], without private rises."""
-        own = np.zeros(self.step.n_v)
-        own[: self.n_v] = self.delta_q
-        return self.step.contacts.motion(own)
-
-    @cached_property
-    def form(self) -> StandardForm:
-        """The quadratic program of the step."""
-        return standard_form(self.step)
-
-    @cached_property
-    def _forces(self) -> tuple[Array, float]:
-        try:
-            return self.solution.compliant.wrench, self.solution.imbalance
-        except (StepNotSolved, ArithmeticError):  # the run goes on
-            return np.full((self.step.contacts.n_c, 4), np.nan), np.nan
-
-    @property
-    def forces(self) -> Array:
-        """Forces of single contacts, shape (n_c, 4) [N, N m]; NaN if none are found."""
-        return self._forces[0]
-
-    @property
-    def imbalance(self) -> float:
-        """The share of the load that the forces do not balance [-]; NaN if none are found."""
-        return self._forces[1]
-
-
 def names_of(record: str, law: str, own_rows: bool, own_cost: bool) -> list[str]:
     """Names of the arrays that a record of this kind has."""
     kinds = {EVERY, record, law}
@@ -175,14 +106,15 @@ def names_of(record: str, law: str, own_rows: bool, own_cost: bool) -> list[str]
     return [name for name, kept in ARRAYS.items() if kept.of in kinds]
 
 
-def arrays_of(readings: Sequence[Reading], names: Sequence[str]) -> StepArrays:
+def arrays_of(block: Block, names: Sequence[str]) -> StepArrays:
     """Arrays over consecutive steps, of the names that the steps' results hold."""
-    arrays: StepArrays = {}
+    arrays = StepArrays()
     for name in names:
         kept = ARRAYS[name]
         if kept.read:
-            values = [attrgetter(kept.read)(reading) for reading in readings]
-            arrays[name] = np.array(values, np.float64 if kept.nan else None)
+            of_results = "." in kept.read
+            array = block.of_each(kept.read) if of_results else getattr(block, kept.read)
+            arrays[name] = array.astype(np.float64) if kept.nan else array
     return arrays
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, KeysView, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Never
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,23 +13,25 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import InputError, MissingKey, check_kind
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.parts import part
+from quasistatic_ref.quoting import counted, nearest_name
+from quasistatic_ref.shown import HasPage
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.record.header import Header
+from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.standing import Standings
 from quasistatic_ref.step.data import Contacts, Extra, StepData, no_extra
 from quasistatic_ref.step.solution import UNKNOWN, ContactForces, ForcesOfStep, warn_of_imbalance
+from quasistatic_ref.text.module_on_demand import ModuleOnDemand
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.quoting import nearest_name
-from quasistatic_ref.text.shown import HasPage
 
 if TYPE_CHECKING:
-    from pandas import DataFrame
+    import pandas as pd
+else:
+    pd = ModuleOnDemand("pandas")
 
-    from quasistatic_ref.simulate.scene import Scene
-
-Table = Callable[["Trajectory"], "DataFrame"]
-StandsAfter = Callable[["Trajectory", int, "Scene", str], Standings]
+Table = Callable[["Trajectory"], "pd.DataFrame"]
+StandsAfter = Callable[["Trajectory", int, Scene, str], Standings]
 
 
 class RecordArrays:
@@ -83,8 +85,10 @@ class RecordArrays:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Trajectory(RecordArrays, Plain, HasPage):
-    """A run, or the part of it that succeeded.
+class Trajectory(RecordArrays, Plain, HasPage, Mapping[str, NDArray[Any]]):
+    """A run, or the part of it that succeeded: a mapping of its arrays by their names.
+
+    A run makes it; its constructor checks nothing.
 
     Parameters
     ----------
@@ -119,7 +123,7 @@ class Trajectory(RecordArrays, Plain, HasPage):
     Examples
     --------
     >>> run = qr.load_scenario("sphere_spin", steps=3).run(progress=False)
-    >>> len(run), run.wrench.shape
+    >>> run.steps, run.wrench.shape
     (3, (3, 1, 4))
     """
 
@@ -156,12 +160,15 @@ class Trajectory(RecordArrays, Plain, HasPage):
     def __iter__(self) -> Iterator[str]:
         return iter(self.arrays)
 
-    def keys(self) -> KeysView[str]:
-        """Names of the trajectory's arrays."""
-        return self.arrays.keys()
-
     def __len__(self) -> int:
-        return len(self.arrays["t"])
+        return len(self.arrays)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self.arrays)
+
+    def __array__(self, dtype: object = None, copy: object = None) -> Never:
+        problem = "is many arrays: run.to_pandas() is a table of a row a step, run['q'] one array"
+        raise InputError(problem, field="trajectory")
 
     def __bool__(self) -> bool:
         return True  # a run without steps is a run
@@ -172,7 +179,7 @@ class Trajectory(RecordArrays, Plain, HasPage):
     @property
     def steps(self) -> int:
         """Number of steps that succeeded."""
-        return len(self)
+        return len(self.arrays["t"])
 
     @property
     def failed(self) -> str | None:
@@ -395,7 +402,7 @@ class Trajectory(RecordArrays, Plain, HasPage):
             raise InputError(problem, field="scene")
         return scene
 
-    def to_pandas(self) -> DataFrame:
+    def to_pandas(self) -> pd.DataFrame:
         """A data frame with a row for each step; a column is e.g. ``arm/elbow [rad]``.
 
         See :func:`~quasistatic_ref.optional.show.table.data_frame`.
@@ -408,7 +415,7 @@ class Trajectory(RecordArrays, Plain, HasPage):
         step_table: Table = part("step_table")
         return step_table(self)
 
-    def contacts_to_pandas(self) -> DataFrame:
+    def contacts_to_pandas(self) -> pd.DataFrame:
         """A data frame with a row for each contact of each step.
 
         Raises
@@ -420,13 +427,22 @@ class Trajectory(RecordArrays, Plain, HasPage):
         return contact_table(self)
 
 
+NOT_PROVED = "nothing proved"
+
+
 def certified(trajectory: Trajectory) -> str:
     """How many steps are certified exactly, e.g. ``"300 of 300 steps exact"``.
 
     In the ellipsoid, also how many are enclosed: ``"20 of 30 steps exact, 10 enclosed"``; and in
-    how many of them the backend failed, if in any.
+    how many of them the backend failed, if in any. Of a run that asks for no proof, that nothing is
+    proved.
     """
     kinds = [str(kind) for kind in trajectory["certificate"]] if trajectory.steps else []
+    backend = trajectory.header.backend
+    for kind, certify in (("none", "off"), ("residual", "residual")):
+        if kinds and set(kinds) == {kind}:
+            steps = counted(trajectory.steps, "step")
+            return f"{steps} by {backend}, {NOT_PROVED} (certify = {certify})"
     exact = kinds.count("exact")
     enclosed = kinds.count("enclosure")
     rest = f", {enclosed} enclosed" if enclosed else ""

@@ -1,8 +1,10 @@
 """The compiled library: what is said where it cannot be made, is missing, or is another's."""
 
+import cffi
 import pytest
 
 from quasistatic_ref.optional.compiled import build, library
+from tests.processes import printed_text
 
 AN_ERROR = r"""sh -c 'printf "\377 an error\n" >&2; exit 1'"""
 REASONS = {
@@ -67,3 +69,25 @@ def test_no_flag_comes_from_the_environment(folder, monkeypatch):
     reason = library.missing()
     assert "-ffp-contract=off" in reason
     assert "fast-math" not in reason
+
+
+def test_the_declarations_are_what_cffi_makes_of_the_header(tmp_path):
+    """``declared.py`` is committed, so that who installs needs no parser of C."""
+    ffi = cffi.FFI()
+    ffi.cdef((build.FOLDER / "declared.h").read_text("utf-8"))
+    ffi.set_source("declared", None)
+    ffi.emit_python_code(str(tmp_path / "declared.py"))
+    made = (tmp_path / "declared.py").read_text("utf-8")
+    assert made == (build.FOLDER / "declared.py").read_text("utf-8"), "make it again in this way"
+
+
+def test_without_cffi_there_is_no_compiled_code_and_the_reason_is_said():
+    """A light installation has NumPy and python-flint alone. In a process of its own."""
+    asked = printed_text(
+        "import sys",
+        "sys.modules['_cffi_backend'] = None",
+        "from quasistatic_ref.optional.compiled import library",
+        "library.LIBRARY = __import__('pathlib').Path(library.__file__)  # a file that is there",
+        "print(library.missing())",
+    )
+    assert asked == "cffi, which calls it, is not installed"

@@ -6,12 +6,12 @@ from inspect import unwrap
 import pytest
 
 from quasistatic_ref import Body, Sphere, System
+from quasistatic_ref.contact.batches.balls import OnHalfSpaces
 from quasistatic_ref.contact.batches.clouds import Clouds
-from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.model.sums import Sums
 from quasistatic_ref.optional.compiled import leaves
-from quasistatic_ref.solve.units import step_sizes
-from quasistatic_ref.step.standard_form import contact_inequalities
+from quasistatic_ref.simulate.form_step import StepPlan
+from quasistatic_ref.solve.by_group import GroupIndex
 from tests.processes import python
 
 pytestmark = pytest.mark.extra("compiled")
@@ -22,10 +22,10 @@ FUNCTIONS = [
     for function in (
         Clouds.contacts,
         Sums.plus,
-        Sums.change,
-        ContactGeometry.frames,
-        contact_inequalities,
-        step_sizes,
+        StepPlan.loads,
+        StepPlan.formed,
+        OnHalfSpaces.contacts,
+        GroupIndex.write,
     )
 ]
 

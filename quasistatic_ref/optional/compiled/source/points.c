@@ -130,23 +130,25 @@ static int closest(const Pair *s, const double *distance, int64_t count, int64_t
     return kept == count;
 }
 
-/* `sizes`: pairs, points, contacts of a pair, whether the cloud is alpha's. Of each pair: two flags (a
-   half-space; a solid with faces), four sizes, a resolution and an extent (0 of a half-space), the links of
-   solid and cloud, and [R, t] of both on them. R and t of all links; the points axis by axis. Written: a
-   workspace of as many numbers as points; which pairs are known;
+/* `sizes`: pairs, points, contacts of a pair, whether the cloud is alpha's, and how far the numbers of a pair's points
+   are from those of the next: 0 where all pairs have the same. Of each pair: two flags (a half-space; a solid with
+   faces), four sizes and a resolution; an extent (0 of a half-space), the radius of the balls about the points, the
+   grain of a half-space, and how far out it may be; the links of solid and cloud, and [R, t] of both on them; the
+   points axis by axis. R and t of all links. Written: a workspace of as many numbers as points; which pairs are known;
    phi, alpha, beta and n, one after another, and the numbers of the points. */
 int64_t cloud_contacts(const int64_t *sizes, const int64_t *flags, const double *solids, const double *resolution,
-                       const double *extent, const int64_t *links, const double *on_link, const double *point,
-                       double *distance, const double *R, const double *t, bool *known, double *phi,
+                       const double *more, const int64_t *links, const double *on_link, const double *point,
+                       const double *R, const double *t, double *distance, bool *known, double *phi,
                        int64_t *index)
 {
     int64_t pairs = sizes[0], points = sizes[1], count = sizes[2], is_alpha = sizes[3], all = pairs * count;
     double *alpha = phi + all, *beta = alpha + 3 * all, *n = beta + 3 * all;
-    for (int64_t p = 0; p < pairs; p++) {
+    for (int64_t p = 0; p < pairs; p++, point += sizes[4], more += 4) {
         Pair s = {.is_plane = flags[2 * p], .has_faces = flags[2 * p + 1], .points = points,
                   .size = solids + 4 * p, .resolution = resolution[p]};
         const int64_t *link = links + 2 * p;
-        double places = 0.0, size = 0.0;
+        double places = 0.0, size = 0.0, radius = more[1], least = INFINITY;
+        int64_t level = 0;
         in_world(R + 9 * link[0], t + 3 * link[0], on_link + 24 * p, s.solid);
         in_world(R + 9 * link[1], t + 3 * link[1], on_link + 24 * p + 12, s.cloud);
         relative_pose(s.solid, s.cloud, s.pose);
@@ -156,17 +158,30 @@ int64_t cloud_contacts(const int64_t *sizes, const int64_t *flags, const double 
         if (!known[p])
             continue;
         (s.is_plane ? to_plane : to_core)(&s, point, distance);
-        if (!(known[p] = closest(&s, distance, count, index + p * count, phi + p * count)))
-            continue;
         for (int k = 0; k < 3; k++)
             places = larger(places, larger(fabs(s.solid[4 * k + 3]), fabs(s.cloud[4 * k + 3])));
-        double within = 1e-12 * larger(places, extent[p]); /* TIED_FACES */
+        if (radius > 0)
+            for (int64_t i = 0; i < points; i++)
+                distance[i] -= radius;
+        if (more[2] > 0) { /* contact/batches/balls, `of_poses` */
+            for (int64_t i = 0; i < points; i++)
+                least = smaller(least, distance[i]);
+            for (int64_t i = 0; i < points; i++)
+                level += distance[i] <= least + 2 * more[2];
+            s.resolution = level > 2 ? larger(s.resolution, more[2]) : s.resolution;
+        }
+        known[p] = larger(places, s.is_plane ? fabs(s.size[3]) : 0.0) < more[3] &&
+                   closest(&s, distance, count, index + p * count, phi + p * count);
+        if (!known[p])
+            continue;
+        double within = 1e-12 * larger(places, more[0]); /* TIED_FACES */
         for (int64_t j = p * count; j < (p + 1) * count; j++) {
             double at[3], x[3], normal[3], out[3], on_cloud[3];
             phi[j] = distance[index[j]];
             for (int i = 0; i < 3; i++)
                 at[i] = point[i * points + index[j]];
             carried(s.pose, at, x);
+            double away = radius > 0 ? dot(s.size, x) - s.size[3] : phi[j]; /* only half-spaces have one */
             if (s.has_faces && phi[j] <= within && faces_tie(s.size, x, within))
                 known[p] = 0;
             if (s.is_plane)
@@ -177,9 +192,9 @@ int64_t cloud_contacts(const int64_t *sizes, const int64_t *flags, const double 
             turned(s.solid, normal, out);
             carried(s.cloud, at, on_cloud);
             for (int i = 0; i < 3; i++) {
-                double on_solid = on_cloud[i] - phi[j] * out[i];
+                double on_solid = on_cloud[i] - away * out[i];
                 n[3 * j + i] = is_alpha ? -out[i] : out[i];
-                on_cloud[i] -= 0.0 * out[i];
+                on_cloud[i] -= radius * out[i];
                 alpha[3 * j + i] = is_alpha ? on_cloud[i] : on_solid;
                 beta[3 * j + i] = is_alpha ? on_solid : on_cloud[i];
             }

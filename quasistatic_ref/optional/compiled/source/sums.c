@@ -146,21 +146,37 @@ static int free_change(const double *q, const double *there, double *change)
     return sure;
 }
 
-int64_t change(const int64_t *count, const int64_t *joints, const double *q, const double *q_next, double *change,
-               bool *open)
+static int joint_change(int64_t kind, const double *here, const double *there, double *out)
 {
-    int64_t left = 0;
-    for (int64_t j = 0; j < *count; j++) {
-        const double *here = q + joints[*count + j], *there = q_next + joints[*count + j];
-        double *out = change + joints[2 * *count + j];
-        int sure = joints[j] != PLANAR;
-        if (joints[j] == SCALAR)
-            out[0] = there[0] - here[0];
-        else if (joints[j] == CONTINUOUS)
-            sure = angle_of(here[0] * there[1] - here[1] * there[0], here[0] * there[0] + here[1] * there[1], out);
-        else if (joints[j] == FLOATING)
-            sure = free_change(here, there, out);
-        left += open[j] = !sure;
+    if (kind == SCALAR)
+        out[0] = there[0] - here[0];
+    else if (kind == CONTINUOUS)
+        return angle_of(here[0] * there[1] - here[1] * there[0], here[0] * there[0] + here[1] * there[1], out);
+    return kind == SCALAR || (kind == FLOATING && free_change(here, there, out));
+}
+
+/* simulate/form_step, `StepPlan.loads`: tau, and q_next (-) q of the first joints. `sizes`: coordinates, actuated ones,
+   joints, and parts that must have length one, which start `at`, with so many numbers. `torque` is minus the force of
+   gravity in the order that `paper` says, `within` the error of the squared lengths. 0 where Python has to say. */
+int64_t step_loads(const int64_t *sizes, const int64_t *joints, const int64_t *at, const int64_t *paper,
+                   const double *acts, double within, const double *torque, const double *force, const double *q,
+                   const double *q_next, double *loads)
+{
+    int64_t n_v = sizes[0], n_a = sizes[1], count = sizes[2];
+    double off = 0.0;
+    for (int64_t i = 0; i < sizes[3]; i++) {
+        double square = -1.0;
+        for (int64_t k = at[i]; k < at[i] + at[sizes[3] + i]; k++)
+            square += q_next[k] * q_next[k];
+        off += square * square;
     }
-    return left;
+    for (int64_t i = 0; i < n_v; i++)
+        loads[i] = ((0.0 - torque[paper[i]]) * (i < n_a ? acts[i] : 1.0) + force[i]) + 0.0;
+    for (int64_t j = 0; j < count; j++)
+        if (!joint_change(joints[j], q + joints[count + j], q_next + joints[count + j],
+                          loads + n_v + joints[2 * count + j]))
+            return 0; /* an angle that it cannot round */
+    for (int64_t i = n_v; i < n_v + n_a; i++)
+        loads[i] += 0.0;
+    return off < within;
 }
