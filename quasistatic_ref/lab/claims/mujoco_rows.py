@@ -18,7 +18,7 @@ from quasistatic_ref.lab.made_steps.systems import (
 )
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.step.cones import pyramid
+from quasistatic_ref.step.pyramid import pyramid
 from quasistatic_ref.step.standard_form import friction_rows
 
 # Random heaps of bodies, as MJCF for MuJoCo and as URDF for us.

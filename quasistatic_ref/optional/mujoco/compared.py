@@ -17,6 +17,8 @@ from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import CREEP
 
+ALIKE = 1e-6
+"""Sine between tangent planes of a body's contacts up to which they count as one [-]."""
 WINDOW = 0.1
 """Time over which MuJoCo's motion is measured [s]: many of its time steps, and few of a fall."""
 
@@ -121,6 +123,8 @@ class Body:
         The sum of mu_v f_n of its contacts [N].
     torque : float
         Moment that is not balanced, about the axis about which it turns [N m].
+    rolling : float
+        The sum of the moments of MuJoCo's rolling friction at its contacts [N m].
     balanced : bool
         Whether all of MuJoCo's forces add up to none on it.
     theirs, exact : Motion
@@ -135,6 +139,7 @@ class Body:
     needed: float
     bears: float
     torque: float
+    rolling: float
     balanced: bool
     theirs: Motion
     exact: Motion
@@ -180,8 +185,8 @@ class MujocoAnswer:
     Parameters
     ----------
     contacts : tuple of StateContact, length n_c
-    wrenches : ndarray, shape (n_c, 4)
-        (f_d1, f_d2, f_n, tau_n) of each, in its frame [N, N m].
+    wrenches : ndarray, shape (n_c, 6)
+        (f_d1, f_d2, f_n, tau_n, tau_d1, tau_d2) of each, in its frame [N, N m].
     movers : tuple of Mover
     M : ndarray, shape (nv, nv)
         Mass matrix [kg, kg m, kg m^2].
@@ -253,7 +258,7 @@ class Compared:
             yield Contact(
                 contact.name, contact.bodies, max(0.0, -contact.distance), contact.mu_v,
                 contact.mu_omega, contact.pair,
-                theirs=self._bearing(contact, wrench, self.present),
+                theirs=self._bearing(contact, wrench[:4], self.present),
                 exact=None if j is None else self._bearing(contact, self.forces[j], self.exact),
             )  # fmt: skip
 
@@ -268,19 +273,24 @@ class Compared:
                 continue
             friction = np.zeros(3)
             bears = 0.0
+            on = []
             for j, name in enumerate(contacts.name):
                 alpha, beta = touching[name]
                 if mover.name in (alpha, beta):
+                    on.append(j)
                     friction += rubs[j] if mover.name == beta else -rubs[j]
                     bears += float(contacts.mu_v[j] * self.forces[j, 2])
-            yield self._body(mover, friction, bears)
+            tangents = np.concatenate([contacts.d1[on], contacts.d2[on]])
+            yield self._body(mover, friction, bears, tangents)
 
-    def _body(self, mover: Mover, friction: Array, bears: float) -> Body:
+    def _body(self, mover: Mover, friction: Array, bears: float, tangents: Array) -> Body:
         theirs = self.theirs
         linear = mover.linear
         angular = mover.angular
         # A free body's: mass times acceleration is the sum of loads, normal forces and friction.
         needed = mover.mass * linear @ self.acceleration - friction if mover.free else friction
+        # What is left along normals of one direction, as of what topples, no friction balances.
+        needed = np.linalg.pinv(tangents, ALIKE) @ (tangents @ needed)
         a = np.where((linear != 0).any(axis=0) | (angular != 0).any(axis=0), self.acceleration, 0)
         turn = float(np.linalg.norm(angular @ self.acceleration))
         fastest = mover.fastest(theirs.mean)
@@ -295,10 +305,16 @@ class Compared:
             bears=bears,
             # Of a rotation about a line, a'Ma is the moment of inertia times the rate squared.
             torque=float(a @ theirs.M @ a / turn) if mover.free and turn else 0.0,
+            rolling=self._rolling(mover),
             balanced=self._balanced(mover),
             theirs=self._motion(linear @ theirs.mean, angular @ theirs.mean),
             exact=self._motion(linear @ self.exact, angular @ self.exact),
         )
+
+    def _rolling(self, mover: Mover) -> float:
+        """The sum of the moments of MuJoCo's rolling friction at a body's contacts [N m]."""
+        touching = [mover.name in contact.bodies for contact in self.theirs.contacts]
+        return float(np.linalg.norm(self.theirs.wrenches[touching, 4:], axis=1).sum())
 
     def _balanced(self, mover: Mover) -> bool:
         """Whether the net force on a body is at most FORCES_AGREE of the forces on it."""

@@ -12,13 +12,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.files.content import text_read
+from quasistatic_ref.errors import InputError, about_field, about_file
+from quasistatic_ref.files.rows import (
+    BLANKS,
+    check_decimal_point,
+    check_separator,
+    separator_of,
+    words_of,
+)
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.mujoco.settled import numbered
 from quasistatic_ref.optional.mujoco.system import MujocoSystem
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.simulate.target import piecewise_linear
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.text.content import text_read
 
 if TYPE_CHECKING:
     from mujoco import MjData
@@ -59,11 +66,13 @@ class Drive:
 
     def __call__(self, t: float, q: Array) -> Array:
         """q_bar_a at time t [s], of a step from q, shape (n_q_a,)."""
-        return _q_bar_a(self.system, q, *self.at(t))
+        with self.system.turn:
+            return _q_bar_a(self.system, q, *self.at(t))
 
     def force(self, t: float, q: Array) -> Array:
         """The force of motors at time t [s] and q, shape (n_v,) [N, N m]."""
-        return _motor_force(self.system, q, *self.at(t))
+        with self.system.turn:
+            return _motor_force(self.system, q, *self.at(t))
 
 
 def _actuator_forces(
@@ -207,23 +216,42 @@ def _of_keyframes(
 def table_read(path: str | PathLike[str]) -> tuple[list[str], Array, Array]:
     """Names of columns, times (w,) [s] and values (w, columns) of a CSV table.
 
+    Commas or semicolons part the words, which may be quoted.
+
     Raises
     ------
     InputError
         Naming the row that is not one.
     """
     first, _, rest = text_read(path).partition("\n")
-    names = [name.strip() for name in first.split(",")]
-    if names[0] != "t" or len(names) < 2:
-        problem = "must begin with a row of names, t and then actuators or joints"
-        raise InputError(problem, field="targets")
+    separator = separator_of(first)
+    names = words_of(first.strip(), separator)
+    if separator == BLANKS or names[0] != "t":
+        problem = "must begin with a row of names, t and then actuators or joints, with commas"
+        raise InputError(problem, field="targets", value=first)
+    if twice := [name for name in names if names.count(name) > 1]:
+        problem = "names a column twice; leave one of the two out"
+        raise InputError(problem, field="targets", value=twice[0])
     numbers = np.zeros((0, 0))
     if any(line.partition("#")[0].strip() for line in rest.splitlines()):
         with suppress(ValueError):
-            numbers = np.loadtxt(StringIO(rest), delimiter=",", ndmin=2)
+            numbers = np.loadtxt(StringIO(rest), delimiter=separator, quotechar='"', ndmin=2)
     if numbers.shape[1] != len(names):
+        _check_rows(rest, separator)
         problem = f"must be rows of {len(names)} numbers below the names"
         raise InputError(problem, field="targets", value=rest)
     if not (np.isfinite(numbers).all() and (np.diff(numbers[:, 0]) > 0).all()):
         raise InputError("must be finite, and times must increase", field="targets")
     return names[1:], numbers[:, 0], numbers[:, 1:]
+
+
+def _check_rows(rows: str, separator: str) -> None:
+    """Refuse the first of the rows below the names that has other separators, or decimal commas."""
+    for number, line in enumerate(rows.splitlines(), start=2):
+        row = line.partition("#")[0].strip()
+        if not row:
+            continue
+        with about_field(f"targets, line {number}"):
+            check_separator(row, separator, InputError)
+            for word in words_of(row, separator):
+                check_decimal_point(word, InputError)

@@ -16,9 +16,9 @@ from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
 from quasistatic_ref.errors import ModelError, about_file
-from quasistatic_ref.files.content import bytes_read, text_of
 from quasistatic_ref.files.mesh_files import readable_folders, root_option
 from quasistatic_ref.files.urdf.file import LARGEST_FILE
+from quasistatic_ref.text.content import bytes_read, text_of
 
 MOST_FILES = 1000
 """Most files of XML of one model."""

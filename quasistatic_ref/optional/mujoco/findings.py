@@ -23,6 +23,7 @@ from quasistatic_ref.optional.mujoco.tolerances import (
     PRESSES,
 )
 from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.tolerances import CREEP
 
 if TYPE_CHECKING:
     from mujoco import MjModel
@@ -117,11 +118,17 @@ def _meetings(contacts: Sequence[Contact], bodies: Sequence[Body]) -> list[_Meet
 
 
 def _borne(contacts: Sequence[Contact], bodies: Sequence[Body]) -> bool:
-    """Whether MuJoCo's forces balance the loads of some bodies inside their cones."""
+    """Whether MuJoCo's forces balance the loads of some bodies inside the cones of a step."""
     names = {body.name for body in bodies}
     shares = [c.theirs.share for c in contacts if names & {*c.bodies} and c.theirs.normal > 0]
     inside = max(shares, default=0.0) <= 1 + FORCES_AGREE
-    return inside and all(body.balanced for body in bodies)
+    return inside and all(body.balanced and not _rolls(body, contacts) for body in bodies)
+
+
+def _rolls(body: Body, contacts: Sequence[Contact]) -> bool:
+    """Whether MuJoCo's rolling friction has a part in what holds a body."""
+    normal = sum(c.theirs.normal for c in contacts if body.name in c.bodies)
+    return body.rolling > FORCES_AGREE * normal * body.size
 
 
 def moving(movers: Sequence[Mover], v: Array) -> Iterator[Named]:
@@ -142,7 +149,7 @@ def not_unique(contacts: Sequence[Contact], bodies: Sequence[Body], weight: floa
     """
     for meeting in _meetings(contacts, bodies):
         more = abs(meeting.theirs - meeting.exact)
-        rest = all(body.rests for body in meeting.bodies)
+        rest = all(body.rests and body.fastest(body.exact) <= CREEP for body in meeting.bodies)
         bound = FORCES_AGREE * max(meeting.theirs, weight)
         if rest and more > bound and _borne(contacts, meeting.bodies):
             alike = "MuJoCo's balance the loads inside the cones, as the exact ones do"
@@ -158,14 +165,18 @@ def _motion(
     yielding = {c.pair for c in touching if _creep(c, body) > tolerance}
     creeps = [c for c in touching if c.pair in yielding and _share(touching, c.pair) < INSIDE_CONE]
     rests = body.fastest(body.theirs) <= tolerance
-    if slides:
+    stays = body.steady and body.fastest(body.theirs) <= FAST
+    moves = body.fastest(body.exact) > tolerance
+    if (rests or stays) and moves and _rolls(body, touching):
+        yield _moves(body, touching, rests)
+    elif slides:
         yield _slides(body, slides)
     elif moved:
-        yield _turns(body, moved)
-    elif creeps and body.steady and body.fastest(body.theirs) <= FAST:
+        yield _turns(body, moved, model)
+    elif creeps and stays:
         yield _creeps(body, creeps, model)
-    elif touching and rests and body.fastest(body.exact) > tolerance:
-        yield _moves(body, touching)
+    elif touching and rests and moves:
+        yield _moves(body, touching, rests)
 
 
 def _motion_of(side: Bearing, body: Body) -> float:
@@ -213,7 +224,7 @@ def _creeps(body: Body, through: Sequence[Contact], model: MjModel) -> Named:
 def _slides(body: Body, through: Sequence[Contact]) -> Named:
     cause = f"{body.name} slides: its friction is at its limit"
     share = 1.0
-    if body.free:
+    if body.free and body.bears < body.needed:  # else it slips because it turns
         share = body.bears / body.needed
         cause = f"{body.name} slides: its contacts hold {share:.2g} of what its load needs, "
         cause += f"{body.bears:.3g} N of {body.needed:.3g} N"
@@ -222,26 +233,54 @@ def _slides(body: Body, through: Sequence[Contact]) -> Named:
     return _finding("slides", body, through, STRONGER, cause, {"share": share})
 
 
-def _turns(body: Body, through: Sequence[Contact]) -> Named:
+def _turns(body: Body, through: Sequence[Contact], model: MjModel) -> Named:
     mu_omega = 1e3 * max(c.mu_omega for c in through)
     about = "the line of the two points" if len(through) == 2 else "the normal"
     sides = [c.exact for c in through if c.exact]
     torque = body.torque + sum(side.torque for side in sides)
-    needed = 1e3 * torque / sum(side.normal for side in sides)
+    rubs = sum(side.friction for side in sides)
+    # What turns falls, and asks for less friction than what would be held.
+    held = max(1.0, body.needed / rubs) if body.free and rubs else 1.0
+    room = sum(_room(c, c.exact, held, model.opt.cone) for c in through if c.exact)
+    needed = 1e3 * torque / room if room else 0.0
     cause = f"torsional friction {mu_omega:.3g} mm: {body.name} turns about {about}"
-    cause += f"; {needed:.3g} mm or more would hold it" if needed else ""
+    cause += f"; {_raised(needed):.3g} mm or more would hold it" if needed else ""
     cause += f"; in MuJoCo, {_turning(body)}"
     remedy = HOLDS if mu_omega else SPINS
     return _finding("turns", body, through, remedy, cause, {"mu_omega_mm": mu_omega})
+
+
+def _raised(number: float) -> float:
+    """The next number of three digits above a positive one, or that itself [its unit]."""
+    place = 10.0 ** (np.floor(np.log10(number)) - 2)
+    return float(np.ceil(number / place) * place)
+
+
+def _room(contact: Contact, side: Bearing, held: float, elliptic: int) -> float:
+    """What friction, `held` times as large, leaves of a normal force for torque [N].
+
+    Over mu_omega the torque may be as large: the shares of the normal force that friction and
+    torque take add up to it in the pyramid, and their squares to its square in the ellipsoid.
+    """
+    taken = side.share * side.normal
+    of_torque = side.torque / contact.mu_omega if contact.mu_omega else 0.0
+    if not elliptic:
+        return max(side.normal - held * (taken - of_torque), 0.0)
+    of_friction = held**2 * (taken**2 - of_torque**2)
+    return float(np.sqrt(max(side.normal**2 - of_friction, 0.0)))
 
 
 def _turning(body: Body) -> str:
     return f"{body.name} turns by {np.degrees(body.theirs.turn):.3g} degrees/s"
 
 
-def _moves(body: Body, through: Sequence[Contact]) -> Named:
-    cause = f"{body.name} rests in MuJoCo; its contacts, loads and joints alone let it move"
+def _moves(body: Body, through: Sequence[Contact], rests: bool) -> Named:
+    cause = f"{body.name} {'rests' if rests else 'creeps'} in MuJoCo"
     numbers = {"speed_mm_s": 1e3 * body.fastest(body.exact)}
+    if _rolls(body, through):
+        cause += f" by rolling friction of {1e3 * body.rolling:.3g} N mm"
+        numbers["rolling_N_mm"] = 1e3 * body.rolling
+    cause += "; its contacts, loads and joints alone let it move"
     return _finding("moves", body, through, RESTS, cause, numbers)
 
 

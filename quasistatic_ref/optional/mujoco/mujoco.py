@@ -29,10 +29,13 @@ from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.by_group import coordinate_units
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Extra, StepData, seconds
+from quasistatic_ref.text.module_on_demand import ModuleOnDemand
 from quasistatic_ref.text.plain import Plain
 
 if TYPE_CHECKING:
-    from mujoco import MjData, MjModel
+    import mujoco
+else:
+    mujoco = ModuleOnDemand("mujoco")
 
 DEPTHS = ("closed", "as is")
 AXES = {"FREE": ("x", "y", "z", "rx", "ry", "rz"), "BALL": ("rx", "ry", "rz")}
@@ -67,7 +70,7 @@ class Coordinates(Plain):
 
 
 def mujoco_step(
-    model: MjModel, data: MjData, h: float, depth: str = "closed"
+    model: mujoco.MjModel, data: mujoco.MjData, h: float, depth: str = "closed"
 ) -> tuple[StepData, Coordinates]:
     """The step that begins in a state of MuJoCo, at rest.
 
@@ -113,8 +116,8 @@ def mujoco_step(
 
 
 def step_with(
-    model: MjModel,
-    data: MjData,
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
     h: float,
     depth: str,
     drag: Array | float = 0.0,
@@ -224,7 +227,7 @@ def actuated(
     return tied._replace(dofs=tied.dofs[order], T=tied.T[:, order]), len(a), K_q
 
 
-def default_cone(model: MjModel, rubs: bool, extra: Extra) -> tuple[str, tuple[str, ...]]:
+def default_cone(model: mujoco.MjModel, rubs: bool, extra: Extra) -> tuple[str, tuple[str, ...]]:
     """The cone of a model, which of its contacts rub, and a note where MuJoCo's differs."""
     if not (model.opt.cone and rubs):
         return PYRAMID, ()

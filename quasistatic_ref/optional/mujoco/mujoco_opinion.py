@@ -25,13 +25,15 @@ from quasistatic_ref.solve.backends import DAQP
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.solution import StepSolution
+from quasistatic_ref.text.module_on_demand import ModuleOnDemand
 from quasistatic_ref.tolerances import ACCURACY, CREEP
 
 if TYPE_CHECKING:
-    from mujoco import MjData, MjModel
-
-    from quasistatic_ref.step.data import StepData
-    from quasistatic_ref.step.solution import StepSolution
+    import mujoco
+else:
+    mujoco = ModuleOnDemand("mujoco")
 
 SHORT = 0.01
 """Time step for forces of what slides, over MuJoCo's [-]: springs give way by 1e-4 as much."""
@@ -42,7 +44,10 @@ DRAG = "dampers: their forces at the present velocity are loads"
 
 
 def mujoco_opinion(
-    model: MjModel, data: MjData, tolerance: float = CREEP, start: MjData | None = None
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    tolerance: float = CREEP,
+    start: mujoco.MjData | None = None,
 ) -> Opinion:
     """MuJoCo's forces and motions at the contacts of a state, next to those of an exact step.
 
@@ -153,7 +158,10 @@ def _sliding(step: StepData) -> tuple[StepSolution, bool]:
 
 
 def _answer(
-    state: MujocoState, data: MjData, now: MjData, hops: Mapping[tuple[int, int], Array]
+    state: MujocoState,
+    data: mujoco.MjData,
+    now: mujoco.MjData,
+    hops: Mapping[tuple[int, int], Array],
 ) -> MujocoAnswer:
     """MuJoCo's forces in a state: at rest, as the user has it, and `now`, by ``mj_forward``.
 

@@ -10,6 +10,7 @@ import copy
 from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
+from os import PathLike
 from types import ModuleType
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -188,6 +189,18 @@ def check_finite(model: MjModel, data: MjData) -> None:
             raise ModelError("must contain finite numbers only", field=f"data.{name}")
 
 
+def package_of(model: MjModel) -> ModuleType:
+    """The package mujoco; InputError if `model` is no MjModel of it, but an MjSpec, a path, ..."""
+    mujoco = needed_package("mujoco", "engines", "a MuJoCo scene")
+    wanted = "a mujoco.MjModel"
+    if isinstance(model, mujoco.MjSpec):
+        wanted += ": spec.compile()"
+    elif isinstance(model, str | PathLike):
+        wanted += ": mujoco.MjModel.from_xml_path(file)"
+    check_kind(model, mujoco.MjModel, "model", wanted)
+    return mujoco
+
+
 def mujoco_state(
     model: MjModel, data: MjData, hops: Collection[tuple[int, int]] = ()
 ) -> MujocoState:
@@ -200,8 +213,7 @@ def mujoco_state(
     ModelError
         If nothing in the model can move, or the state is not of finite numbers.
     """
-    mujoco = needed_package("mujoco", "engines", "mujoco_step")
-    check_kind(model, mujoco.MjModel, "model", "a mujoco.MjModel")
+    mujoco = package_of(model)
     check_kind(data, mujoco.MjData, "data", "a mujoco.MjData")
     check_finite(model, data)
     adapted = awake(model)

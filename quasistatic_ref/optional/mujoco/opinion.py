@@ -10,10 +10,10 @@ import numpy as np
 
 from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.optional.mujoco.compared import Body, Contact
+from quasistatic_ref.quoting import aligned
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.text.declared import Field, Tables
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.quoting import aligned
 
 FORMAT = "quasistatic-ref/opinion"
 VERSION = 3
@@ -71,6 +71,7 @@ TABLES = Tables({
         "needed": Field("number", "the friction that balances its loads", "N", least=0),
         "bears": Field("number", "the sum of mu_v times normal force", "N"),
         "torque": Field("number", "moment that nothing balances", "N m"),
+        "rolling": Field("number", "moment of MuJoCo's rolling friction", "N m", least=0),
         "balanced": Field("boolean", "whether MuJoCo's forces on it add up to none"),
         "theirs": Field("table", "MuJoCo's answer, a mean over 0.1 s", of=MOTION),
         "exact": Field("table", "the exact answer, one step from rest", of=MOTION),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.contact.normals import UNIQUE_NORMAL
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ModelError
@@ -75,6 +75,8 @@ class Places:
         Of the geoms of the pairs, by number; the world has those of bodies that never move.
     first : ndarray of int, shape (pairs,)
         Place of the nearest contact of each pair.
+    margins : dict of str to float
+        Distances at which MuJoCo lets pairs push, by their names, where not zero [m].
 
     Raises
     ------
@@ -97,12 +99,14 @@ class Places:
             pairs.append(self._pair(state, touch, a, b))
             geoms.append((a, b))
         self.pairs = tuple(pairs)
+        gaps = [float(touch.includemargin) for touch in touching]
+        self.margins = {pair.name: gap for pair, gap in zip(pairs, gaps, strict=True) if gap}
         self.geoms = np.array(geoms, dtype=np.int64).reshape(-1, 2)
         self.counts = np.array([pair.n_c for pair in pairs], dtype=np.int64)
         self.first = np.cumsum(self.counts) - self.counts
         self.number = {frozenset(two): i for i, two in enumerate(geoms)}
-        for gaps, share in _gaps(state.adapted):
-            gaps += share * margin
+        for field, share in _gaps(state.adapted):
+            field += share * margin
 
     def _pair(self, state: MujocoState, touch: MjContact, a: int, b: int) -> ContactPair:
         for g in (a, b):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.errors import InputError, ModelError, ScenarioError, check_kind
 from quasistatic_ref.files.scenario.checks import run_fields
 from quasistatic_ref.files.scenario.overrides import Changes, Origins, about_changes, apply_settings
@@ -19,28 +19,33 @@ from quasistatic_ref.files.scenario.scenario import FastBackend, Scenario
 from quasistatic_ref.files.scenario.scenario_table import TOP, fields_of
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.mujoco.bounds import stale
 from quasistatic_ref.optional.mujoco.constraints import violated
 from quasistatic_ref.optional.mujoco.drive import Drive, Driven, drive_of
 from quasistatic_ref.optional.mujoco.mujoco import default_cone, first_equality
+from quasistatic_ref.optional.mujoco.mujoco_state import package_of
 from quasistatic_ref.optional.mujoco.places import overlapped_children
 from quasistatic_ref.optional.mujoco.settled import settled
 from quasistatic_ref.optional.mujoco.system import MujocoSystem, Placed
 from quasistatic_ref.parts import part
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record.failures import RunFailed
 from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Targets
-from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.backends import DEFAULT, check_function
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.extension import ExtensionOfQ
+from quasistatic_ref.text.module_on_demand import ModuleOnDemand
 from quasistatic_ref.text.plain import fingerprint
-from quasistatic_ref.text.quoting import suggestion
 from quasistatic_ref.text.table_reader import TableReader
 
 if TYPE_CHECKING:
-    from mujoco import MjData, MjModel
+    import mujoco
+else:
+    mujoco = ModuleOnDemand("mujoco")
 
 
 MARGIN = 0.05
@@ -129,8 +134,8 @@ class MujocoScenario(Scenario):
 
 
 def mujoco_scenario(
-    model: MjModel,
-    data: MjData | None = None,
+    model: mujoco.MjModel,
+    data: mujoco.MjData | None = None,
     targets: Driven = None,
     settings: Changes = (),
     path: str | Path = "scene.xml",
@@ -165,7 +170,7 @@ def mujoco_scenario(
     Raises
     ------
     InputError
-        If `targets` are of another kind, or none.
+        If `model`, `data` or `targets` are of another kind, or `targets` none.
     ScenarioError
         Naming a field.
     ModelError
@@ -180,6 +185,7 @@ def mujoco_scenario(
     >>> scene.run(progress=False).q[:, 2].round(6)  # it falls by g h^2 a step [m]
     array([1.      , 0.999019, 0.998038, 0.997057])
     """
+    check_kind(data, package_of(model).MjData | None, "data", "a mujoco.MjData")
     check_kind(path, str | PathLike, "path", "a path")
     wanted = "a file, names of keyframes or a function"
     check_kind(targets, Sequence | PathLike | Callable | None, "targets", wanted)
@@ -193,7 +199,11 @@ def mujoco_scenario(
 
 
 def _scenario_of(
-    model: MjModel, data: MjData | None, targets: Driven, tables: dict[str, Any], path: Path
+    model: mujoco.MjModel,
+    data: mujoco.MjData | None,
+    targets: Driven,
+    tables: dict[str, Any],
+    path: Path,
 ) -> MujocoScenario:
     top = TableReader(tables, error=ScenarioError)
     for name in top.names_left():
@@ -207,6 +217,7 @@ def _scenario_of(
     top.take("roots", None)
     read = fields_of(top, TOP)
     run = run_fields(read, read("solver"))
+    check_function(run["backend"])
     margin = top.number("margin", MARGIN)
     stiffness = top.take("stiffness", {})
     if not isinstance(stiffness, Mapping):
@@ -226,7 +237,7 @@ def _scenario_of(
         cone, system.notes = default_cone(model, rubs, system.rows)
     start = system.state(system.q_start)
     overlaps = overlapped_children(start, system.places)
-    system.notes = (*system.notes, *violated(start), *overlaps)
+    system.notes = (*system.notes, *stale(start), *violated(start), *overlaps)
     pairs = system.places.pairs
     if run["backend"] is None:
         run["backend"] = DEFAULT

@@ -12,7 +12,7 @@ from quasistatic_ref.errors import InputError, ModelError, about_field
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.mujoco.mujoco_state import check_finite
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.quoting import suggestion
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel

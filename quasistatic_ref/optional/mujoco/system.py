@@ -6,12 +6,13 @@ import copy
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from threading import RLock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.contact.jacobian import columns_at
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import ModelError
@@ -135,6 +136,8 @@ class MujocoSystem(Mechanism):
         Where the positions of these joints stand in qpos.
     rises : Rises
         Friction of joints.
+    turn : RLock
+        Held by who reads a state.
 
     Raises
     ------
@@ -155,10 +158,12 @@ class MujocoSystem(Mechanism):
         self.h = h
         self._arguments = self.model, self.start, h, {**stiffnesses}, margin
         self._at: bytes | None = None
+        self.turn = RLock()
         state = self._state = mujoco_state(self.model, self.start)
         check(state)
         check_run(state)
         self.places = Places(state, margin)
+        self.margins = self.places.margins
         self.layout = contact_layout(self.places.pairs)
         state.run()
         self.driven = {name: self._driven_spring(name, k) for name, k in stiffnesses.items()}
@@ -297,7 +302,7 @@ class MujocoSystem(Mechanism):
         return qpos
 
     def state(self, q: ArrayLike) -> MujocoState:
-        """MuJoCo's state at q, at rest; the same object at every q."""
+        """MuJoCo's state at q, at rest; the same object at every q, to be read in ``turn``."""
         here = with_shape(q, "q", (self.n_q,), ModelError)
         bits = here.tobytes()
         if self._at != bits:
@@ -344,7 +349,8 @@ class MujocoSystem(Mechanism):
 
     def extension(self, q: Array) -> Extension:
         """Limits, equalities and joint friction at q."""
-        return Extension(rows=self._rows(self.state(q)), rises=self.rises)
+        with self.turn:
+            return Extension(rows=self._rows(self.state(q)), rises=self.rises)
 
     def difference(self, q: ArrayLike, q_next: ArrayLike) -> Array:
         """Change delta_q = q_next (-) q by ``mj_differentiatePos``, shape (n_v,)."""
@@ -374,20 +380,22 @@ class SceneState(State):
     def kinematics(self) -> Placed:
         """Pose and Jacobian of every body, and the closest points."""
         system = self.system
-        state = system.state(self.q)
-        data, model = state.data, system.model
-        omega, along = data.cdof[:, :3], data.cdof[:, 3:]  # about the centre of the tree
-        centre = data.subtree_com[model.body_rootid[model.dof_bodyid]]
-        columns = np.concatenate([(along - np.cross(omega, centre)).T, omega.T])
-        R, t = data.xmat.reshape(-1, 3, 3).copy(), data.xpos.copy()
-        points = system.freed(system.places.points(state), columns)
+        with system.turn:
+            state = system.state(self.q)
+            data, model = state.data, system.model
+            omega, along = data.cdof[:, :3], data.cdof[:, 3:]  # about the centre of the tree
+            centre = data.subtree_com[model.body_rootid[model.dof_bodyid]]
+            columns = np.concatenate([(along - np.cross(omega, centre)).T, omega.T])
+            R, t = data.xmat.reshape(-1, 3, 3).copy(), data.xpos.copy()
+            points = system.freed(system.places.points(state), columns)
         return Placed(R, t, columns, system.column_map, points)
 
     @cached_property
     def M_u(self) -> Array:
         """Un-actuated block of the mass matrix, with armatures, shape (n_u, n_u)."""
         T_u = self.system.T[:, self.system.n_a :]
-        M = T_u.T @ self.system.state(self.q).M @ T_u
+        with self.system.turn:
+            M = T_u.T @ self.system.state(self.q).M @ T_u
         symmetric: Array = (M + M.T) / 2
         return symmetric
 
@@ -396,8 +404,9 @@ class SceneState(State):
 
         Gravity is the model's; `acceleration`, shape (3,) [m/s^2], is not read.
         """
-        data = self.system.state(self.q).data
-        smooth = data.qfrc_smooth - data.qfrc_actuator - data.qfrc_spring
+        with self.system.turn:
+            data = self.system.state(self.q).data
+            smooth = data.qfrc_smooth - data.qfrc_actuator - data.qfrc_spring
         return np.asarray(self.system.T.T @ smooth + 0.0)
 
     def change_to(self, q_a: ArrayLike) -> Array:

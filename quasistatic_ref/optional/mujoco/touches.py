@@ -171,10 +171,11 @@ def jacobian(state: MujocoState, touch: MjContact) -> Array:
 def forces(
     state: MujocoState, data: MjData, means: Mapping[tuple[int, int], Array] | None = None
 ) -> Array:
-    """MuJoCo's (f_d1, f_d2, f_n, tau_n) of its contacts in a state, (n_c, 4) [N, N m].
+    """MuJoCo's (f_d1, f_d2, f_n, tau_n, tau_d1, tau_d2) in a state, (n_c, 6) [N, N m].
 
-    They include what balances adhesion, which MuJoCo takes off them. Contacts of a pair of geoms
-    in `means` share its mean, the force on the second geom [N] and the torque [N m], (4,).
+    Of each contact; the last two are of rolling friction, which a step has not. Forces include
+    what balances adhesion, which MuJoCo takes off them. Contacts of a pair of geoms in `means`
+    share its mean, the force on the second geom [N] and the torque [N m], (4,).
     """
     its = np.zeros((data.ncon, 6))
     for i in range(data.ncon):
@@ -187,7 +188,7 @@ def forces(
             frame = data.contact[i].frame.reshape(3, 3)
             its[i, :4] = [*(frame @ mean[:3]), mean[3]]
             its[i] /= len(at)
-    return its[numbers(state)][:, [1, 2, 0, 3]]
+    return its[numbers(state)][:, [1, 2, 0, 3, 4, 5]]
 
 
 def step_contacts(every: Sequence[StateContact], T: Array, as_is: bool) -> Contacts:

@@ -1,5 +1,6 @@
 """A MuJoCo scene that runs."""
 
+import json
 import pickle
 
 import mujoco
@@ -16,8 +17,10 @@ from quasistatic_ref import (
     mujoco_scenario,
     mujoco_step,
 )
+from quasistatic_ref.optional.mujoco.drive import table_read
 from tests.closeness import assert_close
 from tests.optional.mujoco.models import model_of, posed
+from tests.threads import words_of_two_threads
 
 G, KP, RANGE, RUB, MASS = 9.81, 2000.0, 6.0, 0.1, 0.1
 HAND = 0.3
@@ -104,13 +107,13 @@ class Listening:
         return getattr(self.system, name)
 
 
-def test_a_step_asks_a_system_for_six_names_and_no_others(lifted):
+def test_a_step_asks_a_system_for_seven_names_and_no_others(lifted):
     scene, run = lifted
     simulator = scene.simulator()
     listening = Listening(scene.drive.system)
     vars(simulator)["system"] = listening
     simulator.step(run.q[0], run.q_bar_a[0])
-    assert listening.names == {"n_a", "n_v", "links", "column_map", "lock", "at"}
+    assert listening.names == {"n_a", "n_v", "links", "column_map", "mass_entries", "lock", "at"}
     assert not isinstance(scene.drive.system, System)
 
 
@@ -157,6 +160,14 @@ def test_an_element_that_no_run_has_is_refused_before_the_first_step(body, rest,
         *((f"t,up\n{rows}\n", "rows of 2 numbers") for rows in ("", "# none", "0,1,2")),
         ("t,up\n0,1\n0,2\n", "increase"),
         ("t,lift\n0,1\n", "no actuator"),
+        ("t up\n0 1\n", "begin with a row of names, .* with commas"),
+        ("t,up,up\n0,1,2\n", "targets: names a column twice; .* .got 'up'"),
+        ('t;"up";up\n0;1;2\n', "targets: names a column twice; .* .got 'up'"),
+        ("t,up,t\n0,1,0\n", "targets: names a column twice; .* .got 't'"),
+        ("t;up\n0;0\n0,5;1\n", "targets, line 3: has a decimal comma; .* .got '0,5'"),
+        ("t,up\n0;0\n1;1\n", "targets, line 2: must be separated by commas"),
+        ('"t","up"\n"0","0,1"\n', "targets, line 2: has a decimal comma; .* .got '0,1'"),
+        ("t,up\n0,0\n0,1,0,1\n", "rows of 2 numbers"),
     ],
 )
 def test_a_table_that_is_none_is_refused(table, says, tmp_path):
@@ -165,6 +176,24 @@ def test_a_table_that_is_none_is_refused(table, says, tmp_path):
     path.write_text(table)
     with pytest.raises(InputError, match=says):
         mujoco_scenario(model_of(SCENE), targets=path)
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        't,"up"\n0,0\n"0.5","1"\n',
+        "t;up\n0;0\n0.5;1\n",
+        '"t" ; "up"\r\n0 ; 0 # rest\r\n0.5 ; 1\r\n',
+    ],
+)
+def test_a_table_may_have_quotes_and_semicolons(table, tmp_path):
+    """As spreadsheets write them."""
+    path = tmp_path / "targets.csv"
+    path.write_bytes(table.encode())
+    names, times, values = table_read(path)
+    assert names == ["up"]
+    assert times.tolist() == [0.0, 0.5]
+    assert values.tolist() == [[0.0], [1.0]]
 
 
 @pytest.mark.parametrize(
@@ -240,6 +269,25 @@ def test_the_command_runs_a_scene(tmp_path, cli):
     cli("run bunny_grasp --targets x.csv", status=2)
 
 
+@pytest.mark.long
+def test_commands_begin_in_a_keyframe_and_go_where_targets_say(tmp_path, cli):
+    """Open, the fingers hold nothing; with the controls of "closed" they hold the ball."""
+    path = tmp_path / "scene.xml"
+    high = SCENE.replace('name="raised" qpos="0 ', 'name="raised" qpos=".02 ')
+    path.write_text(high.replace('<geom name="post" size=".07" conaffinity="0"/>', ""))
+    cli("run", path, "--keyframe raised --quiet --set steps=1 --out", tmp_path)
+    assert load_trajectory(tmp_path / "scene.npz").q[0, 0] == 0.02
+    assert "did you mean" in cli("run", path, "--keyframe raise", status=2).err
+    asked = "stands", path, "--fast --quiet --json --set steps=60 --every 60"
+    for more, holds in (
+        ("--keyframe open", False),
+        ("--keyframe closed", True),
+        ("--targets open,closed", True),
+    ):
+        (ball,) = json.loads(cli(*asked, more).out)["bodies"]
+        assert (ball["body"], ball["stands"]) == ("ball", holds), more
+
+
 def test_a_load_on_welded_bodies_acts_at_their_common_centre():
     """Two equal balls on a stick along x: from the first to the middle it is half the way L."""
     L = 0.2
@@ -275,3 +323,40 @@ def test_an_equality_that_the_first_state_violates_is_said_in_millimetres(relpos
     said = [note for note in scene.drive.system.notes if "violated" in note]
     start = ["equality[suck] is violated by 430 mm at the start, and the first step closes"]
     assert [note[: len(start[0])] for note in said] == start * bool(gap)
+
+
+def test_threads_that_share_a_scene_change_nothing_of_each_other_s(lifted):
+    """MuJoCo has one state, at which forces, masses, places and rows of each q are read in turn."""
+    scene, run = lifted
+    simulator = scene.simulator()
+    states = [(run.q[k], run.q[k + 1][: scene.system.n_q_a]) for k in (2, 20)]
+    words = words_of_two_threads(simulator, states, 0.02)
+    assert words.keys() <= {"same", "refused"}
+    assert words["same"] > words["refused"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "size", "reach"),
+    [
+        ("box", [0.05, 0.05, 0.24], np.sqrt(0.05**2 + 0.05**2 + 0.24**2)),
+        ("sphere", [0.09], 0.09),
+        ("capsule", [0.05, 0.2], 0.05 + 0.2),
+        ("cylinder", [0.3, 0.4], 0.5),
+        ("ellipsoid", [0.05, 0.06, 0.3], 0.3),
+    ],
+)
+def test_a_bound_that_is_smaller_than_its_geom_is_named_and_no_height_of_zero(kind, size, reach):
+    """The geom is enlarged after it is compiled, up to a ball; each reach is by its formula."""
+    ball = f'<body name="p" pos="0 0 {size[-1] + 0.02}"><freejoint/><geom size=".02"/></body>'
+    geom = f'<geom name="t" type="{kind}" size=".05 .05 .05"/>'
+    model = model_of(f"<mujoco><worldbody>{geom}{ball}</worldbody></mujoco>")
+    small = model.geom_rbound[0]
+    model.geom_size[0, : len(size)] = size
+    scene = qr.mujoco_scenario(model, steps=2)
+    (said,) = scene.drive.system.notes
+    assert f"geom[t] reaches {1e3 * reach:.4g} mm far" in said
+    assert f"its geom_rbound {1e3 * small:.4g} mm" in said
+    assert not any("0 mm above" in one.cause for one in scene.findings())
+    model.geom_rbound[0] = reach
+    model.geom_aabb[0, 3:] = reach
+    assert qr.mujoco_scenario(model, steps=2).drive.system.notes == ()

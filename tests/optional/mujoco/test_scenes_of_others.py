@@ -29,7 +29,7 @@ def test_equalities_in_the_elliptic_cone_take_the_pyramid_with_a_note():
     assert made.cone == "pyramid"
     (note,) = made.system.notes
     assert note.startswith('option.cone: elliptic; "pyramid" is taken, since equality[0] is')
-    assert len(made.run()) == 2
+    assert made.run().steps == 2
     with pytest.raises(ModelError, match=r"equality\[0\]: is two rows"):
         scene(ON_FLOOR, WELD, ELLIPTIC, cone="ellipsoid")
     assert not scene(ON_FLOOR, "", ELLIPTIC).system.notes
