@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.certify.groups import row_owners
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.arrays import Array, Mask
 from quasistatic_ref.optional.derivatives.nearby import Changes, End, Nearby
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import standard_form
@@ -26,6 +26,12 @@ derivative, of bodies of a millimetre and more."""
 
 OPEN: Final = 1e-4
 """Slack beyond which a row is open [-], relative to what q+ changes by."""
+
+POWER: Final = 1.5
+"""Power of the way with which slack begins, between that of a kink and that of a curve [-]."""
+
+FINER: Final = 100.0
+"""By how much the error of a slope falls from one size to the next: it is of second order [-]."""
 
 
 class Side(NamedTuple):
@@ -86,28 +92,39 @@ def column(near: Nearby, direction: Changes) -> Column:
     direction : mapping
         What each of some parameters changes by.
     """
+    nowhere = np.full(near.result.step.n_v, np.nan)
+    if unknown := near.unknown(direction):
+        return Column(nowhere, nowhere, nowhere, 0.0, problem=unknown)
     rounding = near.rounding(direction)
-    aboves, belows = [], []
+    aboves: list[Side] = []
+    belows: list[Side] = []
     for eps in SHARES:
         above = _side(near, direction, eps)
         below = _side(near, direction, -eps)
-        if len(above.ends) + len(below.ends) == 4:
-            far, up, down = above.ends[1].change, above.ends[0].change, below.ends[0].change
-            central = (up - down) / (2 * eps)
-            # A kink at eps / 2 leaves one side's slope equal to this, not both.
-            if all(_equal(side.slope, central, rounding / eps) for side in (above, below)):
-                rate = (6 * up - far - 2 * down) / (6 * eps)  # of third order
-                return Column(rate, rate, rate, eps)
+        sides = below, above
         aboves.append(above)
         belows.append(below)
-    nowhere = np.full(near.result.step.n_v, np.nan)
-    return Column(
-        nowhere,
-        _slope(belows, rounding, nowhere),
-        _slope(aboves, rounding, nowhere),
-        SHARES[-1],
-        *_difference(belows[-1], aboves[-1]),
-    )
+        if len(above.ends) + len(below.ends) < 4:
+            continue
+        far, up, down = above.ends[1].change, above.ends[0].change, below.ends[0].change
+        central = (up - down) / (2 * eps)
+        # A kink at eps / 2 leaves one side's slope equal to this, not both.
+        agree = all(_equal(side.slope, central, rounding / eps) for side in sides)
+        if agree and not _left(near, direction, *sides).any():
+            rate = (6 * up - far - 2 * down) / (6 * eps)  # of third order
+            return Column(rate, rate, rate, eps)
+    from_below = _slope(belows, rounding, nowhere)
+    from_above = _slope(aboves, rounding, nowhere)
+    only = {-1.0: from_below, 1.0: from_above}.get(near.only_side(direction), nowhere)
+    if np.isfinite(only).all():
+        return Column(only, from_below, from_above, SHARES[-1])
+    rows, points, problem = _difference(*sides)
+    if not problem:
+        rows = near.names_of_closed(_left(near, direction, *sides))
+        problem = f"rows without slack here, and with slack nearby: {', '.join(rows)}"
+        if not rows:
+            problem = "both sides have the same rows and points, which change differently"
+    return Column(nowhere, from_below, from_above, SHARES[-1], rows, points, problem)
 
 
 def _side(near: Nearby, direction: Changes, eps: float) -> Side:
@@ -122,6 +139,30 @@ def _side(near: Nearby, direction: Changes, eps: float) -> Side:
     return Side(eps, ends)
 
 
+def _left(near: Nearby, direction: Changes, *sides: Side) -> Mask:
+    """Of the rows without slack here, (k,), those that have some on a side: (R25) and (R27) fail.
+
+    While a step is smooth they have none, but for a power of the way, the second or a higher one:
+    at twice the way, and at a tenth.
+    """
+    every = [_left_on(near, direction, side) for side in sides]
+    return np.asarray(np.logical_or.reduce(every))
+
+
+def _left_on(near: Nearby, direction: Changes, side: Side) -> Mask:
+    (once, rounding), (twice, _) = map(near.slack, side.ends)
+    rounding = rounding + near.rounding_of_slack(direction)
+    is_open = once > rounding
+    tenth = _side(near, direction, side.eps / 10) if is_open.any() else side
+    if not (is_open.any() and tenth.ends):
+        return is_open
+    with np.errstate(divide="ignore", invalid="ignore"):
+        power = np.log2(np.maximum(twice, 0.0) / once)
+        expected = once * 0.1**power
+    off = np.abs(near.slack(tenth.ends[0])[0] - expected)
+    return is_open & ~((power > POWER) & (off <= expected / 2 + rounding))
+
+
 def _equal(one: Array, other: Array, rounding: float) -> bool:
     """Whether two slopes are the same, but for a `rounding` of theirs."""
     slopes = np.array([one, other])
@@ -130,16 +171,19 @@ def _equal(one: Array, other: Array, rounding: float) -> bool:
 
 
 def _slope(sides: Sequence[Side], rounding: float, nowhere: Array) -> Array:
-    """The first slope, of differences that get smaller, that the next confirms; or nowhere."""
+    """The first slope, of differences that get smaller, that the next confirms; or nowhere.
+
+    Of both follows the one without their error of second order.
+    """
     slopes = [side.slope if len(side.ends) == 2 else nowhere for side in sides]
     for slope, smaller, side in zip(slopes, slopes[1:], sides[1:], strict=False):
         if _equal(slope, smaller, rounding / abs(side.eps)):
-            return slope
+            return (FINER * smaller - slope) / (FINER - 1)
     return nowhere
 
 
 def _difference(below: Side, above: Side) -> tuple[tuple[str, ...], tuple[str, ...], str]:
-    """The rows and the points in which two sides differ, and that in words."""
+    """The rows and the points in which two sides differ, and that in words, if there are any."""
     problem = below.problem or above.problem
     if problem:
         return (), (), f"a step nearby is refused: {problem}"
@@ -157,8 +201,6 @@ def _difference(below: Side, above: Side) -> tuple[tuple[str, ...], tuple[str, .
         words.append(f"rows without slack on one side only: {', '.join(rows)}")
     if points:
         words.append(f"closest points on one side only: {', '.join(points)}")
-    if not words:
-        words.append("both sides have the same rows and points, which change differently")
     return tuple(rows), tuple(points), "; ".join(words)
 
 

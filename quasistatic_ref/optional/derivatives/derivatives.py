@@ -19,12 +19,12 @@ from quasistatic_ref.numbers.arrays import Array, checked_array, checked_numbers
 from quasistatic_ref.optional.derivatives.column import Column, column
 from quasistatic_ref.optional.derivatives.nearby import Nearby
 from quasistatic_ref.optional.derivatives.reason import Reason
+from quasistatic_ref.shown import Shown
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, by_one_thread
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.shown import Shown
 
 EVERY_STEP = ("q", "q_bar_a", "tau")
 """What changes from step to step."""
@@ -141,13 +141,11 @@ class Derivatives(Plain, Shown):
             refused, or no two differences agree on a slope.
         """
         found, size = directed(self._near, directions)
-        slope = found.above if found.problem else found.rate
-        if np.isnan(slope).any():
-            problem = (
-                f"has no one-sided derivative here that two differences agree on: {found.problem}"
-            )
+        if np.isnan(found.above).any():
+            why = found.problem or "a parameter of zero cannot fall"
+            problem = f"has no one-sided derivative here that two differences agree on: {why}"
             raise InputError(problem, field="along")
-        return size * slope
+        return size * found.above
 
     def _rate(self, name: str) -> Array:
         if name not in self.by:

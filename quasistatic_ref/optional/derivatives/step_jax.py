@@ -7,48 +7,55 @@ entries of q: quaternions are normalised first, and their length has no gradient
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache, partial
 from types import ModuleType
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import check_arithmetic
-from quasistatic_ref.optional.derivatives.derivatives import EVERY_STEP, check_derivable
-from quasistatic_ref.optional.derivatives.entries import StepOfEntries
+from quasistatic_ref.optional.derivatives.derivatives import check_derivable
+from quasistatic_ref.optional.derivatives.entries import StepOfEntries, checked_kinks
+from quasistatic_ref.optional.derivatives.parameters import checked_names, values_of
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.simulate.simulator import Simulator
 
-ENTRIES: Final = "(q),(a),(v)"
-"""Numbers of entries of q, q_bar_a and the force."""
 
-
-def step_jax(simulator: Simulator) -> Callable[..., Any]:
+def step_jax(
+    simulator: Simulator, by: str | Iterable[str] = (), kinks: str = "error"
+) -> Callable[..., Any]:
     """The exact step as a function of JAX.
 
     Parameters
     ----------
     simulator : Simulator
         Of a polyhedral cone, without an extension.
+    by : iterable of str
+        Parameters that the function takes as keywords, of ``mu_v``, ``mu_omega``, ``K_q``, ``h``
+        and ``masses``: as many numbers as :func:`.derivatives` has columns. K_q is its diagonal.
+    kinks : str
+        ``"error"``, or ``"nan"``: columns that do not exist are NaN.
 
     Returns
     -------
     callable
-        (q, q_bar_a, force=0) -> q after the step, the arguments as those of
-        :meth:`~quasistatic_ref.simulate.simulator.Simulator.step`, in float64.
+        (q, q_bar_a, force=0, and parameters by name) -> q after the step, the arguments as those of
+        :meth:`~quasistatic_ref.simulate.simulator.Simulator.step`, in float64. A parameter that is
+        left out is the simulator's.
 
     Raises
     ------
     InputError
         If JAX is not installed, or the step has no derivatives anywhere. The function raises it if
-        its arguments are not those of ``Simulator.step`` in float64; under ``jit`` errors about
-        values arrive as JaxRuntimeError.
+        its arguments are not those of ``Simulator.step`` in float64.
     NotDifferentiable
-        By the function, where it is differentiated at a kink.
+        By the function, where it is differentiated at a kink. Where JAX compiles (``jit``,
+        ``scan``, ``vmap``), these and all errors about values arrive as JAX's own, a ValueError or
+        JaxRuntimeError with the same sentence.
 
     Examples
     --------
@@ -58,10 +65,13 @@ def step_jax(simulator: Simulator) -> Callable[..., Any]:
     True
     """
     check_derivable(simulator)
-    jax = jax_package()
     system = simulator.system
+    own = {name: values_of(simulator)[name] for name in checked_names(by)}
+    of_entries = StepOfEntries(simulator, (*own,), checked_kinks(kinks))
+    jax = jax_package()
     sizes = {"q": (system.n_q,), "q_bar_a": (system.n_q_a,), "force": (system.n_v,)}
-    calls = _Calls(simulator, jax)
+    sizes |= {name: value.shape for name, value in own.items()}
+    calls = _Calls(of_entries, simulator, jax)
 
     def rule(primals: tuple[Any, ...], tangents: tuple[Any, ...]) -> tuple[Any, Any]:
         return step(*primals), _slope_primitive().bind(*primals, *tangents, calls=calls)
@@ -69,11 +79,16 @@ def step_jax(simulator: Simulator) -> Callable[..., Any]:
     step = jax.custom_jvp(calls.end)
     step.defjvp(rule)
 
-    def checked(q: Any, q_bar_a: Any, force: Any = 0.0) -> Any:
+    def checked(q: Any, q_bar_a: Any, force: Any = 0.0, **parameters: Any) -> Any:
         if not isinstance(force, jax.core.Tracer) and np.ndim(force) == 0 and force == 0:
             force = np.zeros(system.n_v)
-        each = zip(sizes, (q, q_bar_a, force), sizes.values(), strict=True)
-        return step(*(_checked(jax, *one) for one in each))
+        if unknown := parameters.keys() - own.keys():
+            problem = "is not taken; name it in step_jax(simulator, by=...)"
+            raise InputError(problem, field="a step in JAX", value=sorted(unknown)[0])
+        one_number = {name for name in parameters if own[name].size == 1}
+        parameters |= {name: jax.numpy.ravel(parameters[name]) for name in one_number}
+        values = {"q": q, "q_bar_a": q_bar_a, "force": force} | own | parameters
+        return step(*(_checked(jax, name, values[name], shape) for name, shape in sizes.items()))
 
     return checked
 
@@ -95,40 +110,44 @@ class _Calls:
     Attributes
     ----------
     end : callable
-        (q, q_bar_a, force) -> q+.
+        (q, q_bar_a, force, parameters one by one) -> q+.
     slope : callable
-        (q, q_bar_a, force, a tangent of each) -> that of q+.
+        (the same, a tangent of each) -> that of q+.
     columns : list of callable
-        (q, q_bar_a, force) -> the derivatives of q+ by each of them.
+        (the same) -> the derivatives of q+ by each of them.
     """
 
-    def __init__(self, simulator: Simulator, jax: ModuleType) -> None:
+    def __init__(self, of: StepOfEntries, simulator: Simulator, jax: ModuleType) -> None:
         self._jax = jax
         self._lock = simulator.system.lock
         # JAX's own threads, which call back, flush subnormal numbers to zero; a thread has the
         # arithmetic of the one that starts it, which is therefore done here.
         self._thread = ThreadPoolExecutor(1)
         self._thread.submit(check_arithmetic).result()
-        of = StepOfEntries(simulator)
-        system = simulator.system
-        self.end = self._outside(of.end, f"{ENTRIES}->(q)")
-        self.slope = self._outside(of.slope, f"{ENTRIES},{ENTRIES}->(q)")
+        entries = ",".join(f"({name})" for name in of.names)
+        self.end = self._outside(of.end, f"{entries}->(q)")
+        self.slope = self._outside(of.slope, f"{entries},{entries}->(q)")
         self.columns = []
-        for name, width in zip(EVERY_STEP, (system.n_q, system.n_q_a, system.n_v), strict=True):
-            columns = self._outside(partial(of.columns, name), f"{ENTRIES}->(q,w)", width)
+        for i, name in enumerate(of.names):
+            columns = self._outside(partial(of.columns, name), f"{entries}->(q,{name})", i)
             once = jax.custom_jvp(columns)
             once.defjvp(_twice)
             self.columns.append(once)
 
-    def _outside(self, function: Callable[..., Array], signature: str, *more: int) -> Any:
-        """Makes a NumPy function callable from JAX; its result has the axes of q and `more`."""
+    def _outside(self, function: Callable[..., Array], signature: str, *by: int) -> Any:
+        """Makes a NumPy function callable from JAX; its result has the axes of q and `by` one."""
         jax = self._jax
         # Of vmap, one inside of another, there are more axes in front.
         each = np.vectorize(function, signature=signature)
 
         def alone(*arguments: Any) -> Any:
+            numbers = [*map(np.asarray, arguments)]
+            if any(one.dtype != np.float64 for one in numbers):  # they were when JAX took them
+                problem = "was lost in a thread of JAX's own, where jax.enable_x64 does not hold: "
+                problem += "jax.config.update('jax_enable_x64', True)"
+                raise InputError(problem, field="float64")
             with self._lock:  # a system is for one thread, and each function has its own
-                return each(*map(np.asarray, arguments))
+                return each(*numbers)
 
         def in_thread(*arguments: Any) -> Any:
             return self._thread.submit(alone, *arguments).result()
@@ -136,6 +155,7 @@ class _Calls:
         def called(*arguments: Any) -> Any:
             if not any(isinstance(one, jax.core.Tracer) for one in arguments):
                 return jax.numpy.asarray(alone(*arguments))
+            more = [arguments[i].shape[-1] for i in by]
             result = jax.ShapeDtypeStruct((*arguments[0].shape, *more), np.float64)
             return jax.pure_callback(in_thread, result, *arguments, vmap_method="broadcast_all")
 
@@ -152,7 +172,7 @@ def _twice(*arguments: Any, **parameters: Any) -> Any:
 def _slope_primitive() -> Any:
     """The change of q+ along tangents, in which it is linear, as an operation of JAX.
 
-    Its arguments are q, q_bar_a, the force, and a tangent of each.
+    Its arguments are q, q_bar_a, the force, the parameters, and a tangent of each.
     """
     from jax.extend.core import Primitive
     from jax.interpreters import ad, batching, mlir
@@ -178,7 +198,8 @@ def _slope_primitive() -> Any:
         return slope.bind(*every, calls=calls), 0
 
     def transposed(pull: Any, *arguments: Any, calls: _Calls) -> list[Any]:
-        entries, tangents = arguments[: len(EVERY_STEP)], arguments[len(EVERY_STEP) :]
+        count = len(calls.columns)
+        entries, tangents = arguments[:count], arguments[count:]
         pulled = [
             jax.numpy.einsum("...i,...ij->...j", pull, columns(*entries))
             if isinstance(tangent, ad.UndefinedPrimal)
