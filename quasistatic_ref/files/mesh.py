@@ -1,10 +1,12 @@
 """A mesh: vertices, and triangles between them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.files.text import unseen_note
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.tolerances import LARGE
 
@@ -44,3 +46,27 @@ class Mesh:
     def corners(self) -> Array:
         """The vertices that a triangle uses, (C, 3) [m]; of points alone, all of them."""
         return self.vertices[np.unique(self.triangles)] if len(self.triangles) else self.vertices
+
+    def seen(self) -> Self:
+        """The mesh without vertices that are NaN, as what a camera did not see is.
+
+        Raises
+        ------
+        ModelError
+            Naming the first vertex that is infinite, or NaN and a corner of a triangle.
+        """
+        is_seen = np.asarray(~np.isnan(self.vertices).any(axis=1))
+        bad = np.asarray(np.isinf(self.vertices).any(axis=1))
+        bad[self.triangles.ravel()] |= ~is_seen[self.triangles.ravel()]
+        if bad.any():
+            number = int(bad.argmax())
+            problem = "must be finite numbers, or NaN where no face uses it; take it out"
+            value = self.vertices[number].tolist()
+            raise ModelError(problem, field=f"vertices[{number}]", value=value)
+        if is_seen.all():
+            return self
+        numbers = np.cumsum(is_seen) - 1
+        notes = [self.note, unseen_note(int(np.count_nonzero(~is_seen)))]
+        note = "; ".join(filter(None, notes))
+        vertices = self.vertices[is_seen]
+        return replace(self, vertices=vertices, triangles=numbers[self.triangles], note=note)

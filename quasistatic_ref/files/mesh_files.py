@@ -10,8 +10,8 @@ from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.files.mesh import Mesh
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import part
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull, hull_of_mesh
-from quasistatic_ref.text.quoting import suggestion
 
 FileMesh = Callable[[Path, str], Mesh]
 """A file and its extension, as ``.stl`` -> what it holds."""
@@ -44,11 +44,12 @@ def mesh_path(
         ``package://NAME/PATH``, or ``model://NAME/PATH``, looked for as NAME/PATH in each of the
         package folders and in the folders above `folder`, up to that of its repository, then as
         PATH in those that are called NAME, then as PATH in each; or a path relative to `folder`,
-        with ``file://`` before it or without, which may lead into a folder
-        beside it, and anywhere in the package (``package.xml``) or the repository that it lies in.
+        with ``file://`` before it or without, which is also looked for in the package folders, as
+        pinocchio does, and in the folder above.
     folder : Path
         Of the file that the URI stands in.
     package_dirs : sequence of str or Path
+        Where a mesh is looked for, and where it may lie.
     is_of_file : bool
         False of a text, which has no folder of its own.
 
@@ -57,14 +58,15 @@ def mesh_path(
     MissingMesh
         If there is no such file.
     ModelError
-        If its kind is unknown, or it lies neither in `folder` nor in
-        a folder that it was looked for in after symbolic links are resolved: what is loaded is
-        never a surprise. Or if it is too large.
+        If its kind is unknown, it is too large, or it lies, once symbolic links are resolved,
+        neither in `folder`, in a package folder nor in one of :func:`readable_folders`: what is
+        loaded is never a surprise.
     """
     if Path(uri).suffix.lower() not in MESHES:
         hint = suggestion(Path(uri).suffix.lower(), MESHES)
         raise ModelError(f"is not a known kind of mesh{hint}", value=uri)
     packages = [Path(folder_name) for folder_name in package_dirs]
+    allowed = [folder, *packages]
     is_of_package = uri.startswith((PACKAGE, MODEL))
     if is_of_package:
         inside = uri.removeprefix(PACKAGE).removeprefix(MODEL).lstrip("/")
@@ -74,14 +76,17 @@ def mesh_path(
         places += [parent / below for parent in above if parent.name == name]
         places += [parent / below for parent in above]
         packages += above
+        allowed += folders_of_package(name, folder.resolve())
     elif "://" in uri.removeprefix(FILE):
         raise ModelError(
             "must be package://NAME/PATH, model://NAME/PATH or a relative path", value=uri
         )
     else:
         relative = uri.removeprefix(FILE)
-        places = [folder / relative]
-        packages += readable_folders(relative, folder.resolve()) if is_of_file else []
+        places = [package / relative for package in [folder, *packages]]
+        if is_of_file:
+            places.append(folder.resolve().parent / relative)
+            allowed += readable_folders(relative, folder.resolve())
     try:
         path = next((place.resolve() for place in places if place.is_file()), None)
     except (OSError, ValueError, RuntimeError):  # a NUL, a name too long, a ring of links
@@ -92,7 +97,7 @@ def mesh_path(
         if is_of_package:
             remedy = "--root FOLDER names another"
         raise MissingMesh(f"no such file (looked for in {where}; {remedy})", value=uri)
-    if not any(path.is_relative_to(allowed.resolve()) for allowed in [folder, *packages]):
+    if not any(path.is_relative_to(each.resolve()) for each in allowed):
         problem = (
             f"leads to {path}, outside the folder of this file and of package_dirs; move the "
             f"mesh, or name its folder: {root_option(uri, path)}, or package_dirs of the body"
@@ -108,15 +113,37 @@ def mesh_path(
 def readable_folders(uri: str, folder: Path) -> list[Path]:
     """Where a relative URI of a file may lead besides its `folder`, an absolute path.
 
-    It is the package of that, or its repository; and ../NAME/, which is a folder and no link.
+    It is the package of that, or its repository; and the folder beside it that the URI names, as
+    ../NAME/ or, from the folder above, as NAME/.
     """
-    above = _repository(folder)
-    marks = ("package.xml", ".git")
-    packages = [each for each in above if any((each / mark).exists() for mark in marks)]
     match Path(uri).parts:
-        case ("..", name, *_, _) if name != ".." and not (folder.parent / name).is_symlink():
-            packages.append(folder.parent / name)
-    return packages
+        case ("..", name, *_, _) | (name, *_, _):
+            return _packages(folder) + _beside(folder, name)
+    return _packages(folder)
+
+
+def folders_of_package(name: str, folder: Path) -> list[Path]:
+    """Where ``package://NAME/...`` of a file may lead besides its `folder`, an absolute path.
+
+    It is the package of that, or its repository; the folder above, if that is called NAME; and NAME
+    beside one of these.
+    """
+    packages = _packages(folder)
+    above = [folder.parent] if folder.parent.name == name else []
+    return packages + above + [b for each in [folder, *packages] for b in _beside(each, name)]
+
+
+def _packages(folder: Path) -> list[Path]:
+    """Of a folder and those above it: the packages (``package.xml``), and the repository."""
+    marks = ("package.xml", ".git")
+    return [each for each in _repository(folder) if any((each / mark).exists() for mark in marks)]
+
+
+def _beside(folder: Path, name: str) -> list[Path]:
+    """The folder of a name beside another; none if it is a link, or the name leads elsewhere."""
+    beside = folder.parent / name
+    leads_elsewhere = Path(name).name != name or name in ("", "..")  # as "." and "/" do
+    return [] if leads_elsewhere or beside.is_symlink() else [beside]
 
 
 def root_option(uri: str, path: Path) -> str:
@@ -140,21 +167,20 @@ def loaded_mesh(path: Path, *, finite: bool = True) -> Mesh:
 
     Every object stands where the nodes of the file place it, in metres. A COLLADA file's ``Y_UP``
     is not applied, as pinocchio, MuJoCo and Drake do not apply it to a link's mesh, nor that of
-    glTF. Without `finite`, vertices may be NaN or infinite.
+    glTF. Vertices that are NaN are left out where no triangle uses them; without `finite`, vertices
+    are as in the file, NaN or infinite.
 
     Raises
     ------
     ModelError
         If the file cannot be read, a count in it is not that of what it holds, or a coordinate is
-        not finite.
+        infinite, or NaN and of a triangle.
     """
     with about_file(path):
         kind = path.suffix.lower()
         file_mesh: FileMesh = part("file_mesh", f"a {kind} mesh")
         mesh = file_mesh(path, kind)
-        if finite and not np.isfinite(mesh.vertices).all():
-            raise ModelError("must be finite numbers", field="vertices")
-        return mesh
+        return mesh.seen() if finite else mesh
 
 
 def mesh_hull(path: Path, scale: Array) -> ConvexMesh:

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.files.content import LARGEST_TEXT, bytes_read, text_of, unique_fields
+from quasistatic_ref.text.content import LARGEST_TEXT, bytes_read, text_of, unique_fields
 from quasistatic_ref.text.json_text import json_text
 
 LARGEST_UNPACKED = 2**30

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.simulate.record.header import Header
 from quasistatic_ref.simulate.record.table import (
     ARRAYS,
@@ -18,7 +19,6 @@ from quasistatic_ref.simulate.record.table import (
     shape_of,
 )
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.text.quoting import suggestion
 
 NEEDED = ("t", "q", "delta_q", "mu_v", "mu_omega", "rows")
 """Without these no file is a record."""

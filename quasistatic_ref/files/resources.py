@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 from quasistatic_ref.errors import ScenarioError
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.quoting import slash_remedy, suggestion
 
 
 def models_folder() -> Path:
@@ -39,5 +39,5 @@ def scenario_path(name: str | os.PathLike[str]) -> Path:
     for known in models_folder().glob("*/*.toml"):
         if known.stem == str(path):
             return known
-    hint = suggestion(str(path), scenario_names())
+    hint = slash_remedy(str(path)) or suggestion(str(path), scenario_names())
     raise ScenarioError(f"is neither a file nor an installed scenario{hint}", file=name)

@@ -13,15 +13,15 @@ from typing import Any, cast, get_args
 import numpy as np
 
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.certify.verdict import Verdict
 from quasistatic_ref.certify.verification import rounded_wrenches, verify_answer
 from quasistatic_ref.errors import StepDataError, about_file, check_kind
-from quasistatic_ref.files.content import json_read, text_written
+from quasistatic_ref.exact.verdict import Verdict
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, check_step
 from quasistatic_ref.step.solution import Certificate, Kind, StepSolution
 from quasistatic_ref.step.text import step_sha256
+from quasistatic_ref.text.content import json_read, text_written
 from quasistatic_ref.text.declared import Field, Tables, head
 from quasistatic_ref.text.json_text import json_text
 from quasistatic_ref.text.table_reader import TableReader
@@ -75,6 +75,8 @@ TABLES = Tables({
 @dataclass(frozen=True, eq=False)
 class SolutionFile:
     """What a solution file claims about a step; ``verdict`` proves or refutes it.
+
+    ``load_solution`` makes it; its constructor checks nothing.
 
     Parameters
     ----------

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError, about_file, check_kind
-from quasistatic_ref.files.content import json_read, text_written
 from quasistatic_ref.step.data import Contacts, Extra, StepData
 from quasistatic_ref.step.text import CONTACT, TABLES, TOP, step_text
+from quasistatic_ref.text.content import json_read, text_written
 from quasistatic_ref.text.table_reader import TableReader
 
 

@@ -5,7 +5,7 @@ import re
 from collections.abc import Sequence
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.files.content import LARGEST_TEXT
+from quasistatic_ref.text.content import LARGEST_TEXT
 
 MOST_POINTS = 1_000_000
 """Most points of a cloud; its text has at most twice as many lines, with comments and a header."""
@@ -65,6 +65,11 @@ def check_points(count: int) -> None:
     """ModelError if these are more points than a cloud may have."""
     if count > MOST_POINTS:
         raise ModelError(f"holds more than {MOST_POINTS} points; thin it out", value=count)
+
+
+def unseen_note(count: int) -> str:
+    """What became of points that are NaN."""
+    return f"{count} points that are not numbers are left out, as what was not seen"
 
 
 def check_equal(what: str, count: int, stated: int) -> None:

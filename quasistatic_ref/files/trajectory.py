@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import about_field, about_file, check_kind
-from quasistatic_ref.files.content import written_whole
 from quasistatic_ref.files.finding import FINDING, finding_read, finding_table
 from quasistatic_ref.files.finding import TABLES as TABLES_OF_FINDING
 from quasistatic_ref.files.npz import json_array, npz_record
@@ -19,6 +18,7 @@ from quasistatic_ref.simulate.law import CONVEX, LAWS
 from quasistatic_ref.simulate.record.header import RECORDS, Header
 from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.text.content import written_whole
 from quasistatic_ref.text.declared import Field, Tables, head
 from quasistatic_ref.text.table_reader import TableReader
 

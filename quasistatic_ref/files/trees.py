@@ -4,7 +4,7 @@ from collections.abc import Collection, Mapping, Sequence
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.tree import TreeJoint
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.quoting import suggestion
 
 
 def checked_tree(

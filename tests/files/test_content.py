@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, load_trajectory
-from quasistatic_ref.files.content import json_read, text_of, text_written, toml_read, written_whole
+from quasistatic_ref.text.content import json_read, text_of, text_written, toml_read, written_whole
 from quasistatic_ref.text.json_text import json_text
 from tests.cases import cases, refusal
 from tests.files.urdf.urdf_texts import loaded_urdf
@@ -65,7 +65,7 @@ def test_a_writer_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, erro
 def test_the_half_written_file_of_a_killed_process_is_removed(tmp_path):
     """By another process, and not what a third one is writing."""
     program = (
-        "import sys; from quasistatic_ref.files.content import *; written_whole(sys.argv[1], {})"
+        "import sys; from quasistatic_ref.text.content import *; written_whole(sys.argv[1], {})"
     )
     waits = "lambda file: (print(1, flush=True), input())"
     writers = [

@@ -56,6 +56,19 @@ FOUND = {
     "package in the repository": ("package://arm/meshes/a.obj", "arm/meshes/a.obj", ".git"),
     "package next to the file": ("package://arm/meshes/a.obj", "arm/urdf/arm/meshes/a.obj", ".git"),
     "package of another name": ("package://arm/meshes/a.obj", "meshes/a.obj", ".git"),
+    "package that the folder above is": (
+        "package://arm/meshes/a.obj",
+        "arm/meshes/a.obj",
+        "no_mark",
+    ),
+    "package beside the file": ("model://meshes/a.obj", "arm/meshes/a.obj", "no_mark"),
+    "package beside the package": (
+        "package://hand/meshes/a.obj",
+        "hand/meshes/a.obj",
+        "arm/package.xml",
+    ),
+    "path from the folder above": ("meshes/a.obj", "arm/meshes/a.obj", "no_mark"),
+    "path from the folder above, on": ("meshes/b/a.obj", "arm/meshes/b/a.obj", "no_mark"),
     "path beside": ("../meshes/a.obj", "arm/meshes/a.obj", "no_mark"),
     "path in the package": ("../../meshes/a.obj", "meshes/a.obj", "package.xml"),
     "path in the repository": ("../../other/meshes/a.obj", "other/meshes/a.obj", ".git"),
@@ -72,7 +85,7 @@ def test_a_mesh_is_looked_for_in_its_package_and_not_above(tmp_path, address, pl
     address = address.format(top)
     assert mesh_path(address, top / "arm/urdf") == mesh.resolve()
     mesh.unlink()
-    with pytest.raises(ModelError, match="no such file"):
+    with pytest.raises(ModelError, match=r"no such file|outside the folder"):
         mesh_path(address, top / "arm/urdf")
 
 
@@ -113,6 +126,17 @@ OUTSIDE = {
     "link.obj": LEADS,
     "../linked/secret.obj": LEADS,
     "../../above/a.obj": LEADS,
+    "a.obj": LEADS,
+    "linked/secret.obj": LEADS,
+    "meshes/../../secret.obj": LEADS,
+    "package://above/a.obj": LEADS,
+    "package://arm/../secret.obj": LEADS,
+    "package://arm/link.obj": LEADS,
+    "package://linked/secret.obj": LEADS,
+    "package://secret.obj": LEADS,
+    "model:///{}/secret.obj": LEADS,
+    "model://./link.obj": LEADS,
+    "model://../../secret.obj": LEADS,
     "https://host/a.obj": PACKAGE,
     "file://https://host/a.obj": PACKAGE,
     "package://arm/b.obj": r"no such file \(looked for in .*urdf.*--root FOLDER",
@@ -126,6 +150,9 @@ def test_a_mesh_that_is_not_where_it_may_be_is_refused(tmp_path, address):
     """Nor is a folder beside that of the file where a link leads out of both."""
     secret = urdf_of_text(tmp_path, TETRAHEDRON, "secret.obj")
     text_written(tmp_path / "above/a.obj", TETRAHEDRON)
+    text_written(tmp_path / "arm/a.obj", TETRAHEDRON)
+    text_written(tmp_path / "arm/meshes/b.obj", TETRAHEDRON)
+    (tmp_path / "arm/link.obj").symlink_to(secret)
     folder = text_written(tmp_path / "arm/urdf/arm.urdf", "").parent
     (folder / "link.obj").symlink_to(secret)
     (tmp_path / "arm/linked").symlink_to(tmp_path)

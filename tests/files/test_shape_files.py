@@ -375,7 +375,7 @@ def test_coordinates_and_their_number_may_reach_their_limits(tmp_path):
     path.write_text("1e15,0,0\n0,-1e15,0\n")
     assert len(point_cloud(path).points) == 2
     path.write_text("x,y,z\n" + "0,0,1\n" * 1_000_000)  # and a header
-    assert len(seen_points(path)[0]) == 1_000_000
+    assert len(seen_points(path).points) == 1_000_000
 
 
 def test_many_lines_of_numbers_are_read_as_line_by_line(tmp_path, rng):
@@ -383,7 +383,7 @@ def test_many_lines_of_numbers_are_read_as_line_by_line(tmp_path, rng):
     rows = [[repr(v) for v in row] for row in rng.normal(size=(50, 4)).tolist()]
     path = tmp_path / "a.csv"
     path.write_text("u,z,y,x\n" + "\n".join(map(",".join, rows)) + " # last\n1,nan,0,0\n")
-    points, unseen = seen_points(path)
+    points, unseen, _ = seen_points(path)
     assert points.tolist() == [[float(row[c]) for c in (3, 2, 1)] for row in rows]
     assert unseen == 1
     path.write_text(path.read_text() + "1,2,3,x\n")

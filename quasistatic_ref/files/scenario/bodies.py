@@ -24,10 +24,10 @@ from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.model.tree import BASE
 from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.simulate.target import JointTrack, Wrenches
 from quasistatic_ref.step.extension import ExtensionOfQ, StepExtension
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.quoting import suggestion
 from quasistatic_ref.text.table_reader import TableReader
 
 

@@ -20,9 +20,9 @@ from quasistatic_ref.files.scenario.scenario_table import (
     fields_of,
 )
 from quasistatic_ref.model.system import System
+from quasistatic_ref.quoting import known_names, nearest_name
 from quasistatic_ref.simulate.finding import check_finding_name
 from quasistatic_ref.simulate.limits import Limits
-from quasistatic_ref.text.quoting import known_names, nearest_name
 from quasistatic_ref.text.table_reader import TableReader
 from quasistatic_ref.tolerances import LARGE
 

@@ -23,8 +23,8 @@ from quasistatic_ref.files.scenario.world_solids import SOLIDS
 from quasistatic_ref.files.text import decimal
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.system import Kinematics, System
+from quasistatic_ref.quoting import known_names, suggestion
 from quasistatic_ref.shapes.placed_shape import PlacedShape
-from quasistatic_ref.text.quoting import known_names, suggestion
 from quasistatic_ref.text.table_reader import REQUIRED, TableReader
 from quasistatic_ref.text.together import once
 

@@ -9,8 +9,8 @@ from os import PathLike, fspath
 from typing import Any
 
 from quasistatic_ref.errors import InputError, ScenarioError
-from quasistatic_ref.files.content import LONG_KEY, MOST_PARTS
 from quasistatic_ref.files.option_change import OptionChange
+from quasistatic_ref.text.content import LONG_KEY, MOST_PARTS
 from quasistatic_ref.text.json_text import plain
 from quasistatic_ref.text.table_reader import TableReader
 

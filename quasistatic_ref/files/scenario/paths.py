@@ -16,6 +16,7 @@ from pathlib import Path
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.mesh_files import PACKAGE
 from quasistatic_ref.model.tree import Tree
+from quasistatic_ref.quoting import slash_remedy
 from quasistatic_ref.text.table_reader import TableReader
 
 SHARED = Path("cmeel.prefix", "share")
@@ -43,7 +44,7 @@ def path_in(
     path = _path(folder, table, field, text, remedy, roots)
     if not path.exists():
         problem = "names no file; a path begins at the scenario's folder"
-        raise table.error_about(field, problem, text)
+        raise table.error_about(field, problem + slash_remedy(text), text)
     return path
 
 
@@ -53,7 +54,7 @@ def folders_in(folder: Path, table: TableReader, field: str, names: Sequence[str
     folders = [_path(folder, table, field, name, remedy) for name in names]
     for path, name in zip(folders, names, strict=True):
         if not path.is_dir():
-            raise table.error_about(field, "is no folder", name)
+            raise table.error_about(field, "is no folder" + slash_remedy(name), name)
     return folders
 
 

@@ -19,7 +19,6 @@ from quasistatic_ref.errors import (
     check_kind,
     keywords_named,
 )
-from quasistatic_ref.files.content import toml_read
 from quasistatic_ref.files.resources import scenario_path
 from quasistatic_ref.files.scenario.bodies import (
     BodyEntry,
@@ -36,7 +35,7 @@ from quasistatic_ref.files.scenario.checks import (
     run_fields,
 )
 from quasistatic_ref.files.scenario.contacts import contact_pairs, placed_shapes
-from quasistatic_ref.files.scenario.other_files import OTHER_FILES
+from quasistatic_ref.files.scenario.other_files import other_file
 from quasistatic_ref.files.scenario.overrides import Changes, Origins, about_changes, apply_settings
 from quasistatic_ref.files.scenario.paths import folders_in
 from quasistatic_ref.files.scenario.scenario_table import FORMAT, TOP, VERSION
@@ -44,6 +43,8 @@ from quasistatic_ref.files.scenario.scene_words import HERE, scene_tables
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.parts import part
+from quasistatic_ref.quoting import clipped, counted, one_line
+from quasistatic_ref.shown import HasPage
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.observer import Observer, Recording
 from quasistatic_ref.simulate.record.header import Record
@@ -54,14 +55,16 @@ from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.stiffness import stiffness_of_parts
 from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
 from quasistatic_ref.simulate.user_functions import Target
-from quasistatic_ref.solve.backends import DEFAULT, Certify, is_function
+from quasistatic_ref.solve.backends import DEFAULT, Certify, check_function, is_function
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ
+from quasistatic_ref.text.content import toml_read
 from quasistatic_ref.text.plain import Plain, fingerprint
-from quasistatic_ref.text.shown import Shown
 from quasistatic_ref.text.table_reader import TableReader
 from quasistatic_ref.text.together import together
 
+NAME = 32
+"""Most characters of its name in a scenario's line."""
 MOST_BODIES = 1000
 """Most bodies of a scenario: of 1000 free ones H, where it is formed whole, has 288 MB."""
 ExtendedBodies = Callable[
@@ -87,7 +90,7 @@ class NamesTheScene(Observer):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Scenario(Settings, Plain, Shown):
+class Scenario(Settings, Plain, HasPage):
     """Everything that a scenario file says, checked and loaded.
 
     Parameters
@@ -128,6 +131,13 @@ class Scenario(Settings, Plain, Shown):
     ignored_findings: tuple[str, ...] = ()
     of_bodies: OfBodies | None = None
 
+    def __repr__(self) -> str:
+        name = clipped(one_line(self.path.stem), NAME)
+        return (
+            f"{type(self).__name__} {name}: {counted(self.steps, 'step')} of {self.h:g} s, "
+            f"{counted(self.system.n_v, 'coordinate')}, {counted(len(self.pairs), 'contact pair')}"
+        )
+
     @keywords_named
     def simulator(self, extension: ExtensionOfQ | None = None) -> Simulator:
         """A new simulator of this scenario, with the user's own constraints and costs, if any."""
@@ -147,7 +157,7 @@ class Scenario(Settings, Plain, Shown):
 
     @property
     def fingerprint(self) -> str:
-        """SHA-256 of what runs of this scene have in common, in hexadecimal; empty if not known.
+        """SHA-256 of what runs of this scene have in common, in hexadecimal.
 
         That is all but the number of steps, what is recorded and said, where a run ends early, and
         the way to its answers: backend, accuracy, certify and fast.
@@ -288,7 +298,7 @@ def load_scenario(
     path = scenario_path(name)
     origins = Origins(False)
     with about_file(path), about_changes(origins):
-        if path.is_file() and (kind := OTHER_FILES.get(path.suffix.lower())):
+        if path.is_file() and (kind := other_file(path)):
             raise ScenarioError(f"is no scenario, but {kind}")
         tables = toml_read(path, ScenarioError, "a scenario, which is TOML")
         check_made(apply_settings(tables, settings, fields, origins), tables)
@@ -337,6 +347,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     if backend is not None and is_function(backend) and not solver.is_of_user("backend"):
         problem = "would run code, which no file may; give it as --backend FILE.py:NAME"
         raise solver.error_about("backend", problem, backend)
+    check_function(backend)
     if backend is None and run["fast"]:
         fast_backend: FastBackend = part("fast_backend")
         run["backend"] = fast_backend(system, pairs, named, law)

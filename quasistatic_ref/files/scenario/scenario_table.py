@@ -117,8 +117,10 @@ TABLES = Tables({
                       schema={"pattern": r"\S"}),
         "base": Field("text", "how the root link moves", default="fixed", choices=BASE_WORDS),
         "actuated": Field(
-            'names of joints, or "all"', 'joints that have targets; "base" is the base', default=[],
-            schema={"anyOf": [{"enum": ["all"]}, {"type": "array", "items": TEXT}]},
+            'names of joints, "joints" or "all"',
+            'joints that have targets; "base" is the base, which "all" takes and "joints" does not',
+            default=[],
+            schema={"anyOf": [{"enum": ["all", "joints"]}, {"type": "array", "items": TEXT}]},
         ),
         "pose": Field("table", "where the root link is, or starts", default={}, of=POSE),
         "positions": Field(

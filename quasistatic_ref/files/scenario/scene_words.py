@@ -59,7 +59,7 @@ def _body(name: str, entry: Any) -> Any:
     words = {
         "urdf": body.urdf,
         "base": body.base,
-        "actuated": body.actuated if body.actuated == "all" else list(body.actuated),
+        "actuated": body.actuated if isinstance(body.actuated, str) else list(body.actuated),
         "pose": {"xyz": np.asarray(body.xyz), "rpy": np.asarray(body.rpy)},
         "positions": dict(body.positions),
         "package_dirs": [str(folder) for folder in body.package_dirs],

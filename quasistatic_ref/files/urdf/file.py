@@ -9,7 +9,6 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_file
-from quasistatic_ref.files.content import text_read
 from quasistatic_ref.files.mesh_files import mesh_path
 from quasistatic_ref.files.trees import checked_tree
 from quasistatic_ref.files.urdf.geometry import GEOMETRIES, written_shape
@@ -30,6 +29,7 @@ from quasistatic_ref.model.tree import (
 )
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.ordered import length, product
+from quasistatic_ref.text.content import text_read
 
 TEXT: Final = Path("<robot>")
 """In the place of its path, of a text."""

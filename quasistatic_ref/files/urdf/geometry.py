@@ -8,8 +8,8 @@ import numpy as np
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.files.urdf.xml import Tag
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
-from quasistatic_ref.text.quoting import suggestion
 
 GEOMETRIES = {
     "box": ("size",),

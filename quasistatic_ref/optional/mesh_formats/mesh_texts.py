@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.files.mesh import Mesh
 from quasistatic_ref.files.text import check_equal, check_lines, number_or_nan
-from quasistatic_ref.numbers.arrays import Array, Indices
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.optional.mesh_formats.polygons import triangles_of_faces
 
 LARGEST_HEADER = 2**20
 """Bytes in which the header of a PLY ends."""
@@ -97,18 +98,10 @@ class _Faces:
         self._corners.extend(corners)
         self._sizes.append(len(corners))
 
-    def triangles(self) -> Indices:
-        """Each face as a fan around its first corner, shape (T, 3)."""
-        return _fans(np.array(self._corners), np.array(self._sizes))
-
-
-def _fans(corners: Indices, sizes: Indices) -> Indices:
-    """Triangles, (T, 3), of faces of some sizes, (F,), whose corners follow one another."""
-    counts = sizes - 2
-    begins = np.repeat(np.cumsum(sizes) - sizes, counts)
-    place = np.arange(len(begins)) - np.repeat(np.cumsum(counts) - counts, counts)
-    triangles = np.stack([begins, begins + place + 1, begins + place + 2], axis=1)
-    return np.asarray(corners[triangles])
+    def mesh(self, vertices: Array) -> Mesh:
+        """The mesh of the faces between vertices, shape (V, 3)."""
+        corners = np.array(self._corners)
+        return Mesh(vertices, triangles_of_faces(vertices, corners, np.array(self._sizes)))
 
 
 def _stl(content: bytes) -> Mesh:
@@ -160,7 +153,7 @@ def _obj(content: bytes) -> Mesh:
         elif first and first not in OBJ_UNREAD:
             problem = "is a line of an OBJ that is not read; leave it out"
             raise ModelError(problem, field=f"line {number}", value=line)
-    return Mesh(np.array(points).reshape(-1, 3), faces.triangles())
+    return faces.mesh(np.array(points).reshape(-1, 3))
 
 
 def _off(content: bytes) -> Mesh:
@@ -191,7 +184,7 @@ def _off(content: bytes) -> Mesh:
             problem = f"must have {corners} corners"
             raise ModelError(problem, field=f"line {number}", value=line)
         faces.add(face, f"line {number}")
-    return Mesh(np.array(points).reshape(-1, 3), faces.triangles())
+    return faces.mesh(np.array(points).reshape(-1, 3))
 
 
 def _numbered(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
@@ -218,7 +211,7 @@ def _ply(content: bytes) -> Mesh:
         body = np.fromiter(map(number_or_nan, words), np.float64).tobytes()
     read = _PlyBody(body)
     points = np.zeros((0, 3))
-    triangles = np.zeros((0, 3), np.int64)
+    corners = sizes = np.zeros(0, np.int64)
     for name, count, properties in elements:
         table = read.entries(name, count, properties)
         if name == "vertex":
@@ -228,15 +221,15 @@ def _ply(content: bytes) -> Mesh:
             if len(lists) != 1:
                 problem = f"must be faces with a list {FACE_LISTS[0]}"
                 raise ModelError(problem, field="face")
-            corners = lists[0]
-            if (corners % 1).any():
+            if (lists[0] % 1).any():
                 raise ModelError("must be whole numbers", field="face")
-            triangles = _fans(corners.astype(np.int64), read.sizes)
+            corners = lists[0].astype(np.int64)
+            sizes = read.sizes
     if is_text:
         check_equal("lines", len(lines), sum(count for _, count, _ in elements))
     if read.left:
         raise ModelError("holds more than its header says; export it again")
-    return Mesh(points, triangles)
+    return Mesh(points, triangles_of_faces(points, corners, sizes))
 
 
 class _PlyBody:

@@ -3,11 +3,11 @@
 from pathlib import Path
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.files.content import bytes_read
 from quasistatic_ref.files.mesh import Mesh
 from quasistatic_ref.optional.mesh_formats.files import malformed
 from quasistatic_ref.optional.mesh_formats.mesh_texts import TEXTS
 from quasistatic_ref.optional.mesh_formats.placed_meshes import placed_mesh
+from quasistatic_ref.text.content import bytes_read
 
 
 def file_mesh(path: Path, kind: str) -> Mesh:

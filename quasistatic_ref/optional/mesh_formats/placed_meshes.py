@@ -16,13 +16,14 @@ from xml.etree.ElementTree import Element, tostring
 import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.files.content import bytes_read, text_of
 from quasistatic_ref.files.mesh import Mesh
 from quasistatic_ref.files.text import check_equal, decimal
 from quasistatic_ref.files.xml_text import DEEPEST, MOST_ELEMENTS, xml_root
 from quasistatic_ref.optional.mesh_formats.files import LARGEST_UNPACKED, check_unpacked, malformed
 from quasistatic_ref.optional.mesh_formats.mesh_texts import text_of_mesh
+from quasistatic_ref.optional.mesh_formats.polygons import fans_of_faces, triangles_of_faces
 from quasistatic_ref.parts import needed_package
+from quasistatic_ref.text.content import bytes_read, text_of
 
 MOST_PLACED = 5_000_000
 """Most vertices and triangles of a file, each counted as often as it is placed."""
@@ -291,9 +292,44 @@ def _collada(_: Path, content: bytes) -> _Stated:
     ignored = [pycollada.common.DaeUnsupportedError, pycollada.common.DaeBrokenRefError]
     with malformed("a mesh", pycollada.common.DaeError):
         # What trimesh leaves out is an error here.
-        pycollada.Collada(BytesIO(content), ignore=ignored)
+        collada = pycollada.Collada(BytesIO(content), ignore=ignored)
+        primitives = [one for geometry in collada.geometries for one in geometry.primitives]
+        polygons = [one for one in primitives if isinstance(one, pycollada.polylist.Polylist)]
+        are_cut = [_cut_by_ears(each) for each in polygons]
+        if any(are_cut):
+            written = BytesIO()
+            collada.xmlnode.write(written)
+            content = written.getvalue()
     up = {"Y_UP": UP, "X_UP": X_UP}.get(root.findtext("asset/up_axis", "").strip(), "")
     return _Stated("dae", content, count, up)
+
+
+def _cut_by_ears(polygons: Any) -> bool:
+    """Write a set of polygons as triangles, and tell so, if trimesh's fans do not fill each.
+
+    Parameters
+    ----------
+    polygons : collada.polylist.Polylist
+    """
+    is_face = polygons.vcounts >= 3
+    rows = np.flatnonzero(np.repeat(is_face, polygons.vcounts))
+    if not len(rows):
+        return False
+    sizes = polygons.vcounts[is_face]
+    corners = polygons.vertex[polygons.vertex_index].astype(np.float64)
+    triangles = triangles_of_faces(corners, rows, sizes)
+    if (triangles == fans_of_faces(rows, sizes)).all():
+        return False
+    node = polygons.xmlnode
+    namespace, brace, _ = node.tag.rpartition("}")
+    lists = [one for one in node if one.tag.rpartition("}")[2] in ("vcount", "p")]
+    for one in lists[:-1]:
+        node.remove(one)
+    lists[-1].tag = f"{namespace}{brace}p"
+    lists[-1].text = " ".join(map(str, polygons.index[triangles].ravel().tolist()))
+    node.tag = f"{namespace}{brace}triangles"
+    node.set("count", str(len(triangles)))
+    return True
 
 
 def _target(element: Element) -> str:

@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError, about_file
-from quasistatic_ref.files.content import bytes_read
 from quasistatic_ref.files.mesh_files import loaded_mesh
 from quasistatic_ref.files.npz import array_of, npz_arrays, readable
 from quasistatic_ref.files.text import check_equal, check_points
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.mesh_formats.files import check_unpacked, malformed
 from quasistatic_ref.parts import needed_package
+from quasistatic_ref.text.content import bytes_read
 
 LARGEST_HEADER = 2**20
 """Bytes in which the header of a PCD ends."""

@@ -104,7 +104,10 @@ def described_model(model: pin.Model, geometry: pin.GeometryModel | None) -> tup
         If the Model has a joint or a shape that this model does not know, or a number in it is not
         finite.
     """
-    check_kind(model, pin.Model, "model", "a pinocchio.Model, as pin.buildModelFromUrdf makes it")
+    wanted = "a pinocchio.Model, as pin.buildModelFromUrdf makes it"
+    if isinstance(model, pin.RobotWrapper):
+        wanted = "a pinocchio.Model: robot.model, and robot.collision_model as geometry"
+    check_kind(model, pin.Model, "model", wanted)
     wanted = "a pinocchio.GeometryModel, as pin.buildGeomFromUrdf makes it"
     check_kind(geometry, pin.GeometryModel | None, "geometry", wanted)
     if model.nv > MOST_COORDINATES:
@@ -129,7 +132,9 @@ def described_model(model: pin.Model, geometry: pin.GeometryModel | None) -> tup
     text = f"pinocchio Model {model.name!r}, sha256 {content}"
     notes.insert(0, NO_URDF)
     ignored = tuple(f"model.{field}" for field in UNUSED if np.any(getattr(model, field)))
-    return Tree(MODEL, text, links, tuple(joints), ignored, tuple(notes)), base
+    one_mass = [(carriers[joint], *names) for joint, names in welded.items() if names]
+    every = tuple(name for names in one_mass for name in names)
+    return Tree(MODEL, text, links, tuple(joints), ignored, tuple(notes), every), base
 
 
 def _root(model: pin.Model) -> tuple[int, str]:

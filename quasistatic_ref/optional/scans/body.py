@@ -8,19 +8,21 @@ import numpy as np
 import trimesh
 
 from quasistatic_ref.errors import InputError, about_file, check_kind
-from quasistatic_ref.files.clouds import seen_points
-from quasistatic_ref.files.content import text_written
+from quasistatic_ref.files.clouds import KINDS, seen_points
 from quasistatic_ref.files.mesh_files import MESHES, loaded_mesh
+from quasistatic_ref.files.point_text import UNITS
+from quasistatic_ref.files.text import check_points, unseen_note
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.numbers.arrays import Array, Indices, freeze_copies, positive_number
 from quasistatic_ref.optional.scans.closed import closed_mesh
 from quasistatic_ref.optional.scans.cloud import spacing, stray, thinned
 from quasistatic_ref.optional.scans.solid import Solid, hull_of_points
+from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.text.content import text_written
 from quasistatic_ref.text.plain import Plain
-from quasistatic_ref.text.quoting import suggestion
 
-UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254}
-"""[m]"""
+SCANS = tuple(dict.fromkeys((*KINDS, *MESHES)))
+"""Extensions of clouds and meshes."""
 EXTENTS = 0.005, 3.0
 """Lengths of what is handled [m]; for others the unit is asked for."""
 POINTS = 1000
@@ -135,7 +137,8 @@ def scanned_body(
     density : float, optional
         In place of the mass [kg/m^3].
     unit : str, optional
-        ``"m"``, ``"cm"``, ``"mm"`` or ``"in"``; metres, if the extent is that of what is handled.
+        ``"m"``, ``"cm"``, ``"mm"`` or ``"in"``; by default the one in the names of the columns, or
+        metres, if the extent is that of what is handled.
     points : int
         Most points of the body.
     name : str, optional
@@ -196,18 +199,29 @@ def _surface_and_solid(
     path: Path, unit: str | None, notes: list[str]
 ) -> tuple[Array, Solid | None]:
     """Points on the surface, shape (N, 3) [m], and the solid; what was done is added to notes."""
-    if path.suffix.lower() in MESHES:
+    kind = path.suffix.lower()
+    if kind not in SCANS:
+        problem = f"is not a known kind of cloud or mesh{suggestion(kind, SCANS)}"
+        raise InputError(problem, field="extension", value=path.suffix)
+    if kind in MESHES:
         mesh = loaded_mesh(path)
         if not len(mesh.vertices):
             raise InputError("is empty: the file holds no vertices", field="vertices")
         notes += [mesh.note] if mesh.note else []
         if len(mesh.triangles):
             return _of_mesh(mesh.vertices * _metres(mesh.corners, unit), mesh.triangles, notes)
-    written, unseen = seen_points(path)
-    written = np.unique(written, axis=0) if len(written) else written
+        check_points(len(mesh.vertices))
+        written = mesh.vertices
+    else:
+        written, unseen, unit_of_names = seen_points(path)
+        if None not in (unit, unit_of_names) and unit != unit_of_names:
+            problem = f"must be {unit_of_names}, as the file names its columns, or left out"
+            raise InputError(problem, field="unit", value=unit)
+        unit = unit or unit_of_names
+        if unseen:
+            notes.append(unseen_note(unseen))
+    written = np.unique(written, axis=0)
     points = written * _metres(written, unit)
-    if unseen:
-        notes.append(f"{unseen} points that are not numbers are left out, as what was not seen")
     if len(points) < FEWEST:
         raise InputError(f"must be at least {FEWEST}", field="points", value=len(points))
     grid = _grid(points)

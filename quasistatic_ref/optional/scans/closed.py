@@ -21,7 +21,7 @@ def closed_mesh(vertices: Array, triangles: Indices, notes: list[str]) -> trimes
     Corners at one place are joined where the mesh is open without that, and triangles between
     fewer than three corners left out. Triangles that are wound against their neighbours, or
     inwards, are turned, which is added to `notes`. A shell within another is a cavity where it is
-    wound the other way.
+    wound the other way; one that is in no other is a part.
 
     Raises
     ------
@@ -51,6 +51,7 @@ def closed_mesh(vertices: Array, triangles: Indices, notes: list[str]) -> trimes
     written = mesh.faces.copy()
     with np.errstate(all="ignore"):  # the centre of mass of what has no volume
         trimesh.repair.fix_normals(mesh, multibody=not mesh.is_winding_consistent)
+    _turn_inverted_parts(mesh)
     if turned := np.count_nonzero((mesh.faces != written).any(axis=1)):
         notes.append(f"{turned} triangles are wound inwards, or against their neighbours: turned")
     volume = np.linalg.det(mesh.triangles - corners.mean(axis=0)).sum() / 6
@@ -76,14 +77,39 @@ def _check_edges(ends: Array, problem: str) -> None:
         raise InputError(f"has {place}, {problem}", field="mesh")
 
 
+def _turn_inverted_parts(mesh: trimesh.Trimesh) -> None:
+    """Turn shells that are in no other one and wound inwards, with all that is in them."""
+    every = np.arange(len(mesh.faces))
+    parts = trimesh.graph.connected_components(mesh.face_adjacency, nodes=every, min_len=1)
+    shells = [mesh.submesh([part], append=True, repair=False) for part in parts]
+    if len(shells) == 1 or all(shell.volume >= 0 for shell in shells):
+        return
+    faces = mesh.faces.copy()
+    outermost: list[tuple[Manifold, bool]] = []
+    for i in np.argsort([-abs(shell.volume) for shell in shells]).tolist():
+        solid = _solid(shells[i])
+        least = (1 - TOUCHING) * solid.volume()
+        holders = [turned for other, turned in outermost if (other ^ solid).volume() >= least]
+        turned = holders[0] if holders else shells[i].volume < 0
+        if not holders:
+            outermost.append((solid, turned))
+        if turned:
+            faces[parts[i]] = faces[parts[i]][:, ::-1]
+    mesh.faces = faces
+
+
+def _solid(shell: trimesh.Trimesh) -> Manifold:
+    """What a shell encloses, whichever way it is wound."""
+    faces = shell.faces if shell.volume >= 0 else shell.faces[:, ::-1]
+    return Manifold(Mesh64(shell.vertices, np.ascontiguousarray(faces, dtype=np.uint64)))
+
+
 def _check_shells(mesh: trimesh.Trimesh) -> None:
     """Refuse overlapping shells: their volumes must sum to the volume that they fill."""
     whole = Manifold()
     for shell in sorted(mesh.split(repair=False), key=lambda shell: -abs(shell.volume)):
         cavity = shell.volume < 0
-        if cavity:
-            shell.invert()
-        solid = Manifold(Mesh64(shell.vertices, shell.faces.astype(np.uint64)))
+        solid = _solid(shell)
         whole = whole - solid if cavity else whole + solid
     if abs(whole.volume() - mesh.volume) > TOUCHING * mesh.volume:
         problem = (

@@ -11,7 +11,15 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from quasistatic_ref import Body, InputError, ModelError, System, load_scenario
+from quasistatic_ref import (
+    Body,
+    InputError,
+    ModelError,
+    Simulator,
+    System,
+    derivatives,
+    load_scenario,
+)
 from tests.closeness import assert_close, assert_within
 from tests.files.urdf.urdf_texts import CHAIN, collision, inertial, joint, link, robot
 from tests.pages import ROOT
@@ -357,7 +365,7 @@ SILENT = {
     "two shapes": (link("b", collision('<box size="1 1 1"/><sphere radius="1"/>')), 2.0, 1),
     "two inertials": (link("b", BOX, inertial() + inertial("3")), 2.0, 1),
 }
-"""A link; its mass [kg] and number of shapes in pinocchio. docs/conventions.md lists them."""
+"""A link; its mass [kg] and number of shapes in pinocchio. docs/libraries.md lists them."""
 
 
 @pytest.mark.parametrize("what", SILENT)
@@ -395,3 +403,55 @@ def test_a_joint_may_be_bounded_on_one_side(lower, upper, limits):
     model.upperPositionLimit[:] = upper
     (joint,) = System([Body.of_pinocchio("r", model)]).joints
     assert joint.limits == limits
+
+
+ARM = robot(
+    link("w", inertial=""),
+    link("arm"),
+    link("hand"),
+    link("tool"),
+    link("cup"),
+    joint("turn", "w", "arm", axis="0 1 0"),
+    joint("weld", "arm", "hand", "fixed", more='<origin xyz="0 0 0.3"/>'),
+    joint("bend", "hand", "tool", axis="1 0 0", more='<origin xyz="0 0 0.2"/>'),
+    joint("glue", "tool", "cup", "fixed", more='<origin xyz="0.1 0 0"/>'),
+)
+"""Two bodies of two links each."""
+
+
+def arm_simulator(body):
+    system = System([body])
+    return Simulator(system, [], h=0.01, K_q=10.0, gravity_acts=[True] * system.n_a)
+
+
+def test_masses_of_welded_links_of_a_model_have_no_derivative_and_those_of_its_urdf_do():
+    """The URDF has the masses of all links, the Model that of each two."""
+    model = pin.buildModelFromXML(ARM)
+    of_file = arm_simulator(Body("arm", ARM, actuated="all"))
+    of_model = arm_simulator(Body.of_pinocchio("arm", model, actuated="all"))
+    q = np.array([0.3, -0.2])
+    right = derivatives(of_file, q, q, by="masses")
+    found = derivatives(of_model, q, q, by=("masses", "q"))
+    welded = [of_model.system.links.index(f"arm/{name}") for name in ("arm", "hand", "tool", "cup")]
+    assert np.isfinite(right.dq_dmasses).all()
+    assert np.isnan(found.dq_dmasses[:, welded]).all()
+    assert np.isfinite(found.dq_dq).all()
+    assert {reason.fields for reason in found.reasons} == {("dq_dmasses",)}
+    assert "one mass for all links that are welded" in found.reasons[0].sentence
+    with pytest.raises(InputError, match=r"along: .* one mass for all links .*: arm/hand"):
+        found.along(masses=np.eye(len(of_model.system.links))[welded[1]])
+    for copied in (copy.deepcopy(of_model), pickle.loads(pickle.dumps(of_model))):
+        assert copied.system.welded == of_model.system.welded
+
+
+def test_a_model_whose_joints_move_one_link_each_has_derivatives_by_masses():
+    model = pin.Model()
+    inertia = pin.Inertia(2.0, np.array([0.1, 0.0, 0.2]), 0.02 * np.eye(3))
+    number = model.addJoint(0, pin.JointModelRY(), pin.SE3.Identity(), "turn")
+    model.appendBodyToJoint(number, inertia, pin.SE3.Identity())
+    model.addBodyFrame("arm", number, pin.SE3.Identity(), 0)
+    simulator = arm_simulator(Body.of_pinocchio("arm", model, actuated="all"))
+    q = np.array([0.3])
+    found = derivatives(simulator, q, q, by="masses").dq_dmasses[0]
+    lever = 9.81 * (0.1 * np.cos(0.3) + 0.2 * np.sin(0.3)) / 10.0
+    assert_within(found[simulator.system.links.index("arm/arm")], lever, 1e-10)

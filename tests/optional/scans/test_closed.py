@@ -9,6 +9,7 @@ import trimesh
 from quasistatic_ref import InputError, scanned_body
 from quasistatic_ref.optional.scans.closed import closed_mesh
 from quasistatic_ref.optional.scans.solid import Solid
+from tests.cases import cases
 from tests.closeness import assert_relative, assert_within
 
 BOX = trimesh.creation.box((1.0, 2.0, 4.0))
@@ -49,6 +50,24 @@ def test_a_mesh_that_is_wound_inwards_is_turned():
 def test_a_triangle_that_is_turned_is_turned_back():
     mixed = np.where(np.isin(np.arange(12), [0, 1, 7])[:, None], F[:, ::-1], F)
     assert_relative(solid(V, mixed, "3 triangles are wound inwards, or").volume, 8.0, 1e-12)
+
+
+APART = {
+    # Boxes of 8 m^3, at these places and scaled, and which are wound inwards; then the volume.
+    "one of two": ([(0, 1), (10, 1)], [1], 16.0),
+    "the larger one of two": ([(0, 2), (10, 1)], [0], 72.0),
+    "two of three": ([(0, 1), (10, 1), (20, 1)], [0, 2], 24.0),
+    "one beside a box with a cavity": ([(0, 1), (0, 0.5), (10, 1)], [1, 2], 15.0),
+    "one that touches the other": ([(0, 1), (1, 1)], [1], 16.0),
+}
+
+
+@cases("places, inwards, volume", APART)
+def test_a_part_that_is_wound_inwards_is_turned(places, inwards, volume):
+    boxes = [(scale * V + [x, 0.0, 0.0], F[:, ::-1] if i in inwards else F)
+             for i, (x, scale) in enumerate(places)]  # fmt: skip
+    made = solid(*joined(*boxes), "12 triangles are wound inwards" if len(inwards) < 2 else "wound")
+    assert_relative(made.volume, volume, 1e-12)
 
 
 HOLE = r"has 3 edges, the first at \(-500, -1000, 0\) mm, of one triangle: a hole; close it"
@@ -115,7 +134,7 @@ OVERLAP = {
     "corner": ((V + 0.4, F), 16, 16 - 0.6 * 1.6 * 3.6),
     "flush": ((V + np.array([0.0, 0.0, 2.0]), F), 16, 12),
     "within": ((V / 2, F), 9, 8),
-    "a cavity outside": ((V / 2 + 5, F[:, ::-1]), 7, 8),
+    "half outside, wound inwards": ((V / 2 + [0.5, 0.0, 0.0], F[:, ::-1]), 9, 8.5),
 }
 
 

@@ -10,6 +10,9 @@ from scipy.spatial import cKDTree
 
 import quasistatic_ref as qr
 from quasistatic_ref import InputError
+from quasistatic_ref.files.clouds import KINDS as CLOUDS
+from quasistatic_ref.files.clouds import point_cloud
+from quasistatic_ref.files.mesh_files import MESHES
 from quasistatic_ref.optional.scans.cloud import thinned
 from tests.closeness import assert_relative, assert_within
 from tests.oracles.scanned import SCANS, SOLIDS, on_surface
@@ -81,6 +84,63 @@ def test_the_papers_cloud_of_992_points_is_nearly_the_hull_of_its_mesh():
     assert off(qr.scanned_body(BUNNY / "bunny_992.csv", mass=MASS), hull) < WITH_NOISE
 
 
+HEAD = "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+HEAD += "property float z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "begin", "line"),
+    [
+        ("a.xyz", "", "{} {} {}\n"),
+        ("a.ply", HEAD.format(302, 0), "{} {} {}\n"),
+        ("a.off", "OFF\n302 0 0\n", "{} {} {}\n"),
+        ("a.obj", "", "v {} {} {}\n"),
+        ("a.csv", "x,y,z\n", "{},{},{}\n"),
+    ],
+)
+def test_points_that_a_camera_did_not_see_are_left_out_of_every_kind(tmp_path, name, begin, line):
+    points = on_surface(SOLIDS["box"], 300, seed=9)
+    holed = np.insert(points, [5, 77], np.nan, axis=0)
+    (tmp_path / name).write_text(begin + "".join(line.format(*row) for row in holed.tolist()))
+    made = qr.scanned_body(tmp_path / name, mass=MASS, name="thing")
+    assert_within(made.inertia, body(tmp_path, points).inertia, 1e-15)
+    assert_within(np.sort(made.points, axis=0), np.sort(points, axis=0), 1e-15)
+    unseen = [note for note in made.notes if "not seen" in note]
+    assert unseen == ["2 points that are not numbers are left out, as what was not seen"]
+
+
+@pytest.mark.parametrize("kind", ["obj", "ply"])
+def test_a_vertex_that_is_nan_is_left_out_where_no_face_uses_it(tmp_path, kind):
+    """A cube of 0.1 m, which holds a litre; its first vertex is NaN, and then a corner, too."""
+    points = "".join("{} {} {}\n".format(*row) for row in CUBE.vertices.tolist())
+    faces = (CUBE.faces + 1).tolist()
+    text = HEAD.format(9, 12) + f"nan nan nan\n{points}"
+    text += "".join(f"3 {a} {b} {c}\n" for a, b, c in faces)
+    if kind == "obj":
+        vertices = [f"v {row}" for row in ("nan nan nan", *points.splitlines())]
+        rows = [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
+        text = "\n".join([*vertices, *rows])
+    path = tmp_path / f"cube.{kind}"
+    path.write_text(text)
+    made = qr.scanned_body(path, density=1000.0)
+    assert made.mass == pytest.approx(1.0, rel=1e-6)
+    assert "1 points that are not numbers are left out, as what was not seen" in made.notes
+    corner = points.splitlines()[2]
+    path.write_text(text.replace(corner, "0 NaN 0", 1))
+    with pytest.raises(
+        InputError, match=r"cube\....: vertices\[3\]: must be finite numbers, or NaN"
+    ):
+        qr.scanned_body(path, density=1000.0)
+
+
+def test_a_file_of_another_kind_is_told_all_kinds_that_are_read(tmp_path):
+    (tmp_path / "a.step").touch()
+    with pytest.raises(InputError) as refused:
+        qr.scanned_body(tmp_path / "a.step", mass=MASS)
+    for kind in (*CLOUDS, *MESHES):
+        assert kind in str(refused.value)
+
+
 def test_a_face_alone_and_few_points_are_refused(tmp_path, rng):
     flat = np.concatenate([rng.uniform(0, 0.1, (500, 2)), np.zeros((500, 1))], axis=1)
     with pytest.raises(InputError, match="points: its points lie in a plane; give a closed mesh"):
@@ -134,8 +194,10 @@ def test_a_box_stands_on_the_face_below(tmp_path, cli):
     trimesh.creation.box((0.04, 0.2, 0.1)).export(path)  # it stands on 0.04 x 0.2 m
     made = qr.scanned_body(path, density=1000.0)
     assert made.height == pytest.approx(0.05)
-    text = cli("body", path, "--density 1000 --out", tmp_path).out
+    text = cli("body", path, "--density 1000 --points 60 --name brick --out", tmp_path).out
     run_at_rest(tmp_path, text, 1e-6)
+    assert "brick" in qr.load_scenario(tmp_path / "scene.toml").bodies
+    assert point_cloud(tmp_path / "brick.csv").points.shape == (60, 3)
 
 
 def test_a_mesh_is_weighed_where_and_as_large_as_its_file_places_it(tmp_path):
