@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.certify.groups import connected_components
+from quasistatic_ref.exact.components import connected_components
 from quasistatic_ref.simulate.standing import Standing
 
 if TYPE_CHECKING:

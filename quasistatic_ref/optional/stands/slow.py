@@ -20,12 +20,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.groups import Group, components
+from quasistatic_ref.certify.groups import Group
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.exact.components import components
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.optional.stands.bodies import Body
 from quasistatic_ref.parts import is_there
 from quasistatic_ref.parts import part as part_of
+from quasistatic_ref.quoting import one_line
 from quasistatic_ref.simulate.standing import Standing
 from quasistatic_ref.solve.backends import DAQP
 from quasistatic_ref.solve.choice import solver_for
@@ -33,7 +35,6 @@ from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import frame_jacobian
-from quasistatic_ref.text.quoting import one_line
 from quasistatic_ref.tolerances import ACCURACY
 
 FIRST = 1e-3
@@ -48,14 +49,16 @@ SHORTER = 6
 """Shorter times T that are asked, at most."""
 SAME = 0.01
 """Difference of what two pairs of times say is missing [-], up to which they agree."""
+ROUGH = 0.1
+"""The same of short times, where springs have given and nothing has moved far."""
 LITTLE = 1e-3
-"""Share of a body's load [-] below which a force counts as zero."""
-ROUNDING = 1e-9
-"""Share of a body's weight [-] below which a load counts as zero."""
+"""Acceleration over the earth's [-] below which what starts counts as at rest, in any scene."""
 STRAIGHT = 0.1
 """Motion of a body over its size [-] up to which a step is straight."""
 OWN = 1e-9
 """Difference of s from its own slip's norm, over the longest motion [-], of a fixed point."""
+OWN_IN_ROUND = 1e-7
+"""The same in a round cone, whose solvers are less accurate."""
 STICKS = 1e-3
 """Slip over the longest motion of a contact that sticks [-]."""
 NO_FORCE = 1e-300
@@ -63,15 +66,10 @@ NO_FORCE = 1e-300
 STILL = 1e-6
 """Acceleration over the largest of a group [-] of a body that stays."""
 FACETS = "facets-32"
-"""A round cone as a polygon; with torsion the sum of both shares, of 0.7 of it at least."""
+"""A polygon inside of a round cone: what stands in it stands in the cone."""
 HEAVY = 2.0**14
 """Mass of a body that a clamp holds, over the largest of its group [-]. What is read is short by
 m / (m + HEAVY) where a mass m leans on it; by a wedge that nearly jams, of 200 times that mass."""
-
-
-def as_polygon(name: str) -> str:
-    """A friction cone, or what stands for a round one, in which no fixed point is exact."""
-    return name if cone(name).polyhedral else FACETS
 
 
 class NoFixedPoint(QuasistaticError):
@@ -130,16 +128,18 @@ def slow_step(
     if extra.cost is not None:  # which grows with the time step, as that of a spring
         H, g = extra.cost
         extra = replace(extra, H=T / step.h * H, g=T / step.h * g)
-    step = step.with_fields(h=T, extra=extra, cone=as_polygon(step.cone))
+    step = step.with_fields(h=T, extra=extra)
+    polyhedral = cone(step.cone).polyhedral
+    own = OWN if polyhedral else OWN_IN_ROUND
     solver = next((one for one in solvers if one.fits(step)), None)
     if solver is None:
-        solver = solver_for(step, DAQP if is_there("daqp_solver") else None)
+        solver = solver_for(step, DAQP if polyhedral and is_there("daqp_solver") else None)
         solvers.append(solver)
     s = np.zeros(step.contacts.n_c) if s is None else s
     of: Callable[..., Any] = part_of("coulomb_from")
-    end = of(step, s, solver, ACCURACY, "off", OWN, least)
+    end = of(step, s, solver, ACCURACY, "off", own, least)
     if certify == "full" and end.converged:
-        end = of(step, end.s, solver, ACCURACY, "full", OWN, least)
+        end = of(step, end.s, solver, ACCURACY, "full", own, least)
     if not end.converged:
         raise NoFixedPoint("no solution of Coulomb's law was found")
     return Slow(T, end.delta_q, end.wrench, end.s)
@@ -154,8 +154,6 @@ class SlowGroup:
     part : StepData
         As a step of its own, with the h of the scene.
     bodies : list of Body
-    g : float
-        [m/s^2]
     solvers : list of Solver
         Those of other groups, which serve again.
     certify : str
@@ -167,7 +165,6 @@ class SlowGroup:
         group: Group,
         part: StepData,
         bodies: list[Body],
-        g: float,
         solvers: list[Solver],
         certify: str,
     ) -> None:
@@ -181,7 +178,7 @@ class SlowGroup:
         self.own: Mask = np.array([np.isin(u, body.coordinates) for body in bodies])
         moved = part.contacts.J[:, :, part.n_a :].any(axis=1)
         self.touches: Mask = np.asarray(moved @ self.own.T)  # contacts, of bodies
-        self.none = ROUNDING * g * self.masses  # [N]
+        self.least = LITTLE * FALLS * self.masses  # [N]
         self.loads = self._amounts(np.asarray(np.linalg.solve(part.M_u, part.tau_u), np.float64))
 
     def _slow(self, T: float, s: Array, part: StepData | None = None) -> Slow:
@@ -202,12 +199,6 @@ class SlowGroup:
         """Sizes of M_u starts on each body [N]: of no frame, and for comparing alone."""
         return self.masses * self._ways(starts)
 
-    def _least(self, slow: Slow) -> Array:
-        """A small force for each body [N]: a share of its load, or of what presses on it."""
-        pressed = slow.wrench[:, 2] @ self.touches
-        loads = np.where(self.loads > self.none, self.loads, pressed)
-        return np.maximum(LITTLE * loads, self.none)
-
     def rows(self, T: float | None) -> list[Standing]:
         """What each body lacks, or why that is not known; T is asked first [s], None: at once."""
         try:
@@ -218,13 +209,16 @@ class SlowGroup:
 
     def _in_the_end(self, T: float) -> list[Standing]:
         steps = [self._first(T / FACTOR**2)]
-        steps.append(self._longer(steps[0]))
-        steps.append(self._longer(steps[1]))
+        try:
+            steps.append(self._longer(steps[0]))
+            steps.append(self._longer(steps[1]))
+        except NoFixedPoint as error:
+            return self._till(steps[-1], str(error))
         while True:
             last = steps[-1]
             first, here = self._starts(*steps[-3:-1]), self._starts(*steps[-2:])
             before, amounts = self._amounts(first), self._amounts(here)
-            least = self._least(last)
+            least = self.least
             same = self._amounts(here - first) <= SAME * np.maximum(amounts, least)
             little = amounts <= least
             ways = self._ways(last.delta_q[self.part.n_a :])
@@ -257,12 +251,28 @@ class SlowGroup:
             rows.append(Standing(body.name, None if why else True, reason=why))
         return rows
 
+    def _till(self, last: Slow, why: str) -> list[Standing]:
+        """How far each body gives way by the last time that is answered, and lacks at once."""
+        pairs, changes = self._short(last)
+        ways = 1e3 * self._ways(last.delta_q[self.part.n_a :])
+        reasons = [f"gives way by {way:.2g} mm in {last.T:.2g} s; then {why}" for way in ways]
+        if (agree := np.flatnonzero(changes <= ROUGH)).size:
+            early = pairs[agree[0]]
+            lacks = self._amounts(self._starts(*early)) > self.least
+            for i in np.flatnonzero(lacks).tolist():
+                row = self._clamped(i, early)
+                force, torque = (float(f"{x:.2g}") for x in (row.missing_N, row.missing_Nm))
+                lack = replace(row, missing_N=force, missing_Nm=torque).words
+                reasons[i] = f"lacks about {lack} at once; {reasons[i]}"
+        rows = zip(self.bodies, reasons, strict=True)
+        return [Standing(body.name, None, reason=reason) for body, reason in rows]
+
     def _at_once(self) -> list[Standing]:
         """What each body lacks at once, before springs and landings bear it."""
         T = math.sqrt(FIRST * self.sizes.min() / FALLS)
         first = self._slow(T, np.zeros(self.part.contacts.n_c))
         steps = [first, self._longer(first)]
-        lacks = self._amounts(self._starts(*steps)) > self._least(steps[1])
+        lacks = self._amounts(self._starts(*steps)) > self.least
         return [
             self._clamped(i, steps) if lacks[i] else Standing(body.name, True)
             for i, body in enumerate(self.bodies)
@@ -276,21 +286,26 @@ class SlowGroup:
                 return self._slow(T / FACTOR**shorter, s)
         return self._slow(T / FACTOR**SHORTER, s)
 
-    def _longer(self, slow: Slow) -> Slow:
-        """The step at the next T, from the s of the last one, or from s = 0."""
+    def _longer(self, slow: Slow, part: StepData | None = None) -> Slow:
+        """The step of a part at the next T, from the s of the last one, or from s = 0."""
         with suppress(NoFixedPoint):
-            return self._slow(FACTOR * slow.T, FACTOR**2 * slow.s)
-        return self._slow(FACTOR * slow.T, 0.0 * slow.s)
+            return self._slow(FACTOR * slow.T, FACTOR**2 * slow.s, part)
+        return self._slow(FACTOR * slow.T, 0.0 * slow.s, part)
 
     def _early(self, slow: Slow) -> list[Slow]:
         """Two steps before bodies have moved far, from which on what is missing stays the same."""
+        pairs, changes = self._short(slow)
+        return pairs[1 + int(changes.argmin())]
+
+    def _short(self, slow: Slow) -> tuple[list[list[Slow]], Array]:
+        """Pairs of shorter and shorter steps, and what is missing's change to the next pair [-]."""
         steps = [slow]
         for _ in range(SHORTER):
             steps.append(self._slow(steps[-1].T / FACTOR, steps[-1].s / FACTOR**2))
         pairs = [[first, last] for last, first in pairwise(steps)]
         amounts = np.array([self._amounts(self._starts(*pair)) for pair in pairs])
         off = np.abs(np.diff(amounts, axis=0)).max(axis=1)
-        return pairs[1 + int((off / np.maximum(amounts[1:].max(axis=1), NO_FORCE)).argmin())]
+        return pairs, off / np.maximum(amounts[1:].max(axis=1), NO_FORCE)
 
     def _one_verdict(self, slow: Slow, starts: Array) -> Indices:
         """A label for each body, (bodies,): equal for moving bodies that stick to each other."""
@@ -315,7 +330,8 @@ class SlowGroup:
             way[part.n_a :] += starts * steps[1].T ** 2
             heavy = part.with_fields(M_u=read_only(M_u), **after_motion(part, way))
             try:
-                starts = self._starts(*(self._slow(step.T, 0.0 * step.s, heavy) for step in steps))
+                first = self._slow(steps[0].T, 0.0 * steps[0].s, heavy)
+                starts = self._starts(first, self._longer(first, heavy))
             except NoFixedPoint:
                 return Standing(body.name, False, reason="what a clamp would bear is not known")
         return body.missing(starts[own], M_u[np.ix_(own, own)])

@@ -8,6 +8,8 @@ press on each other without slipping have one verdict.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,13 +17,15 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.groups import Group, coupled_groups, group_step
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.stands.bodies import bodies_of
-from quasistatic_ref.optional.stands.slow import STRAIGHT, SlowGroup, as_polygon
+from quasistatic_ref.optional.stands.bodies import Body, bodies_of
+from quasistatic_ref.optional.stands.slow import FACETS, STRAIGHT, SlowGroup
 from quasistatic_ref.parts import part
+from quasistatic_ref.simulate.form_step import form_step
 from quasistatic_ref.simulate.standing import Standing, Standings
+from quasistatic_ref.step.cones import cone
 
 if TYPE_CHECKING:
-    from quasistatic_ref.numbers.arrays import Indices, Mask
+    from quasistatic_ref.numbers.arrays import Array, Indices, Mask
     from quasistatic_ref.simulate.simulator import Simulator
     from quasistatic_ref.solve.solver import Solver
     from quasistatic_ref.step.data import StepData
@@ -68,7 +72,7 @@ def stands(
     q = simulator.system.checked(q)
     here = simulator.system.at(q)
     points = simulator.closest_points(here.kinematics)
-    step = simulator.step_data(here, target, force, points)
+    step = form_step(simulator.plan, here, target, force, points)
     whole = True
     if simulator.extension is not None:
         posed: Posed = part("posed")
@@ -77,27 +81,68 @@ def stands(
     rows = {body: Standing(body.name, None, reason=OWN_TERMS) for body in bodies}
     if whole:
         T = None if soon else max(SLOW, IN_STEPS * simulator.h)
-        g = float(np.linalg.norm(simulator.gravity))
         solvers: list[Solver] = []
+        deep = _deep_contacts(simulator, step, only)
         for group, slow in _groups(_near(simulator, step, only), label):
             of = [body for body in bodies if body.coordinates[0] in group.coordinates]
             if of:
-                answers = SlowGroup(group, slow, of, g, solvers, certify).rows(T)
-                rows |= zip(of, answers, strict=True)
-    kind = as_polygon(step.cone)
-    return Standings(tuple(rows.values()), kind if kind == step.cone else f"{step.cone} ({kind})")
+                rows |= zip(of, _answers(group, slow, of, solvers, certify, T), strict=True)
+        for body in bodies:
+            inside = deep & step.contacts.J[:, :, body.coordinates].any(axis=(1, 2))
+            if inside.any():
+                depth = 1e3 * float(-step.contacts.phi[inside].min())
+                why = (
+                    f"begins {depth:.3g} mm inside of what it touches, and is asked on its surface"
+                )
+                rows[body] = replace(rows[body], reason=why)
+    return Standings(tuple(rows.values()), step.cone)
+
+
+def _answers(
+    group: Group,
+    slow: StepData,
+    of: list[Body],
+    solvers: list[Solver],
+    certify: str,
+    T: float | None,
+) -> list[Standing]:
+    """The rows of a group's bodies: in a round cone, of which what stands in a polygon inside."""
+    by_cone = partial(SlowGroup, group, bodies=of, solvers=solvers, certify=certify)
+    if cone(slow.cone).polyhedral:
+        return by_cone(part=slow).rows(T)
+    inside = by_cone(part=slow.with_fields(cone=FACETS)).rows(T)
+    if all(row.stands for row in inside):
+        return inside
+    in_cone = by_cone(part=slow).rows(T)
+    return [one if one.stands else other for one, other in zip(inside, in_cone, strict=True)]
 
 
 def _near(simulator: Simulator, step: StepData, only: Mask | None) -> StepData:
-    """A step with the contacts and stops that are near: within a tenth of what they belong to."""
-    reach = STRAIGHT * np.array([pair.size or 1.0 for pair in simulator.pairs])
-    near = step.contacts.phi <= np.repeat(reach, [pair.n_c for pair in simulator.pairs])
+    """A step with the contacts and stops that are near: within a tenth of what they belong to.
+
+    Gaps are at least 0: what begins inside of something would be pushed out of it, and friction
+    would bear a share of that.
+    """
+    reach = _reach(simulator)
+    near = step.contacts.phi <= reach
     contacts = np.flatnonzero(near if only is None else near & only)
     stops = np.flatnonzero(-step.extra.b <= reach.min(initial=STRAIGHT))
     every = np.arange(step.n_v)
-    return step.with_fields(
-        contacts=step.contacts.some(contacts, every), extra=step.extra.of(stops, every)
-    )
+    some = step.contacts.some(contacts, every)
+    some = some.raised(np.maximum(-some.phi, 0.0))
+    return step.with_fields(contacts=some, extra=step.extra.of(stops, every))
+
+
+def _reach(simulator: Simulator) -> Array:
+    """A tenth of the size of what each contact belongs to, shape (n_c,) [m]."""
+    sizes = [pair.size or 1.0 for pair in simulator.pairs]
+    return STRAIGHT * np.repeat(sizes, [pair.n_c for pair in simulator.pairs])
+
+
+def _deep_contacts(simulator: Simulator, step: StepData, only: Mask | None) -> Mask:
+    """The contacts that may bear and are deeper than they reach, shape (n_c,)."""
+    deep = -step.contacts.phi > _reach(simulator)
+    return np.asarray(deep if only is None else deep & only)
 
 
 def _groups(step: StepData, label: Indices) -> Iterator[tuple[Group, StepData]]:

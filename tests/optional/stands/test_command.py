@@ -4,6 +4,8 @@ import json
 
 import pytest
 
+import quasistatic_ref as qr
+
 FAST = "--quiet --fast"
 
 
@@ -34,3 +36,36 @@ def test_one_step_and_plain_data(cli):
 )
 def test_bad_questions_and_scenes_without_free_bodies_are_told(cli, words, status, sentence):
     assert sentence in "".join(cli(f"stands {words} {FAST}", status=status))
+
+
+def test_a_scene_whose_first_step_is_refused_is_not_said_to_have_nothing_free(cli):
+    # An edge of the middle box is 10 mm deep in an edge of the lower one, along x and along z.
+    pose = "bodies.middle.pose={xyz=[0.08,0,0.13],rpy=[0,0,0]}"
+    told = cli(f"stands stack --set {pose} {FAST}", status=3)
+    assert told.out == "no step has ended\n"
+    assert "as deep in each other along [1., 0., 0.] as along [0., 0., 1.]" in told.err
+
+
+@pytest.mark.parametrize(
+    ("scene", "at", "steps"), [("block_incline", 0.5, 50), ("stack", 0.01, 1), ("stack", 0.5, 50)]
+)
+def test_a_run_ends_where_it_is_asked(cli, monkeypatch, scene, at, steps):
+    """After T = k h no step is taken: k steps in all, 50 in 0.5 s of 0.01 s each."""
+    taken = []
+    run = qr.Scenario.run
+    monkeypatch.setattr(
+        qr.Scenario, "run", lambda self, **words: taken.append(run(self, **words)) or taken[0]
+    )
+    whole = qr.load_scenario(scene, fast=True).run(progress=False)
+    del taken[:]
+    record = json.loads(cli(f"stands {scene} --at {at} --json {FAST}").out)
+    assert [run.steps for run in taken] == [steps]
+    assert record["steps"] == [steps - 1]
+    standings = whole.stands(steps - 1)
+    assert [row["stands"] for row in record["bodies"]] == [row.stands for row in standings]
+
+
+@pytest.mark.parametrize("at", ["nan", "inf", "-1", "0"])
+def test_a_time_at_which_no_step_ends_is_refused(cli, at):
+    told = cli(f"stands stack --at {at} {FAST}", status=2)
+    assert "--at: must be the end of a step, up to 0.5 s" in told.err

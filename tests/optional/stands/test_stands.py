@@ -6,8 +6,17 @@ import re
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extension, InputError, RunFailed, load_scenario
+from quasistatic_ref import (
+    Body,
+    Box,
+    Extension,
+    InputError,
+    RunFailed,
+    Sphere,
+    load_scenario,
+)
 from quasistatic_ref.lab.commands.stands import asked_steps, over_steps
+from tests.closeness import assert_relative
 from tests.optional.rows import CASES, made, params, rows_of
 
 G = 9.81
@@ -81,6 +90,7 @@ def test_bodies_stand_or_lack_what_is_right_by_hand_whatever_the_order(row, ask,
     assert_by_hand(scenario, run_of(scenario), ask["stands"])
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("case", params(one for one in CASES if not {"before", "mjcf"} & {*one}))
 def test_bodies_of_the_doctors_cases_lack_what_is_right_by_hand(case):
     """`why` derives numbers that a row's name does not say. Others stand in the end, or fall."""
@@ -166,7 +176,7 @@ def test_every_step_is_asked_however_many_bodies_lack_something_at_times_of_thei
         contacts[f"c{i}"] = one["scene"]["contacts"]["f"] | {"beta": f"b{i}"}
     scenario = made(one, {"bodies": bodies, "contacts": contacts, "steps": 16})
     run = scenario.run(progress=False, findings=False)
-    steps = asked_steps(run, None, 1)
+    steps = asked_steps(run.steps, run.header.h, None)
     asked = [run.stands(k, scenario) for k in steps]
     for i in range(14):
         row = over_steps([(k, rows[f"b{i}"]) for k, rows in zip(steps, asked, strict=True)])
@@ -204,11 +214,69 @@ def test_a_light_record_needs_the_scenario_and_a_scene_of_no_free_body_says_so()
     assert "nothing in this scene is free" in str(actuated.run(progress=False).stands(0))
 
 
-def test_an_ellipsoid_is_asked_by_facets_and_the_users_own_costs_are_not_asked():
+def bar_in_a_grip(cone, friction, torsion):
+    """A bar between two fingers of 10 N each, off its middle: shares of friction and torsion."""
+    mu_v, mu_omega, N = 0.6, 0.008, 10.0
+    mass = friction * 2 * mu_v * N / G
+    off = torsion * 2 * mu_omega * N / (mass * G)
+    size = Box((0.12, 0.008, 0.02))
+    bodies = {"bar": Body.of_shape("bar", size, mass=mass, xyz=(off, 0.0, 1.0))}
+    for name, side in (("left", -0.018), ("right", 0.018)):
+        finger = Body.of_shape(name, Sphere(0.01), 0.1, xyz=(0.0, side, 1.0), actuated=["base"])
+        pressed = {"t": 0.0, "base": {"xyz": [0.0, side - np.copysign(N / 5000.0, side), 1.0]}}
+        K = {"base": [1e6, 5000.0, 1e6, 1e4, 1e4, 1e4]}
+        bodies[name] = {"body": finger, "K_q": K, "targets": [pressed]}
+    grip = {
+        "alpha": ["left", "right"],
+        "beta": "bar",
+        "mu_v": mu_v,
+        "mu_omega": mu_omega,
+        "rows": 6,
+    }
+    scene = {"h": 0.05, "steps": 1, "bodies": bodies, "contacts": {"grip": grip}, "shapes": {}}
+    return load_scenario(scene, cone=cone, fast=True)
+
+
+SUMS = {"ellipsoid": 2.0, "pyramid": 1.0, "product": np.inf}
+"""Of the shares of friction u and of torsion v a cone bears what has a p-norm below 1."""
+
+
+@pytest.mark.shared
+@pytest.mark.parametrize("cone", SUMS)
+@pytest.mark.parametrize("angle", [0.1, 0.4, 0.7, 1.0, 1.3])
+@pytest.mark.parametrize(("of_limit", "stands"), [(0.96, True), (1.04, False), (1.4, False)])
+def test_a_grip_bears_friction_and_torsion_as_its_cone_has_them(cone, angle, of_limit, stands):
+    direction = np.array([np.cos(angle), np.sin(angle)])
+    shares = of_limit * direction / np.linalg.norm(direction, SUMS[cone])
+    scenario = bar_in_a_grip(cone, *shares)
+    rows = standings(scenario, None)
+    assert rows.cone == cone
+    assert rows["bar"].stands is stands
+    assert (rows["bar"].missing_N + rows["bar"].missing_Nm > 0) is not stands
+
+
+def test_the_end_in_an_ellipsoid_is_proved_if_asked():
+    """Of two shares of 0.8; what is missing is that without a proof."""
+    scenario = bar_in_a_grip("ellipsoid", 0.8, 0.8)
+    by_proof, without = (standings(scenario, None, certify=way)["bar"] for way in ("full", "off"))
+    assert by_proof.stands is False
+    assert_relative(by_proof.missing_N, without.missing_N, 1e-4)
+
+
+def test_the_users_own_costs_are_not_asked():
     import cvxpy as cp
 
     scenario = load_scenario("block_incline", steps=1, cone="ellipsoid")
-    assert scenario.simulator().stands().cone == "ellipsoid (facets-32)"
     extension = Extension(lambda symbols: [cp.norm1(symbols.delta_q_u)])
     row = scenario.simulator(lambda q: extension).stands()["rough"]
     assert (row.stands, row.reason) == (None, "the user's own costs or constraints are not asked")
+
+
+@pytest.mark.parametrize(("z", "depth"), [(0.1, None), (0.065, None), (0.055, 45), (0.05, 50)])
+def test_a_start_deeper_than_a_tenth_of_a_body_is_said(z, depth):
+    """Of a box of 0.4 m; what it lacks is what it lacks on the surface."""
+    scenario = made(row_of("a block of 2 kg on a slope"), {"bodies.b.pose.xyz": [0.0, 0.0, z]})
+    row = standings(scenario, None)["b"]
+    said = f"begins {depth} mm inside of what it touches, and is asked on its surface"
+    assert row.reason == ("" if depth is None else said)
+    assert row.words == "; ".join(filter(None, ["0.1874 N", row.reason]))
