@@ -1,7 +1,8 @@
 """What drag and the boundary layer add to the forces of pairs, read from the record of a run.
 
 Drag M v / h of a free body is borne by the pairs that push along it, by their shares, and is
-missing in those that it pushes against. A spring presses by the layer s over what it gives.
+missing in those that it pushes against. That of a drawer or a door is borne by power. A spring
+presses by the layer s over what it gives.
 """
 
 from collections.abc import Iterator
@@ -9,12 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.numbers.arrays import Array, Mask
+from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.did.artifacts import LIGHT, drag, quotient
+from quasistatic_ref.optional.doctor.frame.hinged import hinged, sides
 from quasistatic_ref.optional.doctor.frame.run import Run, in_world
 from quasistatic_ref.optional.doctor.frame.start import SHORT
 from quasistatic_ref.optional.doctor.texts import finding
-from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX
 
@@ -86,33 +87,37 @@ def added(run: Run) -> Iterator[Added]:
         return
     f = run["wrench"]
     normal = f[..., 2:3] * run["n"]
-    every = normal + f[..., :1] * run["d1"] + f[..., 1:2] * run["d2"]
-    starts = [of.start for _, of in run.slices]
-    every, pushed = (np.add.reduceat(x, starts, axis=1).swapaxes(0, 1) for x in (every, normal))
+    tangential = f[..., :1] * run["d1"] + f[..., 1:2] * run["d2"]
+    every, pushed = (run.of_pairs(np.add, x).swapaxes(0, 1) for x in (normal + tangential, normal))
     by_drag, along = _drags(run, every, pushed)
+    of_joints = _drags_of_joints(run, normal + tangential)
+    larger = np.abs(of_joints[0]) > np.abs(by_drag)
+    by_drag, along = np.where(larger, of_joints, (by_drag, along))
     layer = layers(run)
     for name, base in run.free_bases.items():
         layer[np.ix_(run.falls(base), run.of_body(name))] = 0.0
-    moves = run.targets_move | run.loads_move
-    for i, (_, of) in enumerate(run.slices):
-        on: Mask = np.asarray(run.touches[:, of].any(axis=1), dtype=np.bool_)
-        stays = on & np.append(run.steps == 1, on[:-1]) & moves
-        pressed = np.linalg.norm(pushed[i], axis=1)
-        lands = run["phi"][:, of].max(axis=1) > SHORT * run.sizes[of.start]
-        by_drag[i, lands] = np.maximum(by_drag[i, lands], 0.0)
-        by_layer = np.minimum(layer[:, of].max(axis=1), pressed)
-        parts = np.array([by_drag[i], by_layer]) * stays
-        here = np.where(np.abs(parts[0]) >= parts[1], along[i], pressed)
-        largest = f[min(1, run.steps - 1) :, of, 2].sum(axis=1).max()
-        whole = max(largest, float(np.maximum(here, here - parts[0]).max()))
-        shares = quotient(np.abs(parts).max(axis=0), whole)
-        k = int(np.flatnonzero(shares >= NEARLY * shares.max())[-1])
-        yield Added(float(shares[k]), k, i, float(here[k]), *map(float, parts[:, k]))
+    on = run.of_pairs(np.logical_or, run.touches)
+    before = np.vstack([np.full_like(on[:1], run.steps == 1), on[:-1]])
+    stays = (on & before).T & (run.targets_move | run.loads_move)
+    pressed = np.linalg.norm(pushed, axis=2)
+    size = run.sizes[[of.start for _, of in run.slices]]
+    lands = (run.of_pairs(np.maximum, run["phi"]) > SHORT * size).T
+    by_drag = np.where(lands, np.maximum(by_drag, 0.0), by_drag)
+    by_layer = np.minimum(run.of_pairs(np.maximum, layer).T, pressed)
+    parts = np.array([by_drag, by_layer]) * stays
+    here = np.where(np.abs(parts[0]) >= parts[1], along, pressed)
+    largest = run.of_pairs(np.add, f[min(1, run.steps - 1) :, :, 2]).max(axis=0)
+    whole = np.maximum(largest, np.maximum(here, here - parts[0]).max(axis=1))
+    shares = quotient(np.abs(parts).max(axis=0), whole[:, None])
+    nearly = shares >= NEARLY * shares.max(axis=1, keepdims=True)
+    last = run.steps - 1 - nearly[:, ::-1].argmax(axis=1)
+    for i, k in enumerate(last.tolist()):
+        yield Added(float(shares[i, k]), k, i, float(here[i, k]), *map(float, parts[:, i, k]))
 
 
 def layers(run: Run) -> Array:
     """Force that the boundary layer may add at each contact, shape (steps, n_c) [N]."""
-    s = np.where(run.touches, slip_norm(run.mu * run.slips, run.simulator.cone), 0.0)
+    s = np.where(run.touches, run.sliding, 0.0)
     return quotient(s, run.noted("gives")) * (run.simulator.law == CONVEX)
 
 
@@ -126,24 +131,73 @@ def _drags(run: Run, every: Array, normal: Array) -> tuple[Array, Array]:
         The force on beta, and what of it is normal [N]: friction at its limit takes no more.
     """
     changes, forces = np.zeros((2, *every.shape[:2]))
-    for name, base in run.free_bases.items():
-        which = np.unique(run.pair_of[run.of_body(name)])
-        link = run.system.link(name)
-        pairs = [run.pairs[i] for i in which]
-        signs = [float(p.beta.link == link) - float(p.alpha.link == link) for p in pairs]
-        F = in_world(run["q"][:-1, base.q][:, 3:], drag(run, base))
-        size = np.linalg.norm(F, axis=1)
-        force, pressed = (
-            np.array(signs)[:, None] * quotient(np.einsum("pkx,kx->pk", f[which], F), size)
-            for f in (every, normal)
-        )
-        along = np.maximum(force, 0.0)
-        faces = pressed < FACES * np.linalg.norm(normal[which], axis=2)
-        against = np.where(faces, -pressed, 0.0)
-        adds = np.minimum(size * quotient(along, along.sum(axis=0)), along)
-        lacks = size * quotient(against, against.sum(axis=0)) * ~along.any(axis=0)
-        change = np.where(lacks > 0, -lacks, adds)
-        larger = np.abs(change) > np.abs(changes[which])
-        changes[which] = np.where(larger, change, changes[which])
-        forces[which] = np.where(larger, np.abs(force), forces[which])
+    bases = [*run.free_bases.values()]
+    at = [(i, which) for i, name in enumerate(run.free_bases) for which in run.numbers_of(name)]
+    if not at:
+        return changes, forces
+    body, pair = np.transpose(at)
+    starts = np.diff(body, prepend=-1) > 0
+    first = np.flatnonzero(starts)
+    group = np.cumsum(starts) - 1
+    link = np.array([run.system.link(name) for name in run.free_bases])[body]
+    beta, alpha = (np.array([getattr(x, of).link for x in run.pairs]) for of in ("beta", "alpha"))
+    signs = 1.0 * (beta[pair] == link) - (alpha[pair] == link)
+    quaternions = np.array([run["q"][:-1, base.q][:, 3:] for base in bases])
+    F = in_world(quaternions, np.array([drag(run, base) for base in bases]))[body]
+    size = np.linalg.norm(F, axis=2)
+    force, pressed = (
+        signs[:, None] * quotient(np.einsum("pkx,pkx->pk", f[pair], F), size)
+        for f in (every, normal)
+    )
+
+    def share(of_pairs: Array) -> Array:
+        """What each pair has of drag, by its part of what the pairs of a body have."""
+        whole = np.add.reduceat(of_pairs, first, axis=0)
+        return np.asarray(size * quotient(of_pairs, whole[group]))
+
+    along = np.maximum(force, 0.0)
+    faces = pressed < FACES * np.linalg.norm(normal[pair], axis=2)
+    against = np.where(faces, -pressed, 0.0)
+    helped = np.logical_or.reduceat(along > 0, first, axis=0)[group]
+    lacks = share(against) * ~helped
+    change = np.where(lacks > 0, -lacks, np.minimum(share(along), along))
+    of_second = np.ones(len(pair), dtype=bool)
+    of_second[np.unique(pair, return_index=True)[1]] = False
+    for some in (~of_second, of_second):
+        of = pair[some]
+        larger = np.abs(change[some]) > np.abs(changes[of])
+        changes[of] = np.where(larger, change[some], changes[of])
+        forces[of] = np.where(larger, np.abs(force[some]), forces[of])
+    return changes, forces
+
+
+def _drags_of_joints(run: Run, force: Array) -> tuple[Array, Array]:
+    """The same of mechanisms with joints that nothing drives, by power, (pairs, steps) [N].
+
+    Drag takes the power delta_q_u' M_u delta_q_u / h^3 of each. The pairs that push it along give
+    their force times their speed, and drag has of each the share that it has of all; where none
+    pushes, it bears that share of those that it pushes against. `force` is that on beta of each
+    contact, shape (steps, n_c, 3) [N].
+    """
+    changes, forces = np.zeros((2, len(run.slices), run.steps))
+    starts = [of.start for _, of in run.slices]
+    label = sides(run.simulator)
+    moved = run.noted("hinged")
+    for i, u in enumerate(hinged(run.system).values()):
+        momentum = run.noted("momentum")[:, u - run.system.n_a]
+        work = quotient(quotient(np.vecdot(momentum, run["delta_q"][:, u]), run.h), run.h)
+        of_body = np.einsum("sckx,ck->scx", moved, label == i)
+        given = np.add.reduceat(np.vecdot(force, of_body), starts, axis=1).T  # in the step [J]
+        pushes = np.maximum(given, 0.0)
+        helps = pushes.any(axis=0)
+        bears = np.where(helps, pushes, np.maximum(-given, 0.0))
+        share = np.minimum(quotient(work, bears.sum(axis=0)), 1.0)
+        strength = np.linalg.norm(force, axis=2)
+        way = np.linalg.norm(of_body, axis=2)
+        largest = np.maximum.reduceat(np.where(strength > 0, way, 0.0), starts, axis=1).T
+        along = quotient(bears, largest)
+        change = np.where(helps, share, -share) * along
+        larger = np.abs(change) > np.abs(changes)
+        changes = np.where(larger, change, changes)
+        forces = np.where(larger, along, forces)
     return changes, forces

@@ -8,7 +8,7 @@ from quasistatic_ref.optional.doctor import added, grips, locks
 from quasistatic_ref.optional.doctor.frame.start import Start
 from quasistatic_ref.optional.doctor.frame.undecided import Undecided, failure
 from quasistatic_ref.optional.doctor.start import falls, placed, points
-from quasistatic_ref.optional.doctor.steps import backends, depths, leaps, limits, rings
+from quasistatic_ref.optional.doctor.steps import backends, depths, flats, leaps, limits, rings
 from quasistatic_ref.optional.doctor.task import passing, touching, waypoints
 from quasistatic_ref.optional.doctor.typed import masses, units
 from quasistatic_ref.simulate.finding import Finding
@@ -43,6 +43,7 @@ OF_RUN: tuple[Check, ...] = (
     waypoints.late,
     waypoints.still,
     passing.through,
+    placed.comes_inside,
     touching.idle,
     grips.lost,
     waypoints.short,
@@ -55,6 +56,7 @@ OF_RUN: tuple[Check, ...] = (
     falls.falling,
     backends.backend_failures,
     added.artifact,
+    flats.flat_contact,
 )
 NO_STEPS: tuple[Check, ...] = (units.no_steps,)
 

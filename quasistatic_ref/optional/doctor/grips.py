@@ -39,15 +39,19 @@ def lost(run: Run) -> Iterator[Finding]:
     """Bodies that slip or turn by much in everything that grips them.
 
     A grip is lost if something is missing of the body, all contacts being asked; if it slips away
-    from where others bear it, and not the grip; or if it would stick were the step taken slowly.
+    from where others bear it, and not the grip; if it would stick were the step taken slowly; or if
+    a closed grip slips off what a joint or other fingers hold.
     What is wiped while it is held, or turns as it is meant to, slips slowly as well.
     """
+    every = _held(run)
+    if not every:
+        return
     f_n = run["wrench"][..., 2]
     grips = run.touches & (f_n > PRESSES * f_n.max(initial=0.0))
     slip = np.linalg.norm(run.slips[..., :2], axis=2)
     ways = np.array([slip, np.abs(run.noted("moved")[..., 3])]) * grips
     limits = np.array([SLIPPED * run.sizes, np.full_like(run.sizes, TURNED)])
-    for name, held in _held(run).items():
+    for name, held in every.items():
         on = held & grips
         if not _far(ways * held, limits):
             continue
@@ -58,9 +62,11 @@ def lost(run: Run) -> Iterator[Finding]:
         k = int((slips / limits[:, None]).sum(axis=0).max(axis=1).argmax())
         sticks = _would_stick(run, k, on[k], slips[:, k])
         lacks = None if sticks else _missing(run, k, name, on[k], held)
-        way = slips.sum(axis=1).max(axis=1)
-        if lacks or sticks or _stays(run, name, on[k], way[0]):
-            yield _lost(run, name, k, on[k], lacks, way, sticks)
+        ways_of = slips.sum(axis=1)
+        way = ways_of.max(axis=1)
+        grip = on[k] if lacks or sticks else _let_go(run, name, on[k], run["n"][k], ways_of[0])
+        if lacks or sticks or _stays(run, name, grip, way[0]):
+            yield _lost(run, name, k, grip, lacks, way, sticks)
 
 
 def _held(run: Run) -> dict[str, Mask]:
@@ -100,13 +106,29 @@ def _would_stick(run: Run, k: int, on: Mask, ways: Array) -> bool:
     return False
 
 
+def _let_go(run: Run, name: str, on: Mask, n: Array, slip: Array) -> Mask:
+    """Which contacts of a grip slip off what is held by something else, shape (n_c,).
+
+    What is on a joint is held by that. A free body is where other driven contacts press that do
+    not slip, and those that do are a grip by themselves: one finger strokes, and so do two what a
+    floor holds. `n` are normals, (n_c, 3), and `slip` the ways of contacts, (n_c,) [m].
+    """
+    if name not in run.free_bases:
+        return on
+    of_pairs = set(run.pair_of[slip > SLIPPED * run.sizes].tolist())
+    slides = on & np.isin(run.pair_of, [*of_pairs])
+    return slides & (closed(n[slides]) and bool((on & ~slides).any()))
+
+
 def _stays(run: Run, name: str, on: Mask, slip: float) -> bool:
-    """Whether what is held on a joint does not come along with a grip that slips by a way [m]."""
+    """Whether what is held does not come along with contacts that slip by a way [m], if any."""
+    if not on.any():
+        return False
     links = [link for link in range(len(run.system.links)) if run.body(link) == name]
     moved = np.abs(run["delta_q"]).sum(axis=0)[: run.system.n_v] * run.moves[links].any(axis=0)
     turns = np.array([x.unit == "rad" for x in run.system.coordinates])
     ways = np.where(turns, moved * run.sizes[on].min(), moved)
-    return name not in run.free_bases and bool(ways.max() < STAYS * slip)
+    return bool(ways.max() < STAYS * slip)
 
 
 def _missing(run: Run, k: int, name: str, on: Mask, held: Mask) -> Standing | None:
@@ -144,7 +166,7 @@ def _lost(
     run: Run, name: str, k: int, on: Mask, lacks: Standing | None, ways: Array, sticks: bool
 ) -> Finding:
     """A grip on some contacts that is lost, after a slip and a turn, (2,) [m; rad]."""
-    pairs = np.unique(run.pair_of[on]).tolist()
+    pairs = sorted(set(run.pair_of[on].tolist()))
     tables = " and ".join(sorted({table(run, run.pairs[i]) for i in pairs}))
     holders = " and ".join(dict.fromkeys(run.held_by(i)[1] for i in pairs))
     way, turn = ways.tolist()

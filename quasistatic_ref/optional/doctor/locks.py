@@ -16,10 +16,10 @@ from quasistatic_ref.optional.doctor.frame.start import Start, table
 from quasistatic_ref.optional.doctor.frame.undecided import LARGE, Undecided
 from quasistatic_ref.optional.doctor.texts import amount, finding
 from quasistatic_ref.parts import part
+from quasistatic_ref.quoting import listed
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.standard_form import frame_jacobian
-from quasistatic_ref.text.quoting import listed
 from quasistatic_ref.tolerances import REPEATED
 
 CRAWL: Final = 0.1
@@ -38,7 +38,7 @@ def guided(start: Start) -> Iterator[Finding | Undecided]:
     if not start.small:
         yield Undecided("guides", LARGE)
         return
-    contacts = start.simulator.geometry.contacts(start.points, start.kinematics)
+    contacts = start.simulator.plan.geometry.contacts(start.points, start.kinematics)
     J_n, J_1, J_2, J_w = np.abs(np.asarray(frame_jacobian(contacts, contacts.J)))
     J_t = np.hypot(J_1, J_2)
     rounding = ROUNDED * np.maximum(J_t, J_n).max(axis=1, keepdims=True, initial=1.0)
@@ -150,7 +150,7 @@ def locked(run: Run) -> Iterator[Finding | Undecided]:
         unit = "N" if coordinate.unit == "m" else "N m"
         cause = f"{coordinate.name} moves by {amount(moved[i], coordinate.unit)} under "
         cause += f"{force[i]:.3g} {unit} in step {k}, where its contacts could bear "
-        cause += f"{bears[i]:.3g} {unit}: {run.simulator.layout.names[j]} presses with "
+        cause += f"{bears[i]:.3g} {unit}: {run.simulator.plan.layout.names[j]} presses with "
         cause += f"{pressed[j]:.3g} N, because a contact that slides has to rise and it cannot"
         numbers = {"force": force[i], "could_bear": bears[i], "step": k}
         yield finding("locked-guide", cause, _remedy(run, joint, joint, tables), **numbers)

@@ -23,6 +23,8 @@ from quasistatic_ref.optional.doctor.did.artifacts import (
     gives,
     quasi_dynamic_number,
 )
+from quasistatic_ref.optional.doctor.did.numbers import least_artifacts, resolved_number
+from quasistatic_ref.optional.doctor.frame.hinged import motions
 from quasistatic_ref.optional.doctor.frame.run import Run
 from quasistatic_ref.optional.doctor.frame.start import Start
 from quasistatic_ref.optional.doctor.frame.undecided import failure
@@ -45,7 +47,7 @@ class Doctor(Observer):
         Names of findings that are not said.
     """
 
-    notes = ("moved", "momentum", "gives")
+    notes = ("moved", "momentum", "gives", "hinged")
 
     def __init__(self, printed: bool = False, ignore: Sequence[str] = ()) -> None:
         self.printed = printed
@@ -57,7 +59,8 @@ class Doctor(Observer):
         """Note the numbers of each step that findings need at the end of the run.
 
         J delta_q, shape (steps, n_c, 4) [m, m, m, rad], of which a light record holds nothing; M_u
-        delta_q_u, (steps, n_u) [kg m, kg m^2]; what springs give along n, (steps, n_c) [m/N].
+        delta_q_u, (steps, n_u) [kg m, kg m^2]; what springs give along n, (steps, n_c) [m/N]; and
+        J delta_q by mechanisms that nothing drives, (steps, n_c, 2, 3) [m].
         Nothing where that fails, as without room: it costs the findings, and not the run.
         """
         try:
@@ -65,6 +68,7 @@ class Doctor(Observer):
                 "moved": arrays["motion"],
                 "momentum": _momentum(recorder.system, results, arrays["delta_q"]),
                 "gives": gives([result.step for result in results]),
+                "hinged": motions(recorder.simulator, results, arrays["delta_q"]),
             }
         except Exception:
             return {}
@@ -83,8 +87,11 @@ class Doctor(Observer):
                 lost = f"findings: nothing is noted of the steps after {noted}"
             elif trajectory.steps:
                 at = run = Run(recorder, trajectory)
-                known["quasi_dynamic_number"] = quasi_dynamic_number(run)
-                known["largest_boundary_layer"] = boundary_layer(run)
+                least = least_artifacts(trajectory, recorder.simulator)
+                known |= {
+                    "quasi_dynamic_number": resolved_number(quasi_dynamic_number(run), least[0]),
+                    "largest_boundary_layer": resolved_number(boundary_layer(run), least[1]),
+                }
         except Exception as error:
             lost = f"findings: {failure(error)}"
         header = Header(**known | {"not_looked_at": lost})

@@ -11,13 +11,13 @@ SUBJECTS = {
     "guided-friction too-few-points",
     "run": "unit-of-a-target target-without-effect target-beyond-a-limit force-beyond-a-limit "
     "joint-beyond-a-limit locked-guide sunk-contact crossed-margin rings leap free-fall "
-    "failing-backend artifact",
+    "failing-backend artifact flat-contact",
     "task": "lost-grip no-motion late-waypoints passes-through idle-contacts far-from-target",
 }
 """What findings are of, and their names."""
 NAMES = frozenset(" ".join(SUBJECTS.values()).split())
 """The names of findings, which a scene may ignore."""
-NOTES = frozenset({"artifact", "starts-inside"})
+NOTES = frozenset({"artifact", "flat-contact", "starts-inside"})
 """Those that are notes; others are grave, unless their check says that they are not."""
 LONG = 999.5
 """Length that is said in metres, since three digits of it are 1e+03 [mm]."""

@@ -15,6 +15,7 @@ def found(scenario):
         return failure.trajectory.findings
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("case", params(CASES))
 def test_findings_are_right_by_hand(case):
     """A remedy that is applied ends what asked for it."""

@@ -4,14 +4,25 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import (
+    Body,
     InputError,
+    Simulator,
+    System,
     load_scenario,
     load_trajectory,
     relative_turn,
+    rollout,
 )
-from quasistatic_ref.optional.doctor.did.lines import in_words, lines, pair_rows
+from quasistatic_ref.optional.doctor.did.lines import (
+    body_line,
+    in_words,
+    joint_line,
+    lines,
+    pair_rows,
+)
 from quasistatic_ref.optional.doctor.did.numbers import by_name, numbers_of, resolved, rounding_of
 from tests.closeness import assert_relative
+from tests.files.urdf.urdf_texts import joint, link, robot
 from tests.optional.rows import made, params, rows_of
 
 
@@ -28,7 +39,7 @@ def test_the_turn_in_a_hand_is_that_of_the_two_links():
 def test_run_prints_the_numbers(tmp_path, cli):
     printed = cli("run", "block_push", "--fast", "--set", "steps=60", "--out", tmp_path).out
     x = load_trajectory(tmp_path / "block_push.npz")["q"][:, 1]  # of the block, which does not turn
-    assert f"ends from start {x[-1] - x[0]:.4g} m" in printed
+    assert f"; ends {1e3 * (x[-1] - x[0]):.3g} mm from its start" in printed
     assert ": 0.25; drag about 0.49 of 2.45 N at push; largest boundary layer" in printed
 
 
@@ -61,18 +72,22 @@ def test_numbers_that_float64_does_not_resolve_in_their_scene_are_zero(tmp_path,
     assert 1e-15 < limits.rad < 1e-14
 
 
-def test_a_body_has_two_lines_a_joint_one_and_pairs_are_a_table():
+def test_a_body_and_a_joint_have_a_line_and_pairs_are_a_table():
     hands = {f"largest_turn_in_hand_{k}_deg": 0.0625 for k in range(9)}
-    bodies = {"ball": {"largest_rotation_deg": 1.5, "ends_from_start_m": 0.25} | hands}
-    joints = {f"arm/j{k}": {"ends_from_target_rad": 0.5} for k in range(6)}
+    ball = {"largest_rotation_deg": 1.5, "ends_from_start_m": 0.25, "largest_rise_mm": 1500.0}
+    carried = {"carried_from_s": 0.75, "largest_rotation_carried_deg": 0.5}
+    bodies = {"ball": ball | hands | carried, "hinge": {"largest_rotation_deg": 90.0}}
+    joints = {f"arm/j{k}": {"ends_from_target_rad": np.pi / 6} for k in range(6)}
     pairs = {"a(b, c)": {"touches_s": 0.5, "slip_m": 0.25}, "d(e, f)": {"touches_s": 0.0}}
     numbers = {"bodies": bodies, "joints": joints, "pairs": pairs}
     first, second, *others = lines(numbers)
-    assert first == "ball: largest rotation 1.5 deg, ends from start 0.25 m"
-    turns = [f"largest turn in hand {k} 0.0625 deg" for k in range(2)]
-    assert second == f"    {', '.join(turns)}, 7 more: see --numbers"
+    assert first == (
+        "ball: turns by 1.5 deg (0.062 in the hand_0, 0.062 in the hand_1, 7 more: see --numbers), "
+        "0.5 after t = 0.75 s; ends 250 mm from its start, rises by 1.5 m"
+    )
+    assert second == "hinge: turns by 90 deg"
     assert others == [
-        *(f"arm/j{k}: ends from target 0.5 rad" for k in range(4)),
+        *(f"arm/j{k}: ends 30 deg from its target" for k in range(4)),
         "2 more joints: see --numbers",
     ]
     assert len(list(lines(numbers, every=True))) == 2 + len(joints)
@@ -81,10 +96,66 @@ def test_a_body_has_two_lines_a_joint_one_and_pairs_are_a_table():
     ]  # fmt: skip
 
 
+JOINTS = {
+    # A spring of 1000 N/m that is 12.2 mm short of 27 mm presses with 12.2 N.
+    "stops 12.2 mm before its target (54.8 % of the way); its spring presses with up to 12.2 N": {
+        "ends_from_target_m": 0.0122, "share_of_way_left": 0.452, "largest_spring_N": 12.2,
+    },
+    "stops 3 mm beyond its target; its spring presses with up to 3 N": {
+        "ends_from_target_m": 0.003, "share_of_way_left": 0.1, "ends_beyond_target_m": 0.003,
+        "largest_spring_N": 3.0,
+    },
+    "ends 1.5 m from its target": {"ends_from_target_m": 1.5},
+    "ends 3 mm from its target; its spring presses with up to 1 N m": {
+        "ends_from_target_m": 0.003, "share_of_way_left": 1.25, "largest_spring_Nm": 1.0,
+    },
+    "reaches its target": {"ends_from_target_m": 0.0, "share_of_way_left": 0.0},
+}  # fmt: skip
+
+
+BODIES = {
+    "does not move": {"largest_rotation_deg": 0.0, "ends_from_start_m": 0.0},
+    "does not turn": {"largest_rotation_deg": 0.0},
+    "does not turn; ends 25.5 mm from its start": {
+        "largest_rotation_deg": 0.0, "ends_from_start_m": 0.0255, "largest_rise_mm": 0.0,
+    },
+    "turns by 675 deg; ends where it started, rises by 1.47 mm": {
+        "largest_rotation_deg": 675.2, "ends_from_start_m": 0.0, "largest_rise_mm": 1.47,
+    },
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("line", BODIES)
+def test_a_body_that_rests_turns_or_moves_is_said_to(line):
+    assert body_line(BODIES[line]) == line
+
+
+@pytest.mark.parametrize("line", JOINTS)
+def test_a_joint_stops_before_its_target_beyond_it_or_away_from_it(line):
+    assert joint_line(JOINTS[line]) == line
+
+
+@pytest.mark.parametrize(("force", "side"), [(0.0, "reaches"), (-30.0, "before"), (30.0, "beyond")])
+def test_what_a_load_pushes_past_its_target_is_said_to_be_beyond_it(force, side):
+    """A slide with K = 1000 N/m, whose target is 0.05 m away, under 30 N along it: 30 mm off."""
+    slide = robot(link("a"), link("b"), joint("x", "a", "b", kind="prismatic", axis="1 0 0"))
+    system = System([Body("r", slide, actuated="all")])
+    simulator = Simulator(system, [], h=0.01, K_q=1000.0, gravity=(0.0, 0.0, 0.0))
+    run = rollout(simulator, [0.0], [0.05], 2, force=[force], progress=False)
+    (line,) = lines(numbers_of(run, simulator))
+    words = {
+        "reaches": "reaches its target",
+        "before": "stops 30 mm before its target (40 % of the way)",
+        "beyond": "stops 30 mm beyond its target",
+    }
+    spring = "; its spring presses with up to 30 N" if force else ""
+    assert line == f"r/x: {words[side]}{spring}"
+
+
 @pytest.mark.parametrize(
     ("word", "printed"),
     [
-        ("largest_spring_Nm", "largest spring 2.462 N m"),
+        ("spring_Nm", "spring 2.462 N m"),
         ("share_of_way_left", "share of way left 2.462"),
         ("largest_turn_in_left_m_deg", "largest turn in left m 2.462 deg"),
     ],

@@ -24,6 +24,7 @@ def one_for_each_finding():
         seen.add(findings)
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("mistake", list(one_for_each_finding()))
 def test_a_mistake_is_named_in_the_first_finding(mistake, tmp_path):
     short = ["steps=10"] if BEFORE.issuperset(mistake["finding"]) else []
@@ -53,6 +54,7 @@ def test_a_box_that_comes_down_from_its_layer_once_its_pusher_stops_has_settled(
 WITHOUT_MISTAKE = [*healthy_scenes("healthy")[1::4], *healthy_scenes("near_miss")]
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("one", WITHOUT_MISTAKE, ids=lambda one: one["what"])
 def test_a_scene_without_a_mistake_has_no_grave_finding_however_it_is_made(one, tmp_path):
     findings = findings_after(tmp_path, one["scene"], one["edits"])

@@ -89,10 +89,11 @@ def fails(*_):
 
 
 OF_RUN = "locked guides"
-NOTES = {"block_push": "artifact"}
-"""Drag pushes a block."""
+NOTES = {"block_push": "artifact", "door": "artifact"}
+"""Drag pushes a block, and a door without friction."""
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("name", SCENARIOS_TO_RUN)
 def test_a_scenario_that_comes_along_is_silent_but_for_what_it_shows(name):
     settings = ["solver.certify=off", "record=light"]
@@ -161,7 +162,7 @@ def test_a_check_that_fails_costs_its_finding_alone():
 def test_failures_around_the_checks_cost_the_findings_and_not_the_run(name, monkeypatch):
     monkeypatch.setattr(observer, name, fails)
     run = load_scenario("block_push", steps=2).run(progress=False)
-    assert (len(run), run.findings) == (2, ())
+    assert (run.steps, run.findings) == (2, ())
     assert run.header.not_looked_at.startswith("findings: ")
 
 
@@ -178,7 +179,7 @@ def test_steps_of_which_nothing_is_noted_cost_the_findings_and_not_the_run(error
         with pytest.raises(RunFailed, match="step 1: interrupted") as failure:
             scenario.run()
         run = failure.value.trajectory
-    assert (len(run), run.findings) == (2, ())
+    assert (run.steps, run.findings) == (2, ())
     assert run.header.not_looked_at == "findings: nothing is noted of the steps after 0"
 
 

@@ -1,11 +1,15 @@
 """A backend that fails is named in the summary and in a finding; the run is exact all the same."""
 
+from dataclasses import replace
 from itertools import count
 
+import cvxpy
 import numpy as np
 import pytest
 
 import quasistatic_ref as qr
+from quasistatic_ref.solve import step_problem
+from quasistatic_ref.step import problem
 from tests.files.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
 from tests.solvers import Reply
 
@@ -42,6 +46,93 @@ def test_the_remedy_names_what_solves_the_step_and_never_the_accused(
     scenario = qr.load_scenario("block_push", {"solver.backend": accused}, steps=3)
     (finding,) = scenario.run(progress=False).findings
     assert finding.remedy.startswith(remedy)
+
+
+def doubled(monkeypatch, name):
+    """Edit step/problem.py: a coefficient of the page, by its name there, counts twice."""
+    if name == "K_q":
+        fill = step_problem.set_values
+
+        def filled(page, *arguments):
+            fill(page, *arguments)
+            page.parameters["K_q"].save_value(2 * page.parameters["K_q"].value)
+
+        monkeypatch.setattr(step_problem, "set_values", filled)
+        return
+    scaled = problem.scaled
+
+    def twice(of, factors, motion):
+        return scaled(of, 2 * factors if of == name else factors, motion)
+
+    monkeypatch.setattr(problem, "scaled", twice)
+
+
+@pytest.mark.parametrize(
+    ("name", "model"), [("mu_v", "block_push"), ("mu_omega", "bunny_grasp"), ("K_q", "block_push")]
+)
+def test_a_page_that_is_another_program_is_said_and_its_solver_is_not_blamed(
+    monkeypatch, name, model
+):
+    """By clarabel, which solves that other program well: to all digits that are asked for."""
+    scenario = qr.load_scenario(model, steps=45)
+    exact = scenario.run(progress=False)
+    doubled(monkeypatch, name)
+    run = scenario.run(progress=False)
+    assert run["q"].tobytes() == exact["q"].tobytes()
+    (finding,) = (one for one in run.findings if one.name == "failing-backend")
+    short = np.flatnonzero(run.digits < 6)
+    assert len(short)
+    assert finding.numbers == {"other": len(short), "step": short[0]}
+    assert finding.cause == (
+        f"clarabel solved another program than Eqs. (8) and (13) in {len(short)} of 45 steps, the "
+        f"first of them step {short[0]}"
+    )
+    assert "step/problem.py" in finding.remedy
+
+
+def test_answers_that_satisfy_no_other_program_are_not_blamed_on_the_solver(monkeypatch):
+    """Unproved: where residuals of Eqs. (9) to (12) refuse them, the exact method answers."""
+    doubled(monkeypatch, "mu_v")
+    scenario = qr.load_scenario("block_push", {"solver.certify": "residual"}, steps=30)
+    run = scenario.run(progress=False)
+    refused = run.header.unanswered
+    assert refused
+    (finding,) = (one for one in run.findings if one.name == "failing-backend")
+    assert finding.numbers == {"other": len(refused), "step": refused[0]}
+    assert finding.cause.startswith("clarabel solved another program")
+
+
+def test_a_page_of_a_users_own_is_compared_and_not_only_that_of_the_file():
+    """A row that the step does not have: the block may not move by more than 1 um a step."""
+    scenario = qr.load_scenario("block_push")
+    simulator = scenario.simulator()
+    start = scenario.system.q_start
+    targets = scenario.targets
+    qr.rollout(simulator, start, targets, 1, progress=False)
+    page = simulator.solver.problem
+    slow = page.row(page.delta_q_u <= 1e-6)
+    page.problem = cvxpy.Problem(page.problem.objective, [*page.problem.constraints, slow])
+    run = qr.rollout(simulator, start, targets, 45, progress=False)
+    (finding,) = (one for one in run.findings if one.name == "failing-backend")
+    assert finding.cause.startswith("clarabel solved another program")
+
+
+@pytest.mark.parametrize("certify", ["full", "residual"])
+@pytest.mark.parametrize("model", ["block_push", "two_finger_pinch"])
+def test_a_poor_solver_of_the_right_page_is_blamed(answers, model, certify):
+    """Its delta_q is off by a thousandth, its multipliers are those of twice the load."""
+
+    def poor(_, own):
+        reply = own()
+        return replace(reply, x=1.001 * reply.x, lam=2 * reply.lam)
+
+    answers("clarabel", poor)
+    scenario = qr.load_scenario(model, {"solver.certify": certify}, steps=8)
+    (finding,) = (
+        one for one in scenario.run(progress=False).findings if one.name == "failing-backend"
+    )
+    assert "other" not in finding.numbers
+    assert finding.remedy.startswith("choose another backend than clarabel, such as daqp")
 
 
 def test_failures_are_in_the_summary_and_in_a_finding_that_is_grave(failing, tmp_path, cli):

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.numbers.arrays import Array, without_warnings
 from quasistatic_ref.numbers.ordered import norm
 from quasistatic_ref.optional.doctor.frame.contacts import pressing
+from quasistatic_ref.step.contacts import spread, stacked
 from quasistatic_ref.step.data import StepData
 
 if TYPE_CHECKING:
@@ -77,8 +78,8 @@ def gives(steps: Sequence[StepData]) -> Array:
     n_a = first.n_a
     if not n_a:
         return np.zeros((len(steps), first.contacts.n_c))
-    n = np.array([step.contacts.n for step in steps])
-    J_a = np.array([step.contacts.J[:, :3, :n_a] for step in steps])
-    J_n = np.einsum("scx,scxv->scv", n, J_a)
+    contacts = stacked([step.contacts for step in steps])
+    J_a = spread(contacts.own[:, :3], np.minimum(contacts.column, n_a), n_a)
+    J_n = np.einsum("cx,cxv->cv", contacts.n, J_a).reshape(len(steps), first.contacts.n_c, n_a)
     yields = np.linalg.solve(first.K_q, J_n.reshape(-1, n_a).T).T.reshape(J_n.shape)
     return np.asarray(np.vecdot(J_n, yields))

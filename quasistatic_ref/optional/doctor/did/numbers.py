@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.model.screw import between, rotation_between
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.doctor.frame.contacts import (
     contact_slips,
@@ -35,6 +36,16 @@ SMALL = 1e-6
 """Angle of a rotation whose axis is rounding [rad]."""
 
 IN_HAND = "largest_turn_in_"
+ROTATION = "largest_rotation_deg"
+CARRIED = "largest_rotation_carried_deg"
+CARRIED_FROM = "carried_from_s"
+FROM_START = "ends_from_start_m"
+RISE = "largest_rise_mm"
+FROM_TARGET = "ends_from_target_"
+BEYOND = "ends_beyond_target_"
+LEFT = "share_of_way_left"
+SPRING = "largest_spring_"
+"""Words of numbers, or how they begin."""
 
 Numbers = Mapping[str, Mapping[str, Mapping[str, float]]]
 """By kind, name and word [any unit]."""
@@ -69,8 +80,11 @@ def numbers_of(trajectory: Trajectory, settings: Settings) -> Numbers:
     down = down if down.any() else np.array([0.0, 0.0, -1.0])
     up = -down / np.linalg.norm(down)
     hands = [joint for joint in driven if joint.free]
+    carried_from = min((_departure(hand, trajectory) for hand in hands), default=0)
     bodies = {
-        joint.name.removesuffix("/base"): _of_body(joint, trajectory["q"], hands, up, least)
+        joint.name.removesuffix("/base"): _of_body(
+            joint, trajectory, hands, carried_from, up, least
+        )
         for joint in joints
         if not joint.actuated
     }
@@ -96,6 +110,11 @@ def resolved(x: ArrayLike, least: float) -> Array:
     return np.where(np.abs(x) > least, x, 0.0)
 
 
+def resolved_number(x: float | None, least: float) -> float | None:
+    """A number [any unit], 0 where it is at most `least`; None stays."""
+    return x if x is None else float(resolved(x, least))
+
+
 def least_artifacts(trajectory: Trajectory, settings: Settings) -> tuple[float, float]:
     """The least quasi-dynamic number [-] and boundary layer [m] that float64 resolves in a run."""
     least = rounding_of(trajectory, settings.system.joints).m
@@ -103,31 +122,53 @@ def least_artifacts(trajectory: Trajectory, settings: Settings) -> tuple[float, 
     return (least / fall if fall else 0.0), least
 
 
+def _departure(hand: Joint, run: Trajectory) -> int:
+    """The number of steps before the target of a free hand leaves its start; 0 if it never does."""
+    target = run["q_bar_a"]
+    start = np.broadcast_to(run["q"][0, : target.shape[1]], target.shape)
+    return int(np.argmax(_distance(hand, start, target) > UNMOVED)) if len(target) else 0
+
+
 def _of_body(
-    joint: Joint, q: Array, hands: Sequence[Joint], up: Array, least: Rounding
+    joint: Joint,
+    run: Trajectory,
+    hands: Sequence[Joint],
+    carried_from: int,
+    up: Array,
+    least: Rounding,
 ) -> dict[str, float]:
-    """How far a body or joint turned, ended and rose along a unit vector `up`, (3,) [-]."""
+    """How far a body or joint turned, ended and rose along a unit vector `up`, (3,) [-].
+
+    It is carried from that number of steps on, if that is not 0.
+    """
+    q = run["q"]
     moved = (q - q[0])[:, joint.q][:, : joint.lengths]
-    turned = {"largest_rotation": _turned(_turns(joint, q, np.broadcast_to(q[0], q.shape)))}
+    turned = {ROTATION: _turned(_turns(joint, q, np.broadcast_to(q[0], q.shape)))}
+    if joint.free and carried_from:
+        carried = q[carried_from:]
+        at_departure = np.broadcast_to(carried[0], carried.shape)
+        turned[CARRIED] = _turned(_turns(joint, carried, at_departure))
     if joint.free:
         for hand in hands:
-            turned[IN_HAND + hand.name.removesuffix("/base")] = _turned_in(joint, hand, q)
+            turned[f"{IN_HAND}{hand.name.removesuffix('/base')}_deg"] = _turned_in(joint, hand, q)
     degrees = {
-        f"{word}_deg": float(np.degrees(resolved(angle.max(), least.rad)))
-        for word, angle in turned.items()
+        word: float(np.degrees(resolved(angle.max(), least.rad))) for word, angle in turned.items()
     }
-    numbers = {"largest_rotation_deg": degrees["largest_rotation_deg"]}
+    numbers = {ROTATION: degrees[ROTATION]}
     if joint.lengths:
-        numbers["ends_from_start_m"] = float(resolved(np.linalg.norm(moved[-1]), least.m))
+        numbers[FROM_START] = float(resolved(np.linalg.norm(moved[-1]), least.m))
     if joint.free:
-        numbers["largest_rise_mm"] = 1e3 * float(resolved((moved @ up).max(), least.m))
+        numbers[RISE] = 1e3 * float(resolved((moved @ up).max(), least.m))
+    if CARRIED in degrees:
+        numbers[CARRIED_FROM] = float(run["t"][carried_from - 1])
     return numbers | degrees
 
 
 def _turns(joint: Joint, q: Array, q_0: Array) -> Array:
     """Rotation vectors from q_0 to q, both (n, n_q), shape (n, ...) [rad]; of a slide none."""
-    ends = zip(q_0[:, joint.q].tolist(), q[:, joint.q].tolist(), strict=True)
-    return np.array([joint.change(*two)[joint.lengths :] for two in ends])
+    with np.errstate(all="ignore"):  # as plain arithmetic
+        changes = np.array(joint.change([*q_0[:, joint.q].T], [*q[:, joint.q].T]))
+    return changes[joint.lengths :].T
 
 
 def _turned(turns: Array) -> Array:
@@ -147,11 +188,12 @@ def _turned(turns: Array) -> Array:
 
 def _turned_in(body: Joint, hand: Joint, q: Array) -> Array:
     """Angle [rad] by which a free body has turned in the frame of a free hand since the start."""
-    from scipy.spatial.transform import Rotation  # takes as long as a short run
-
-    of_body, of_hand = (Rotation.from_quat(q[:, one.q][:, one.lengths :]) for one in (body, hand))
-    seen = of_hand.inv() * of_body
-    return _turned((seen * seen[0].inv()).as_rotvec())
+    of_body, of_hand = (q[:, one.q][:, one.lengths :].T for one in (body, hand))
+    with np.errstate(all="ignore"):  # as plain arithmetic
+        seen = between([*of_hand], [*of_body])
+        start = [np.broadcast_to(part[0], part.shape) for part in seen]
+        turns, _, _ = rotation_between(start, seen)
+    return _turned(np.stack(turns, axis=1))
 
 
 def stiffness(K_q: Array) -> Array:
@@ -180,13 +222,23 @@ def _of_joint(joint: Joint, run: Trajectory, K: Array, least: Rounding) -> dict[
     start = np.broadcast_to(run["q"][0, : target.shape[1]], target.shape)
     way = float(_distance(joint, start, target).max())
     error = resolved(errors(joint, run), getattr(least, unit))
-    numbers = {f"ends_from_target_{unit}": float(error[-1])}
+    numbers = {f"{FROM_TARGET}{unit}": float(error[-1])}
     if way > UNMOVED:
-        numbers["share_of_way_left"] = float(error[-1]) / way
-    if len(joint.coordinates) == 1 and K.any():
+        numbers[LEFT] = float(error[-1]) / way
+    single = len(joint.coordinates) == 1
+    if single and error[-1] > 0 and _is_beyond(joint, run):
+        numbers[f"{BEYOND}{unit}"] = float(error[-1])
+    if single and K.any():
         force = "N" if joint.lengths else "Nm"
-        numbers[f"largest_spring_{force}"] = float(error.max()) * float(K[joint.v.start])
+        numbers[f"{SPRING}{force}"] = float(error.max()) * float(K[joint.v.start])
     return numbers
+
+
+def _is_beyond(joint: Joint, run: Trajectory) -> bool:
+    """Whether a joint of one coordinate ends on the other side of its last target."""
+    target = run["q_bar_a"][-1, joint.q].tolist()
+    (way,), (left,) = (joint.change(q[joint.q].tolist(), target) for q in run["q"][[0, -1]])
+    return bool(way * left < 0)
 
 
 def _of_pairs(run: Trajectory, least: Rounding) -> Iterator[tuple[str, dict[str, float]]]:

@@ -30,18 +30,20 @@ def motion_of_contacts(run: Trajectory) -> Array | None:
     return np.asarray(np.einsum("kciv,kv->kci", run["J"][..., : delta_q.shape[1]], delta_q))
 
 
-def touching(run: Trajectory, motion: Array | None) -> Mask:
+def touching(run: Trajectory, motion: Array | None, sliding: Array | None = None) -> Mask:
     """Mask of the contacts that touch, shape (steps, n_c): one of their rows has no slack.
 
     Then phi + n'J delta_q is the least that their slip allows, which is unique. Of a motion J
-    delta_q, shape (steps, n_c, 4) [m, m, m, rad]; without it those that press.
+    delta_q, shape (steps, n_c, 4) [m, m, m, rad]; without it those that press. `sliding` is the
+    rise that the slip asks for, shape (steps, n_c) [m], where it is known.
     """
     touch = _bears(run)
     if motion is None:
         return touch
+    if sliding is None:
+        sliding = slip_norm(contact_mu(run) * contact_slips(run, motion), run.header.cone)
     rises = run.header.law == CONVEX
-    slips = slip_norm(contact_mu(run) * contact_slips(run, motion), run.header.cone)
-    slack = gap_after(run["phi"], run["n"], motion) - rises * slips
+    slack = gap_after(run["phi"], run["n"], motion) - rises * sliding
     touch &= slack <= NEAR
     if cone(run.header.cone).polyhedral:
         touch |= slack <= TOUCHES

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.screw import rows
 from quasistatic_ref.numbers.arrays import Array, Mask
@@ -19,7 +19,9 @@ from quasistatic_ref.optional.doctor.frame.contacts import (
     touching,
 )
 from quasistatic_ref.optional.doctor.frame.start import Start, side
+from quasistatic_ref.optional.friction import slip_norm
 from quasistatic_ref.parts import part
+from quasistatic_ref.simulate.form_step import form_step
 from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.recorder import POINTS
@@ -28,7 +30,7 @@ from quasistatic_ref.step.data import StepData
 if TYPE_CHECKING:
     from quasistatic_ref.step.extension import Posed
 
-NOTED = ("tau", "moved", "momentum", "gives")
+NOTED = ("tau", "moved", "momentum", "gives", "hinged")
 """What of a recorder, which may go, is kept: loads of each step, and what the observer notes."""
 HELD = 1e-9
 """Below this a change of a target counts as zero [m, rad, -]."""
@@ -37,12 +39,12 @@ SAME = 1e-6
 
 
 def in_world(quaternions: Array, vectors: Array) -> Array:
-    """Vectors of a body's own frame, (steps, 3), in the world, by its quaternions, (steps, 4).
+    """Vectors of bodies' own frames, (..., 3), in the world, by their quaternions, (..., 4).
 
-    `quaternions` [-] are those of each step, `vectors` [any unit] too.
+    `quaternions` [-] are those of each body and step, `vectors` [any unit] too.
     """
-    R: Array = np.array(rows(list(quaternions.T)))
-    turned: Array = np.einsum("ijk,kj->ki", R, vectors)
+    R: Array = np.array(rows([*np.moveaxis(quaternions, -1, 0)]))
+    turned: Array = np.einsum("ij...,...j->...i", R, vectors)
     return turned
 
 
@@ -81,15 +83,18 @@ class Run(Start):
     @cached_property
     def nearest(self) -> Array:
         """Least distance of each pair where a step starts, shape (steps, pairs) [m]."""
-        return self._of_pairs(np.minimum, self["phi"])
+        return self.of_pairs(np.minimum, self["phi"])
 
     @cached_property
     def touched(self) -> Mask:
         """Whether each pair ever touches, shape (pairs,)."""
-        return np.asarray(self._of_pairs(np.logical_or, self.touches).any(axis=0))
+        return np.asarray(self.of_pairs(np.logical_or, self.touches).any(axis=0))
 
-    def _of_pairs(self, ufunc: np.ufunc, values: NDArray[Any]) -> NDArray[Any]:
-        """What an operation makes of the contacts of each pair, (steps, n_c) -> (steps, pairs)."""
+    def of_pairs(self, ufunc: np.ufunc, values: NDArray[Any]) -> NDArray[Any]:
+        """What an operation makes of the contacts of each pair: (steps, pairs).
+
+        `values` are (steps, n_c) of any unit [that of the result].
+        """
         starts = [at.start for _, at in self.slices]
         return ufunc.reduceat(values, starts, axis=1) if starts else values
 
@@ -102,7 +107,7 @@ class Run(Start):
     @cached_property
     def touches(self) -> Mask:
         """Which contacts touch, (steps, n_c), with load or without: which bears may be open."""
-        return touching(self.trajectory, self.noted("moved"))
+        return touching(self.trajectory, self.noted("moved"), self.sliding)
 
     @cached_property
     def mu(self) -> Array:
@@ -113,6 +118,11 @@ class Run(Start):
     def slips(self) -> Array:
         """Slips along d1 and d2 [m] and turns of what has torsion [rad], shape (steps, n_c, 3)."""
         return contact_slips(self.trajectory, self.noted("moved"))
+
+    @cached_property
+    def sliding(self) -> Array:
+        """By how much each contact has to rise, as it slides and turns, (steps, n_c) [m]."""
+        return slip_norm(self.mu * self.slips, self.simulator.cone)
 
     @cached_property
     def gap(self) -> Array:
@@ -129,12 +139,14 @@ class Run(Start):
     def loads_move(self) -> Mask:
         """Whether a load on a free body changes in each step, shape (steps,), seen in the world."""
         moves = np.zeros(self.steps, dtype=bool)
-        for base in self.free_bases.values():
-            q = self["q"][:-1, base.q][:, 3:]
-            load = self.noted("tau")[:, base.v]
-            seen = np.hstack([in_world(q, load[:, :3]), in_world(q, load[:, 3:])])
-            change = np.abs(np.diff(seen, axis=0)).max(axis=1)
-            moves[1:] |= change > SAME * np.abs(load).max()
+        bases = self.free_bases.values()
+        if bases:
+            q = np.array([self["q"][:-1, base.q][:, 3:] for base in bases])
+            load = np.array([self.noted("tau")[:, base.v] for base in bases])
+            seen = np.array([in_world(q, load[..., :3]), in_world(q, load[..., 3:])])
+            change = np.abs(np.diff(seen, axis=2)).max(axis=(0, 3))
+            largest = np.abs(load).max(axis=(1, 2))
+            moves[1:] = (change > SAME * largest[:, None]).any(axis=0)
         return moves
 
     def falls(self, base: Joint) -> Mask:
@@ -151,7 +163,11 @@ class Run(Start):
         """The problem of step k, up to rounding."""
         if k not in self._formed:
             q, targets, tau = self["q"][k], self["q_bar_a"][k], self.noted("tau")[k]
-            self._formed[k] = self.simulator.step_at(q, targets, tau, self.points_of(k))
+            plan = self.simulator.plan
+            points = self.points_of(k)
+            step = form_step(plan, self.system.at(q), targets, None, points)
+            n_a = self.system.n_a
+            self._formed[k] = step.with_fields(tau_a=tau[:n_a], tau_u=tau[n_a:])
         return self._formed[k]
 
     def posed(self, k: int) -> tuple[StepData, bool]:

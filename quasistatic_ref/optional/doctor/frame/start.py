@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 from itertools import accumulate, pairwise, starmap
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
 from quasistatic_ref.numbers.arrays import Array, Indices, Mask
-from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.optional.doctor.frame.hulls import CloudHull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Extra, no_extra
@@ -120,9 +118,9 @@ class Start:
         for placed in clouds.values():
             if isinstance(placed.shape, PointCloud):
                 points = placed.shape.points
-                some = points[:: 1 + len(points) // SAMPLED]
-                with suppress(ModelError):  # all of them in a plane
-                    yield replace(placed, name="hull of its points", shape=convex_hull(some))
+                hull = CloudHull(points[:: 1 + len(points) // SAMPLED])
+                if hull.has_volume:
+                    yield replace(placed, name="hull of its points", shape=hull)
 
     @property
     def actuated(self) -> list[Joint]:
@@ -169,6 +167,10 @@ class Start:
                 of_bodies.setdefault(name, []).append((pair, at))
         return of_bodies
 
+    def numbers_of(self, name: str) -> list[int]:
+        """Numbers of the pairs of a body."""
+        return sorted(set(self.pair_of[self.of_body(name)].tolist()))
+
     def of_body(self, name: str) -> Mask:
         """Which contacts are of a body, shape (n_c,)."""
         of = np.zeros(len(self.pair_of), dtype=bool)
@@ -191,7 +193,7 @@ class Start:
     @property
     def small(self) -> bool:
         """Whether all of J may be formed, and a step solved once more."""
-        return 4 * len(self.simulator.layout.rows) * self.system.n_v <= SEARCHED
+        return 4 * len(self.simulator.plan.layout.rows) * self.system.n_v <= SEARCHED
 
 
 def table(start: Start, pair: ContactPair) -> str:

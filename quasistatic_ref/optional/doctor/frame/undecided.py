@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from quasistatic_ref.text.quoting import one_line
+from quasistatic_ref.quoting import one_line
 
 
 class Undecided(NamedTuple):

@@ -15,8 +15,8 @@ from quasistatic_ref.optional.doctor.frame.run import Run
 from quasistatic_ref.optional.doctor.frame.start import SHORT, Start, joining
 from quasistatic_ref.optional.doctor.frame.tolerances import NEAR, SUNK
 from quasistatic_ref.optional.doctor.texts import distance, finding
+from quasistatic_ref.quoting import listed
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.text.quoting import listed
 
 ROUNDS = 100
 """Advances until a falling body touches; corners take one, round surfaces some ten."""
@@ -67,6 +67,8 @@ def in_the_air(start: Start) -> Iterator[Finding]:
             continue
         falls = [(fall(start, pair, name), pair.name) for pair, _ in start.pairs_of[name]]
         gap, pair = min(falls)
+        if gap <= NEAR:  # MuJoCo, which alone says what touches, has missed it
+            continue
         if np.isfinite(gap):
             height = distance(gap, 4)
             cause = f"{name} starts in the air, {height} above what may bear it ({pair})"
@@ -79,11 +81,12 @@ def in_the_air(start: Start) -> Iterator[Finding]:
 
 
 def fall(start: Start, pair: ContactPair, name: str) -> float:
-    """How far a body falls along gravity until a pair touches [m]; infinity if none does.
+    """How far a body falls along gravity until a pair bears it [m]; infinity if none does.
 
     Of convex bodies the gap along their normal shrinks by as much as they come nearer along it, and
     they do not touch before it is closed: they are moved by that, and have a new normal, until they
-    touch or the normal no longer faces the fall. Of a cloud the first of its points counts.
+    touch or the normal no longer faces the fall. Of a cloud the first of its points counts. With a
+    margin they bear at that distance.
 
     Raises
     ------
@@ -94,14 +97,16 @@ def fall(start: Start, pair: ContactPair, name: str) -> float:
     link, sign = (pair.beta.link, -1.0) if falls else (pair.alpha.link, 1.0)
     every = replace(pair, k=pair.candidates if pair.has_cloud else 1)
     t = start.kinematics.t.copy()
+    margin = start.system.margins.get(pair.name, 0.0)
     far = 0.0
     for _ in range(ROUNDS):
         near = pair_closest_points(every, start.kinematics.R, t)
-        if near.phi.min() <= CLOSE:
+        gaps = near.phi - margin
+        if gaps.min() <= CLOSE:
             break
         nearer = sign * (near.n @ start.down)
         meets = nearer > LEVEL
-        step = float((near.phi[meets] / nearer[meets]).min(initial=np.inf))
+        step = float((gaps[meets] / nearer[meets]).min(initial=np.inf))
         if not meets.any():
             return np.inf
         t[link] += step * start.down

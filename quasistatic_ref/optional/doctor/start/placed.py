@@ -1,17 +1,27 @@
 """Where bodies are at the start: on what does not bear them, or in each other."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import numpy as np
 
-from quasistatic_ref.optional.doctor.frame.hulls import farthest_points, hull_of
+from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.numbers.ordered import rotated
+from quasistatic_ref.optional.doctor.frame.hulls import (
+    corners_of,
+    farthest_points,
+    hull_of,
+    surely_outside,
+)
+from quasistatic_ref.optional.doctor.frame.run import Run
 from quasistatic_ref.optional.doctor.frame.start import Start, least, least_mean, table
 from quasistatic_ref.optional.doctor.frame.tolerances import SUNK
 from quasistatic_ref.optional.doctor.texts import distance, finding
 from quasistatic_ref.parts import part
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.half_space import HalfSpace
-from quasistatic_ref.shapes.placed_shape import PointCloud
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.simulator import StandingsOf
 from quasistatic_ref.tolerances import SAME_NORMAL
@@ -76,27 +86,83 @@ def penetration(start: Start) -> Iterator[Finding]:
         yield finding("initial-penetration", cause, remedy, depth_mm=1e3 * depth)
 
 
+EMPTY = "what is between the points or shapes of a body is empty"
+
+
 def inside(start: Start) -> Iterator[Finding]:
     """A driven shape that starts inside of something free without touching it."""
-    touching = {
-        frozenset((pair.alpha.link, pair.beta.link))
-        for pair, of_pair in start.slices
-        if start.points.phi[of_pair].min() <= SUNK * least(pair)
-    }
+    phi = np.array([start.points.phi[of_pair].min() for _, of_pair in start.slices])
+    for side, name, depths in _depths(start, start.q_start[None], phi[None]):
+        if depths[0] > 0:
+            cause = (
+                f"the middle of {side.name} is {distance(depths[0])} inside the hull of {name}, "
+            )
+            cause += f"and {side.name} touches no part of {name}: {EMPTY}"
+            remedy = f"start {side.name} outside of {name}"
+            yield finding("starts-inside", cause, remedy, side.name, depth_mm=1e3 * depths[0])
+
+
+def comes_inside(run: Run) -> Iterator[Finding]:
+    """A driven shape that a step leaves inside of something free which it has not touched."""
+    last = run.simulator.closest_points(run.system.kinematics(run["q"][-1])).phi
+    phi = np.vstack([run.nearest, [last[of_pair].min() for _, of_pair in run.slices]])
+    for side, name, depths in _depths(run, run["q"], phi):
+        k = int((depths > 0).argmax())
+        if k > 0:
+            cause = (
+                f"the middle of {side.name} comes {distance(depths[k])} into the hull of {name} "
+            )
+            cause += f"in step {k - 1}, and {side.name} touches no part of {name}: {EMPTY}"
+            remedy = f"keep {side.name} outside of {name}, or give {name} points or a solid there"
+            numbers = {"depth_mm": 1e3 * depths[k], "step": k - 1}
+            yield finding("passes-through", cause, remedy, side.name, False, **numbers)
+
+
+def _depths(start: Start, q: Array, nearest: Array) -> Iterator[tuple[PlacedShape, str, Array]]:
+    """How deep middles of driven shapes are in hulls of free links that they have not touched.
+
+    Parameters
+    ----------
+    start : Start
+    q : ndarray, shape (K, n_q)
+        Some states.
+    nearest : ndarray, shape (K, pairs)
+        Least distance of each pair there [m].
+
+    Yields
+    ------
+    side, name : PlacedShape, str
+        The shape, and the link.
+    depths : ndarray, shape (K,)
+        [m]; not above 0 from where they touch.
+    """
     solids = [side for side in start.sides if not isinstance(side.shape, PointCloud)]
     clouds = {side.link for side in start.sides} - {side.link for side in solids}
     driven = {side.link: side for side in solids if start.driven[side.link]}
-    R, t = start.kinematics.R, start.kinematics.t
-    for link, name, shapes in start.free_links if driven else ():
-        hull = hull_of(shapes) if link in clouds or len(shapes) > 1 else None
+    links = start.free_links if driven else ()
+    hollow = [one for one in links if one[0] in clouds or len(one[2]) > 1]
+    if not hollow:
+        return
+    touched = nearest <= [SUNK * least(pair) for pair in start.pairs]
+    poses = cache(lambda k: start.system.kinematics(q[k]))
+    for link, name, shapes in hollow:
+        corners = corners_of(shapes)
+        hull: ConvexMesh | None = None
         for other, side in driven.items():
-            if hull is None or {link, other} in touching:
-                continue
-            middle = R[other] @ farthest_points(side).mean(axis=0) + t[other]
-            depth = -float(hull.signed_distance((middle - t[link])[None] @ R[link])[0][0])
-            if depth > 0:
-                cause = f"the middle of {side.name} is {distance(depth)} inside the hull of {name}"
-                cause += f", and {side.name} touches no part of {name}: what is between the points "
-                cause += "or shapes of a body is empty"
-                remedy = f"start {side.name} outside of {name}"
-                yield finding("starts-inside", cause, remedy, side.name, depth_mm=1e3 * depth)
+            joined = [{link, other} == {x.alpha.link, x.beta.link} for x in start.pairs]
+            apart = np.flatnonzero(~np.logical_or.accumulate(touched[:, joined].any(axis=1)))
+            middle = farthest_points(side).mean(axis=0)
+            each = [_seen(poses(k), link, other, middle) for k in apart.tolist()]
+            seen = np.reshape(each, (-1, 3))
+            inside = ~surely_outside(seen, corners)
+            hull = hull or (hull_of(shapes) if inside.any() else None)
+            depths = np.zeros(len(q))
+            if hull is not None:
+                depths[apart[inside]] = -hull.signed_distance(seen[inside])[0]
+            yield side, name, depths
+
+
+def _seen(at: Kinematics, link: int, other: int, point: Array) -> Array:
+    """A point of another link's frame in a link's, both (3,) [m]."""
+    world = rotated(at.R[other], point) + at.t[other]
+    return rotated(at.R[link].T, world - at.t[link])

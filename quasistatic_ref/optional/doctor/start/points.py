@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from quasistatic_ref.contact.all_pairs import closest_points
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.numbers.arrays import Array

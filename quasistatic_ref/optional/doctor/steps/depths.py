@@ -16,7 +16,7 @@ from quasistatic_ref.tolerances import FILLED
 def sunk(run: Run) -> Iterator[Finding]:
     """The first deep overlap of each contact table."""
     deep = (run["phi"][1:] < -SUNK * run.sizes).any(axis=0)
-    pairs = [run.slices[i] for i in np.unique(run.pair_of[deep])]
+    pairs = [run.slices[i] for i in sorted(set(run.pair_of[deep].tolist()))]
     found = {pair: one for pair, slots in pairs if (one := _surprise(run, pair, slots))}
     first: dict[str, Finding] = {}
     for pair, one in sorted(found.items(), key=lambda item: item[1].numbers["step"]):

@@ -81,7 +81,7 @@ def beyond_effort(run: Run) -> Iterator[Finding]:
     K = stiffness(run.simulator.K_q)
     for joint in run.actuated:
         name, effort, unit = joint.name, joint.effort, joint.coordinates[0].unit
-        if effort == np.inf or len(joint.coordinates) > 1 or _bounded(run, joint):
+        if effort == np.inf or len(joint.coordinates) > 1:
             continue
         error = errors(joint, run.trajectory)
         k = int(error.argmax())

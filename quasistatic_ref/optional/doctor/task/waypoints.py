@@ -13,9 +13,9 @@ from quasistatic_ref.optional.doctor.frame.tolerances import NEAR, SUNK
 from quasistatic_ref.optional.doctor.grips import closed
 from quasistatic_ref.optional.doctor.task.touching import acting, borne, finished
 from quasistatic_ref.optional.doctor.texts import amount, finding
+from quasistatic_ref.quoting import listed
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.standard_form import frame_jacobian
-from quasistatic_ref.text.quoting import listed
 
 LAGS: Final = 0.1
 """Distance of a joint from its last target, over the way that its target went [-], that is more

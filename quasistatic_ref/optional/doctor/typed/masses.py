@@ -4,7 +4,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from quasistatic_ref.optional.doctor.frame.hulls import farthest_points, hull_of
+from quasistatic_ref.optional.doctor.frame.hulls import (
+    farthest_points,
+    holds,
+    hull_of,
+    volume_bounds,
+)
 from quasistatic_ref.optional.doctor.frame.start import Start
 from quasistatic_ref.optional.doctor.texts import distance, finding, others
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
@@ -35,6 +40,9 @@ def density(start: Start) -> Iterator[Finding]:
     suspect: list[tuple[float, str, float, float]] = []
     for link, name, shapes in start.free_links:
         mass = float(start.system.masses[link])
+        least, most = np.sum([volume_bounds(placed.shape) for placed in shapes], axis=0)
+        if low * most <= mass <= high * least:
+            continue
         alone = sum(placed.shape.volume for placed in shapes)
         if low * alone <= mass <= high * alone:
             continue
@@ -84,8 +92,7 @@ def centre(start: Start) -> Iterator[Finding]:
     """
     for link, name, shapes in start.free_links:
         at = start.system.centres[link]
-        seen = ((x.shape, (at - x.t)[None] @ x.R) for x in shapes)  # in the frame of each shape
-        if any(shape.signed_distance(point)[0][0] <= 0 for shape, point in seen):
+        if any(holds(placed, at) for placed in shapes):
             continue
         hull = hull_of(shapes)
         if hull is None:
