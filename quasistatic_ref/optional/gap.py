@@ -14,7 +14,7 @@ from collections.abc import Sequence
 
 from flint import arb, arb_mat, fmpq, fmpq_mat
 
-from quasistatic_ref.certify.form import ExactForm, fraction
+from quasistatic_ref.exact.program import ExactProgram, fraction
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import all_nearest
 
@@ -41,30 +41,30 @@ def nearest_in(ball: arb) -> float | None:
     return None if nearest is None else nearest[0]
 
 
-def lagrangian_minimiser(form: ExactForm, lam: Sequence[fmpq]) -> fmpq_mat:
+def lagrangian_minimiser(form: ExactProgram, lam: Sequence[fmpq]) -> fmpq_mat:
     """The x of H x = g + A'lam [m, rad], shape (n, 1); lam in [N s], of length m."""
     push = rational(form.A).transpose() * fmpq_mat(form.m, 1, list(lam))
     return rational(form.H).solve(rational(form.g) + fraction(form.h) * push)
 
 
-def energy(form: ExactForm, x: Sequence[fmpq]) -> fmpq:
+def energy(form: ExactProgram, x: Sequence[fmpq]) -> fmpq:
     """1/2 ||x||_H^2 [N m s], x in [m, rad]."""
     column = fmpq_mat(form.n, 1, list(x))
     product = column.transpose() * rational(form.H) * column
     return sum(product.entries(), fmpq(0)) / (2 * fraction(form.h))
 
 
-def free_energy(form: ExactForm) -> fmpq:
+def free_energy(form: ExactProgram) -> fmpq:
     """1/2 ||H^-1 g||_H^2 [N m s]."""
     return energy(form, lagrangian_minimiser(form, [fmpq(0)] * form.m).entries())
 
 
-def duality_gap(form: ExactForm, x: Sequence[fmpq], lam: Sequence[fmpq]) -> fmpq:
+def duality_gap(form: ExactProgram, x: Sequence[fmpq], lam: Sequence[fmpq]) -> fmpq:
     """f(x) - d(lam) of an x that satisfies all constraints and a lam in the dual cone.
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactProgram
     x : sequence of fmpq, length n_v
         [m, rad].
     lam : sequence of fmpq, length m

@@ -9,7 +9,7 @@ import pytest
 from flint import arb, fmpq
 
 from quasistatic_ref import solve_step
-from quasistatic_ref.certify.step_form import StepForm
+from quasistatic_ref.certify.step_program import StepProgram
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.tolerances import IMPULSES
@@ -35,7 +35,7 @@ def steps():
 
 @pytest.mark.parametrize("step", steps())
 def test_gap_and_energies_are_those_of_their_formulas(step, rng):
-    form = StepForm(step)
+    form = StepProgram(step)
     delta_q = rng.normal(size=step.n_v)
     lam = rng.random(form.m)
     x = fractions(delta_q)

@@ -27,8 +27,8 @@ Farkas vector of the convex step.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -37,16 +37,27 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.errors import InputError, check_kind, keywords_named
-from quasistatic_ref.numbers.arrays import Array, all_finite, checked_numbers, read_only
+from quasistatic_ref.numbers.arrays import (
+    Array,
+    all_finite,
+    checked_numbers,
+    positive_number,
+    read_only,
+    without_warnings,
+)
 from quasistatic_ref.optional.fixed_point import Iterate, fixed_point
 from quasistatic_ref.optional.friction import slip_norm
-from quasistatic_ref.solve.backends import Certify
+from quasistatic_ref.solve.backends import Certify, check_certify
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.natural_step import NaturalStep
+from quasistatic_ref.solve.solve import step_solution
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData, check_step
-from quasistatic_ref.step.solution import StepSolution
+from quasistatic_ref.step.solution import (
+    Certificate,  # noqa: F401 get_type_hints looks here for types of inherited fields
+    SolverStatistics,  # noqa: F401 as Certificate
+    StepSolution,
+)
 from quasistatic_ref.step.standard_form import frame_jacobian
 from quasistatic_ref.text.plain import field_values
 from quasistatic_ref.tolerances import ACCURACY
@@ -92,6 +103,8 @@ class NoFixedPoint(StepNotSolved):
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CoulombSolution(StepSolution):
     """The result of the iteration of ``coulomb_step``: its last step, and whether it converged.
+
+    ``coulomb_step`` makes it; its constructor checks nothing.
 
     It is its last iterate, the exact optimum of the step with phi + s, which is its `step` and that
     of its certificate.
@@ -156,7 +169,7 @@ def coulomb_step(
     Raises
     ------
     InputError
-        If `start` or `most` is not as above.
+        If `start`, `most` or `accuracy` is not as above.
     QuasistaticError
         Those of ``solve_step``, of any iterate. StepInfeasible is said of the convex step: in
         penetration it may have no solution where the step under Coulomb's law has one, which a
@@ -172,6 +185,7 @@ def coulomb_step(
     contacts = step.contacts
     s = np.zeros(contacts.n_c) if start is None else checked_numbers(start, "start", InputError)
     check_kind(most, int, "most", "a whole number")
+    accuracy = positive_number(accuracy, "accuracy")
     if s.shape != (contacts.n_c,) or not (all_finite(s) and s.min(initial=0.0) >= 0):
         raise InputError("must have one length >= 0 for each contact", field="start", value=start)
     if most < 1:
@@ -204,16 +218,8 @@ def fixed_point_from(
     least : float
         Motion that counts as the longest where all are shorter [m].
     """
-
-    def solved(raised: StepData) -> StepSolution:
-        try:
-            return solve_step(raised, solver, accuracy=accuracy, certify=certify)
-        except StepNotSolved as failure:
-            if certify == "full" or type(failure) is not StepNotSolved:
-                raise
-            return solve_step(raised, solver, accuracy=accuracy)
-
-    end, count = fixed_point(lambda s: iterate(step, s, solved, within, least), s, most)
+    raised = RaisedSteps(step, solver, accuracy, certify, within, least)
+    end, count = fixed_point(raised.at, s, most)
     return CoulombSolution(
         **field_values(end.of),
         converged=end.converged,
@@ -224,33 +230,66 @@ def fixed_point_from(
     )
 
 
-def slip_norms(contacts: Contacts, delta_q: Array, name: str) -> Array:
-    """The norm s of each contact's slip, shape (n_c,) [m]: the least gap that its cone asks for."""
-    _, *slips = (J @ delta_q for J in frame_jacobian(contacts, contacts.J))
-    return slip_norm(contacts.mu * np.column_stack(slips), name)
-
-
-def iterate(
-    step: StepData,
-    s: Array,
-    solved: Callable[[StepData], StepSolution],
-    within: float = COULOMB_RESIDUAL,
-    least: float = 0.0,
-) -> Iterate[StepSolution]:
-    """The convex step with phi + s, shape (n_c,) [m], and the norm of its slips.
+class RaisedSteps:
+    """The convex steps with phi + s of a step: what does not change with s is formed once.
 
     Parameters
     ----------
-    step, s, within, least
-        As of :func:`fixed_point_from`: s [m], within [-], least [m].
-    solved : callable
-        A step -> its solution.
+    step, solver, accuracy, certify, within, least
+        As of :func:`fixed_point_from`: within [-], least [m].
+
+    Raises
+    ------
+    InputError
+        If the solver does not fit the step.
     """
-    solution = solved(step.replace(contacts=step.contacts.raised(s)))
-    slip = slip_norms(step.contacts, solution.delta_q, step.cone)
-    residual = largest(np.abs(slip - s))
-    longest = max(least, largest(longest_slips(step, solution.delta_q)))
-    return Iterate(s, slip, residual, residual <= within * longest, solution)
+
+    def __init__(
+        self,
+        step: StepData,
+        solver: Solver,
+        accuracy: float,
+        certify: Certify,
+        within: float,
+        least: float,
+    ) -> None:
+        solver.check(step)
+        check_certify(solver.name, certify)
+        self._solver = solver
+        self._accuracy = accuracy
+        self._certify = certify
+        self._within = within
+        self._least = least
+        self._first = NaturalStep(step.replace())  # whole matrices, as a step that is handed in
+        contacts = step.contacts
+        _, *self._slips = frame_jacobian(contacts, contacts.J)
+        self._moves = np.abs(contacts.J)
+
+    def at(self, s: Array) -> Iterate[StepSolution]:
+        """The convex step with phi + s, shape (n_c,) [m], and the norm of its slips."""
+        step = self._first.step
+        solution = self._solution(step.with_fields(contacts=step.contacts.raised(s)))
+        slips = np.column_stack([J @ solution.delta_q for J in self._slips])
+        slip = slip_norm(step.contacts.mu * slips, step.cone)
+        residual = largest(np.abs(slip - s))
+        longest = max(self._least, largest(self._longest_slips(solution.delta_q)))
+        return Iterate(s, slip, residual, residual <= self._within * longest, solution)
+
+    def _solution(self, raised: StepData) -> StepSolution:
+        """The convex step; proved, too, where a backend alone has no answer."""
+        solve = partial(without_warnings, step_solution, self._first.with_gaps(raised))
+        try:
+            return solve(self._solver, self._accuracy, self._certify)
+        except StepNotSolved as failure:
+            if self._certify == "full" or type(failure) is not StepNotSolved:
+                raise
+            return solve(self._solver, self._accuracy, "full")
+
+    def _longest_slips(self, delta_q: Array) -> Array:
+        """Sums of sizes of the terms of slips, shape (n_c,) [m]: rounding is relative to them."""
+        moves = self._moves @ np.abs(delta_q)
+        mu_v, _, mu_omega = self._first.step.contacts.mu.T
+        return np.asarray(mu_v * moves[:, :3].sum(axis=1) + mu_omega * moves[:, 3])
 
 
 def simulated_solution(step: StepData, solver: Solver, accuracy: float) -> CoulombSolution:
@@ -272,10 +311,3 @@ def simulated_solution(step: StepData, solver: Solver, accuracy: float) -> Coulo
     if not solution.converged:
         raise NoFixedPoint(step, solution.s_iterations, solution.s_residual)
     return solution
-
-
-def longest_slips(step: StepData, delta_q: Array) -> Array:
-    """Sums of the sizes of the terms of slips, shape (n_c,) [m]: rounding is relative to them."""
-    moves = np.abs(step.contacts.J) @ np.abs(delta_q)
-    mu_v, _, mu_omega = step.contacts.mu.T
-    return np.asarray(mu_v * moves[:, :3].sum(axis=1) + mu_omega * moves[:, 3])

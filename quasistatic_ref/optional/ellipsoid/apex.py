@@ -15,8 +15,8 @@ from typing import NamedTuple
 
 from flint import fmpq, fmpq_mat
 
-from quasistatic_ref.certify.form import EXACT, ExactForm, fraction, independent_rows
-from quasistatic_ref.certify.working_set import KktPoint, fraction_point
+from quasistatic_ref.exact.program import EXACT, ExactProgram, fraction, independent_rows
+from quasistatic_ref.exact.working_set import KktPoint, fraction_point
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks, inside, outside_of_cones
@@ -43,13 +43,13 @@ class Apex(NamedTuple):
     refutation: str
 
 
-def apex(step: StepData, form: ExactForm, lam: Array) -> Apex:
+def apex(step: StepData, form: ExactProgram, lam: Array) -> Apex:
     """The minimiser at the apexes of the contacts that bear load.
 
     Parameters
     ----------
     step : StepData
-    form : ExactForm
+    form : ExactProgram
         That of the step.
     lam : ndarray, shape (m,)
         Impulses; those of the rows need to be right but for rounding.
@@ -66,7 +66,7 @@ def apex(step: StepData, form: ExactForm, lam: Array) -> Apex:
 
 
 def _refutation(
-    step: StepData, form: ExactForm, rows: Sequence[int], solution: KktPoint, lam: Array
+    step: StepData, form: ExactProgram, rows: Sequence[int], solution: KktPoint, lam: Array
 ) -> str:
     """Why a solution is not the optimum; empty if it is."""
     with working_precision(EXACT):
@@ -83,7 +83,7 @@ def _refutation(
 
 
 def _balanced(
-    form: ExactForm, working: Sequence[int], lam: list[fmpq], net: list[fmpq]
+    form: ExactProgram, working: Sequence[int], lam: list[fmpq], net: list[fmpq]
 ) -> list[fmpq]:
     """Lam changed on the working rows, so that A'lam = net if it is inside of its cones.
 

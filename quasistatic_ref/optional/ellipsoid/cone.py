@@ -12,13 +12,12 @@ import numpy as np
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.curved_cone import CurvedCone
-from quasistatic_ref.certify.form import ExactForm, fraction
 from quasistatic_ref.certify.groups import contact_rows
-from quasistatic_ref.certify.minimiser import rounded_quotients
 from quasistatic_ref.certify.norm import error_length, norm_of, single_loads
 from quasistatic_ref.certify.residuals import largest
-from quasistatic_ref.certify.step_form import StepForm
-from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.certify.step_program import StepProgram
+from quasistatic_ref.exact.program import ExactProgram, fraction, rounded_quotients
+from quasistatic_ref.exact.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.numbers.arrays import Array, Mask, without_warnings
 from quasistatic_ref.numbers.precision import nearest_fraction, working_precision
 from quasistatic_ref.optional.ellipsoid.apex import apex
@@ -164,7 +163,7 @@ class EllipsoidCone(CurvedCone):
             return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing")
         if lam is None:
             return Verdict(False, "in the ellipsoid nothing is proved without lam")
-        form = StepForm(step)
+        form = StepProgram(step)
         if delta_q.shape != (form.n,) or lam.shape != (form.m,):
             return Verdict(False, "delta_q or lam has another shape than the step wants")
         if not (np.isfinite(delta_q).all() and np.isfinite(lam).all()):
@@ -214,7 +213,12 @@ def cone_violations(mu: Array, slack: Array, lam: Array) -> Violations:
 
 
 def _not_exact(
-    step: StepData, form: ExactForm, delta_q: Array, active: Active, lam: Array, claims: Certificate
+    step: StepData,
+    form: ExactProgram,
+    delta_q: Array,
+    active: Active,
+    lam: Array,
+    claims: Certificate,
 ) -> tuple[list[fmpq], str]:
     """The rational optimum [m, rad], and what is wrong with the claim of it."""
     rows, solution, refutation = apex(step, form, lam)
@@ -228,7 +232,12 @@ def _not_exact(
 
 
 def _not_enclosed(
-    step: StepData, form: ExactForm, delta_q: Array, active: Active, lam: Array, claims: Certificate
+    step: StepData,
+    form: ExactProgram,
+    delta_q: Array,
+    active: Active,
+    lam: Array,
+    claims: Certificate,
 ) -> tuple[list[fmpq], str]:
     """A point next to the optimum [m, rad], and what is wrong with the claim."""
     pair = checked_pair(step)
@@ -245,7 +254,9 @@ def _not_enclosed(
     return point(pair), reason
 
 
-def _not_net(step: StepData, form: ExactForm, x: Sequence[fmpq], net: Array, *, exact: bool) -> str:
+def _not_net(
+    step: StepData, form: ExactProgram, x: Sequence[fmpq], net: Array, *, exact: bool
+) -> str:
     """What is wrong with A'lam = H x - g, at the optimum x or next to it; or empty."""
     pull = rational(form.H) * fmpq_mat(form.n, 1, [*x]) - rational(form.g)
     numbers = [v / fraction(form.h) for v in pull.entries()]
@@ -260,7 +271,7 @@ def _not_net(step: StepData, form: ExactForm, x: Sequence[fmpq], net: Array, *, 
 
 
 def _not_multipliers(
-    step: StepData, form: ExactForm, x: Sequence[fmpq], lam: Array, claimed: float | None
+    step: StepData, form: ExactProgram, x: Sequence[fmpq], lam: Array, claimed: float | None
 ) -> str:
     """Why lam is no multiplier at x: outside of its cones, or not in balance; or empty."""
     if claimed is None:

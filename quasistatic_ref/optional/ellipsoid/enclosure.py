@@ -16,10 +16,15 @@ from typing import Final, TypeAlias
 import numpy as np
 from flint import arb, arb_mat, fmpq
 
-from quasistatic_ref.certify.form import EXACT, ExactForm, exact_matrix, fraction
 from quasistatic_ref.certify.groups import contact_rows
-from quasistatic_ref.certify.minimiser import rounded_quotients
-from quasistatic_ref.certify.step_form import StepForm
+from quasistatic_ref.certify.step_program import StepProgram
+from quasistatic_ref.exact.program import (
+    EXACT,
+    ExactProgram,
+    exact_matrix,
+    fraction,
+    rounded_quotients,
+)
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.apex import apex
@@ -146,7 +151,7 @@ def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
     -------
     Enclosure or None
     """
-    form = StepForm(step)
+    form = StepProgram(step)
     unloaded = _at_apex(step, form, np.zeros(form.m))
     if unloaded is not None:
         return unloaded
@@ -156,7 +161,7 @@ def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
         return next(filter(None, enclosures), None)
 
 
-def _at_apex(step: StepData, form: ExactForm, lam: Array) -> Enclosure | None:
+def _at_apex(step: StepData, form: ExactProgram, lam: Array) -> Enclosure | None:
     """The rational optimum if every contact that bears load is at its apex."""
     rows, exact, refutation = apex(step, form, lam)
     if refutation:
@@ -204,12 +209,12 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
         Precision, five times as many as the gap has.
     """
     with working_precision(bits):
-        frame = scaled_blocks(step, StepForm(step))
+        frame = scaled_blocks(step, StepProgram(step))
         pair = interior_point(frame.problem, gap)
         return None if pair is None else checked(frame, pair)
 
 
-def enclosed_error(form: ExactForm, pair: Checked, delta_q: Array) -> float:
+def enclosed_error(form: ExactProgram, pair: Checked, delta_q: Array) -> float:
     """How far float64 numbers are from the optimum, at most, in the one definition of error [-]."""
     off = exact_matrix(delta_q[:, None]) - pair.x
     apart = square_root(2 * pair.gap)  # of the pair's x from x*
@@ -290,6 +295,6 @@ def rounded_displacement(frame: ScaledBlocks, pair: Checked) -> Array:
     return np.array(values)
 
 
-def _net(form: ExactForm, pair: Checked) -> Array:
+def _net(form: ExactProgram, pair: Checked) -> Array:
     net = form.H * pair.x - form.g
     return np.array([float(v / form.h) for v in net.entries()]) + 0.0

@@ -17,7 +17,7 @@ import numpy as np
 from flint import arb
 
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.step_form import StepForm
+from quasistatic_ref.certify.step_program import StepProgram
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.ellipsoid.enclosure import (
@@ -63,7 +63,7 @@ def compliant_forces(
         If no enclosure is found.
     """
     n_c = step.contacts.n_c
-    form = StepForm(step)
+    form = StepProgram(step)
     delta_q, wrench = near
     extra_lam = np.zeros(len(step.extra.b))
     start = delta_q, np.concatenate([(step.h * wrench[:, P_OF_WRENCH]).ravel(), extra_lam])

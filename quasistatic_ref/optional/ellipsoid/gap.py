@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from flint import fmpq
 
-from quasistatic_ref.certify.form import ExactForm, fraction
+from quasistatic_ref.exact.program import ExactProgram, fraction
 from quasistatic_ref.numbers.precision import nearest_fraction
 from quasistatic_ref.optional.ellipsoid.tolerances import IMPULSES
 from quasistatic_ref.optional.gap import energy, free_energy
@@ -18,6 +18,6 @@ def rounded_up(gap: fmpq) -> float:
     return math.nextafter(value, math.inf) if below else value
 
 
-def negligible(form: ExactForm, x: Sequence[fmpq], gap: fmpq) -> bool:
+def negligible(form: ExactProgram, x: Sequence[fmpq], gap: fmpq) -> bool:
     """Whether a duality gap is mere rounding of the step's energies, with contacts and without."""
     return bool(gap <= fraction(IMPULSES) * (free_energy(form) + energy(form, x)))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from flint import arb, arb_mat
 
-from quasistatic_ref.certify.form import ExactForm, exact_matrix
+from quasistatic_ref.exact.program import ExactProgram, exact_matrix
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, column, diagonal
@@ -23,7 +23,7 @@ class ScaledBlocks:
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactProgram
     problem : Blocks
     mu : list of arb
         What each row of A is multiplied by: 1, mu_v, mu_v, mu_omega; 1 for own rows.
@@ -40,7 +40,7 @@ class ScaledBlocks:
         nothing; 1 if all gaps are zero, too.
     """
 
-    form: ExactForm
+    form: ExactProgram
     problem: Blocks
     mu: list[arb]
     root: list[arb]
@@ -66,13 +66,13 @@ class ScaledBlocks:
         return Pair(column(x), column(y))
 
 
-def scaled_blocks(step: StepData, form: ExactForm, compliance: float = 0.0) -> ScaledBlocks:
+def scaled_blocks(step: StepData, form: ExactProgram, compliance: float = 0.0) -> ScaledBlocks:
     """The conic program of a step in the ellipsoid.
 
     Parameters
     ----------
     step : StepData
-    form : ExactForm
+    form : ExactProgram
         That of the step.
     compliance : float
         Of each contact [m/N]; the user's rows are rigid.
@@ -118,7 +118,7 @@ def scaled(matrix: arb_mat, rows: list[arb], columns: list[arb]) -> arb_mat:
     ]) if rows else matrix  # fmt: skip
 
 
-def exact_loads(step: StepData, form: ExactForm) -> list[arb_mat]:
+def exact_loads(step: StepData, form: ExactProgram) -> list[arb_mat]:
     """What targets, tau_a, tau_u and a cost each add to g, (n, 1) [N s, N m s], times h."""
     n_a = step.n_a
     K_q = np.zeros((form.n, form.n))

@@ -11,12 +11,12 @@ from typing import Final
 import numpy as np
 from flint import arb, arb_mat
 
-from quasistatic_ref.certify.active_set import Combination, dual_active_set
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
-from quasistatic_ref.certify.form import EXACT, MatrixForm, Row, columns
-from quasistatic_ref.certify.minimiser import Minimiser
-from quasistatic_ref.certify.step_form import StepForm
+from quasistatic_ref.certify.step_program import StepProgram
+from quasistatic_ref.exact.active_set import Combination, dual_active_set
+from quasistatic_ref.exact.minimiser import Minimiser
+from quasistatic_ref.exact.program import EXACT, MatrixProgram, Row, columns
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.forces.faces import Rows, face, nearest_face
@@ -59,7 +59,7 @@ class EliminatedStep:
 
     def __init__(self, step: StepData, compliance: float) -> None:
         self.step = step
-        self.form = StepForm(step)
+        self.form = StepProgram(step)
         self.compliance = arb(compliance)
         self.z = [*map(self.form.motion, range(step.contacts.n_c))]
         self.extra_rows = self.form.exact_rows(range(int(step.offsets[-1]), step.m))
@@ -94,14 +94,14 @@ class EliminatedStep:
             stiff = self.compliance * scale
             H = self.form.H * stiff - of_x
             g = self.form.g * stiff + constant
-        form = MatrixForm(H, g, _matrix([*conditions, *self.extra_rows], n))
+        form = MatrixProgram(H, g, _matrix([*conditions, *self.extra_rows], n))
         working: tuple[int, ...] = ()
         if self.extra_rows:
-            under = MatrixForm(H, g, _matrix(self.extra_rows, n))
+            under = MatrixProgram(H, g, _matrix(self.extra_rows, n))
             working = tuple(len(conditions) + i for i in self._active(under))
         return Candidate(Minimiser(form, working), _matrix(scaled_s, n), scale)
 
-    def _active(self, under: MatrixForm) -> tuple[int, ...]:
+    def _active(self, under: MatrixProgram) -> tuple[int, ...]:
         """The working set among the user's own rows."""
         end = dual_active_set(under)
         if not isinstance(end, Combination):

@@ -11,13 +11,13 @@ the step without compliance lie. The user's own rows, which are rigid in the exa
 here, too, but less.
 """
 
-from functools import cache
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.numbers.arrays import Array, Mask
-from quasistatic_ref.optional.forces.faces import Rows, face, rows_of
+from quasistatic_ref.optional.forces.faces import Face, Rows, face, rows_of
 from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import frame_jacobian, linear_term
@@ -159,7 +159,7 @@ class _Energy:
         """The pieces that the lengths z of the contacts, shape (n_c, 4), lie in."""
         faces = []
         for z_j, count, rows in zip(z, self.step.counts.tolist(), near.faces, strict=True):
-            conditions = _floats(self.step.cone, count, rows)[:-4] @ z_j
+            conditions = _floats(face(self.step.cone, count, rows))[:-4] @ z_j
             if (conditions < -ROUNDING * np.abs(z_j).max()).any():
                 rows = nearest_rows(self.step.cone, count, z_j)
             faces.append(rows)
@@ -168,14 +168,14 @@ class _Energy:
     def onto(self, at: Pieces) -> Array:
         """Matrices that project z onto the face of each contact, shape (n_c, 4, 4)."""
         counts = self.step.counts.tolist()
-        faces = [_floats(self.step.cone, n, f)[-4:] for n, f in zip(counts, at.faces, strict=True)]
+        on = [face(self.step.cone, n, f) for n, f in zip(counts, at.faces, strict=True)]
+        faces = [_floats(each)[-4:] for each in on]
         return np.array(faces).reshape(-1, 4, 4)
 
 
-@cache
-def _floats(name: str, count: int, rows: Rows) -> Array:
+@lru_cache(maxsize=4096)
+def _floats(exact: Face) -> Array:
     """The numbers of a face in float64, shape (R + 4, 4)."""
-    exact = face(name, count, rows)
     numbers = [float(v) for v in exact.linear.entries()]
     return np.array(numbers).reshape(-1, 4) / exact.denominator
 

@@ -5,17 +5,17 @@ point is linear in z: -z projected on what the rows of that face span.
 """
 
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 
 import numpy as np
 from flint import arb_mat, fmpq_mat
 
-from quasistatic_ref.certify.active_set import dual_active_set
-from quasistatic_ref.certify.form import EXACT, MatrixForm, exact_matrix, fraction
-from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.exact.active_set import dual_active_set
+from quasistatic_ref.exact.minimiser import Minimiser
+from quasistatic_ref.exact.program import EXACT, MatrixProgram, exact_matrix, fraction
 from quasistatic_ref.numbers.arrays import Array, read_only
 from quasistatic_ref.numbers.precision import working_precision
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.cones import Coefficients, cone
 from quasistatic_ref.step.data import StepData
 
 Rows = tuple[int, ...]
@@ -39,14 +39,18 @@ class Face:
     denominator: int
 
 
-@cache
 def rows_of(name: str, count: int) -> Array:
     """The rows of a contact that has `count` of its cone's, shape (count, 4) [-].
 
     One with the leading rows only has no spin, whose length would be one more to give way by.
     """
-    matrix = cone(name).matrix
-    return read_only(matrix[:count] * [1, 1, 1, count == len(matrix)])
+    return _leading_rows(cone(name).coefficients, count)
+
+
+@lru_cache(maxsize=64)
+def _leading_rows(coefficients: Coefficients, count: int) -> Array:
+    has_all = count == len(coefficients)
+    return read_only(np.array(coefficients[:count]) * [1, 1, 1, has_all])
 
 
 def cone_rows(step: StepData) -> Array:
@@ -59,10 +63,15 @@ def cone_rows(step: StepData) -> Array:
     return C.reshape(len(C), 4 * n_c)
 
 
-@cache
 def face(name: str, count: int, rows: Rows) -> Face:
     """The face that some independent rows of a contact span, which has `count` rows."""
-    C = fmpq_mat(count, 4, [fraction(x) for x in rows_of(name, count).ravel().tolist()])
+    return _face(cone(name).coefficients, count, rows)
+
+
+@lru_cache(maxsize=4096)
+def _face(coefficients: Coefficients, count: int, rows: Rows) -> Face:
+    entries = _leading_rows(coefficients, count).ravel().tolist()
+    C = fmpq_mat(count, 4, [fraction(x) for x in entries])
     table = C.tolist()
     C_w = fmpq_mat(len(rows), 4, [x for i in rows for x in table[i]])
     multipliers = fmpq_mat(0, 4)
@@ -99,6 +108,6 @@ def nearest_face(name: str, count: int, z: arb_mat) -> Rows:
     with working_precision(EXACT):
         constants = (C * z).entries()
     rows = [[*row, c] for row, c in zip(C.tolist(), constants, strict=True)]
-    end = dual_active_set(MatrixForm(exact_matrix(np.eye(4)), arb_mat(4, 1), arb_mat(rows)))
+    end = dual_active_set(MatrixProgram(exact_matrix(np.eye(4)), arb_mat(4, 1), arb_mat(rows)))
     assert isinstance(end, Minimiser)
     return tuple(sorted(end.working))

@@ -36,16 +36,16 @@ import numpy as np
 from flint import arb, arb_mat
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.certify.active_set import dual_active_set
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.failures import StepInfeasible, StepNotSolved
-from quasistatic_ref.certify.form import EXACT, MatrixForm, columns, exact_matrix
 from quasistatic_ref.certify.groups import group_steps
-from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.optimum import ExactOptimum, step_optimum
-from quasistatic_ref.certify.step_form import StepForm
+from quasistatic_ref.certify.step_program import StepProgram
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.exact.active_set import dual_active_set
+from quasistatic_ref.exact.minimiser import Minimiser
+from quasistatic_ref.exact.program import EXACT, MatrixProgram, columns, exact_matrix
 from quasistatic_ref.numbers.arrays import Array, checked_numbers, without_warnings
 from quasistatic_ref.numbers.precision import working_precision
 from quasistatic_ref.optional.forces.eliminated import eliminated_optimum
@@ -200,7 +200,7 @@ def _left(step: StepData, wrench: Array, off: Array) -> float:
     return norm.of_displacement(off) / load if load else float("inf")
 
 
-def compliant_form(step: StepData, compliance: float) -> MatrixForm:
+def compliant_form(step: StepData, compliance: float) -> MatrixProgram:
     """The step with compliance: its coordinates are [delta_q; s], s of four lengths a contact [m].
 
     Parameters
@@ -212,10 +212,10 @@ def compliant_form(step: StepData, compliance: float) -> MatrixForm:
 
     Returns
     -------
-    MatrixForm
-        Rows as of :class:`~quasistatic_ref.certify.form.StepForm`; multipliers are h c lam.
+    MatrixProgram
+        Rows as of :class:`~quasistatic_ref.exact.program.StepProgram`; multipliers are h c lam.
     """
-    form = StepForm(step)
+    form = StepProgram(step)
     n = step.n_v
     lengths = 4 * step.contacts.n_c
     gives = np.zeros((step.m, lengths))
@@ -229,7 +229,7 @@ def compliant_form(step: StepData, compliance: float) -> MatrixForm:
                 H[i, j] = v
         g = [v * compliance for v in form.g.entries()] + [arb(0)] * lengths
     size = n + lengths + 1
-    return MatrixForm(H, arb_mat(size - 1, 1, g), columns(rows, slice(0, size)))
+    return MatrixProgram(H, arb_mat(size - 1, 1, g), columns(rows, slice(0, size)))
 
 
 def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:

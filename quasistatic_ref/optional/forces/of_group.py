@@ -21,8 +21,8 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.certify.groups import components
 from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.exact.components import components
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.optional.friction import scaled_by
 from quasistatic_ref.step.cones import cone

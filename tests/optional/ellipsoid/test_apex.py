@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.optional.ellipsoid.apex import apex
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
-from tests.made import StepForm, contacts_of, free_step
+from tests.made import StepProgram, contacts_of, free_step
 
 
 def body_on_one_place(force, mu_v, mu_omega=0.0, h=0.5, lever=1.0):
@@ -21,8 +21,8 @@ def body_on_one_place(force, mu_v, mu_omega=0.0, h=0.5, lever=1.0):
 )
 def test_directions_without_friction_hold_nothing(mu_v, mu_omega, rows):
     step = body_on_one_place((0.0, 0.0, -2.0), [mu_v], mu_omega)
-    assert apex(step, StepForm(step), np.array([1.0, 0, 0, 0])).rows == rows
-    assert apex(step, StepForm(step), np.zeros(4)).rows == ()
+    assert apex(step, StepProgram(step), np.array([1.0, 0, 0, 0])).rows == rows
+    assert apex(step, StepProgram(step), np.zeros(4)).rows == ()
 
 
 def test_contacts_in_one_place_share_a_load_as_their_friction_allows():
@@ -31,7 +31,7 @@ def test_contacts_in_one_place_share_a_load_as_their_friction_allows():
     Of that the first contact can hold |t| <= 0.1 n and the second |t| <= n.
     """
     step = body_on_one_place((3.3, 0.0, -12.0), [0.1, 1.0], lever=3.0)
-    form = StepForm(step)
+    form = StepProgram(step)
     lam = np.array([1.0, -0.05, 0.0, 0.0, 1.0, -0.5, 0.0, 0.0])
     answer = apex(step, form, lam)
     assert (answer.rows, answer.refutation) == ((0, 1, 2), "")
@@ -45,9 +45,9 @@ def test_impulses_that_do_not_balance_are_outside_of_their_cone(i):
     step = body_on_one_place((0.0, 0.0, -2.0), [0.5, 0.5])
     lam = np.zeros(8)
     lam[0] = 1.0
-    assert apex(step, StepForm(step), lam).refutation == ""
+    assert apex(step, StepProgram(step), lam).refutation == ""
     lam[i] = -1e-300
-    assert apex(step, StepForm(step), lam).refutation == "the force at c1 is outside of its cone"
+    assert apex(step, StepProgram(step), lam).refutation == "the force at c1 is outside of its cone"
 
 
 @pytest.mark.parametrize(("short", "right"), [(1e-12, True), (1e-5, False)])

@@ -10,7 +10,7 @@ from quasistatic_ref.optional.ellipsoid.interior import Pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from tests.closeness import assert_relative
 from tests.helpers import point_on_floor, results_of
-from tests.made import StepForm
+from tests.made import StepProgram
 from tests.optional.pushed_block import FACE, TIP_RADIUS, pushed_block
 
 M, MU, PHI, H_STEP = 0.3, 0.5, 2e-3, 0.01
@@ -20,7 +20,7 @@ FORCE = np.array([4.0, -1.0, -0.3 * 9.81])
 
 
 STEP = point_on_floor(M, MU, PHI, FORCE, H_STEP).replace(cone="ellipsoid")
-FORM = StepForm(STEP)
+FORM = StepProgram(STEP)
 AXES = np.stack([STEP.contacts.n[0], STEP.contacts.d1[0], STEP.contacts.d2[0]])
 
 
@@ -53,7 +53,7 @@ def test_claims_of_a_push_are_proved_by_the_interior_point():
     for result in results_of(scenario):
         step = result.step
         pair = checked_pair(step)
-        size = scaled_blocks(step, StepForm(step)).size
+        size = scaled_blocks(step, StepProgram(step)).size
         assert pair.gap < RESERVE / 4 * size * size
         assert verify(result.solution)
     assert result.solution.certificate.kind == "enclosure"

@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import nnls
 
 from quasistatic_ref import contact_forces, solve_step
-from quasistatic_ref.certify.form import exact_matrix
+from quasistatic_ref.exact.program import exact_matrix
 from quasistatic_ref.optional.forces import eliminated, face_guess, forces
 from quasistatic_ref.optional.forces.face_guess import guessed_faces, nearest_rows
 from quasistatic_ref.optional.forces.faces import face, nearest_face, rows_of
