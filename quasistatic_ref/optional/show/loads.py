@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
@@ -14,17 +14,43 @@ if TYPE_CHECKING:
 
 BEARING: Final = 1e-3
 """A contact bears load above this share of the largest normal force [-]."""
+ENTRIES: Final = {"f_d1": "N", "f_d2": "N", "f_n": "N", "tau_n": "N m"}
+"""Names and units of a wrench."""
 
 
-def shown_forces(run: Trajectory, k: int) -> Array:
-    """(f_d1, f_d2, f_n, tau_n) of each contact in step k, shape (n_c, 4) [N, N m].
+class ShownForces(NamedTuple):
+    """What is shown of the contacts of one step.
 
-    The forces of single contacts; what the multipliers combine to, where these are not known.
+    Parameters
+    ----------
+    wrench : ndarray, shape (n_c, 4)
+        (f_d1, f_d2, f_n, tau_n) [N, N m].
+    known : bool
+        Whether they are the forces of single contacts; else what lam combines to, which is one of
+        several wrenches where multipliers are not unique.
     """
+
+    wrench: Array
+    known: bool
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names and units of the four entries."""
+        of = "" if self.known else " of lam"
+        return tuple(f"{name}{of} [{unit}]" for name, unit in ENTRIES.items())
+
+    @property
+    def newton(self) -> str:
+        """The unit of what is drawn."""
+        return "1 N" if self.known else "1 N of lam"
+
+
+def shown_forces(run: Trajectory, k: int) -> ShownForces:
+    """The forces of single contacts in step k; what lam combines to, where these are not known."""
     try:
-        return run.step_forces(k)
+        return ShownForces(run.step_forces(k), known=True)
     except InputError:
-        return np.asarray(run["wrench"][k])
+        return ShownForces(np.asarray(run["wrench"][k]), known=False)
 
 
 def bearing(f_n: Array) -> Mask:

@@ -1,13 +1,14 @@
-"""The page of each class that has one: a run, a step and its certificate."""
+"""The page of each class that has one: a scenario, a run, a step and its certificate."""
 
 from collections.abc import Callable
 
 from quasistatic_ref.optional.show.show import Page, html_page, text_page
-from quasistatic_ref.optional.show.simulate_words import trajectory_page
+from quasistatic_ref.optional.show.simulate_words import scenario_page, trajectory_page
 from quasistatic_ref.optional.show.step_words import certificate_page, step_page
 
 PAGES: dict[str, Callable[..., Page]] = {
     "Certificate": certificate_page,
+    "Scenario": scenario_page,
     "StepData": step_page,
     "Trajectory": trajectory_page,
 }

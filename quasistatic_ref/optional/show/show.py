@@ -4,8 +4,8 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from numbers import Real
 
-from quasistatic_ref.text import quoting
-from quasistatic_ref.text.quoting import aligned, one_line
+from quasistatic_ref import quoting
+from quasistatic_ref.quoting import aligned, one_line
 
 WIDTH, LINES = 100, 20
 """Most columns and lines of a text."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from quasistatic_ref.optional.show.show import Page, direction, number
-from quasistatic_ref.text.quoting import counted
+from quasistatic_ref.quoting import counted
 
 if TYPE_CHECKING:
     from quasistatic_ref.step.data import StepData

@@ -13,24 +13,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import written_whole
 from quasistatic_ref.numbers.arrays import Mask
 from quasistatic_ref.optional.show.loads import shown_forces
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.text.quoting import no_formula
+from quasistatic_ref.quoting import no_formula
+from quasistatic_ref.text.content import written_whole
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
     from quasistatic_ref.simulate.record.trajectory import Trajectory
 
-CONTACT: Final[Mapping[str, tuple[str, ...]]] = {
-    "phi": ("phi [m]",),
-    "wrench": ("f_d1 [N]", "f_d2 [N]", "f_n [N]", "tau_n [N m]"),
+VECTORS: Final[Mapping[str, tuple[str, ...]]] = {
     **{name: tuple(f"{name}.{axis} [m]" for axis in "xyz") for name in ("alpha", "beta")},
     **{name: tuple(f"{name}.{axis} [-]" for axis in "xyz") for name in ("n", "d1", "d2")},
 }
-"""Columns of a contact, by array."""
+"""Columns of a contact's vectors, by array."""
 SUMS: Final = ("normal force [N]", "friction [N]", "torque [N m]")
 """Columns of a pair, of sums over its contacts."""
 STEP: Final = {"certificate": "certificate", "worst_residual": "worst residual [-]",
@@ -57,6 +55,9 @@ def data_frame(trajectory: "Trajectory") -> "DataFrame":
 
 def contact_frame(trajectory: "Trajectory") -> "DataFrame":
     """A run as a data frame with one row for each contact of each step.
+
+    Where the run does not know the forces of single contacts, as a light record, the columns say so
+    by their names: ``f_n of lam [N]``.
 
     Raises
     ------
@@ -154,12 +155,12 @@ def _sums(trajectory: "Trajectory", pair: str, of_pair: Mask) -> dict[str, NDArr
 
 def _of_contacts(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:
     """Columns of the table of contacts by name, shape (steps, n_c) each."""
-    columns = {"point": trajectory["point"]}
-    arrays = {name: trajectory[name] for name in CONTACT}
-    arrays["wrench"] = np.array([shown_forces(trajectory, k) for k in range(trajectory.steps)])
-    for name, labels in CONTACT.items():
-        entries = arrays[name].reshape(*columns["point"].shape, len(labels))
-        columns |= {label: entries[:, :, i] for i, label in enumerate(labels)}
+    columns = {"point": trajectory["point"], "phi [m]": trajectory["phi"]}
+    shown = [shown_forces(trajectory, k) for k in range(trajectory.steps)]
+    wrenches = np.array([of_step.wrench for of_step in shown])
+    vectors = [(trajectory[name], labels) for name, labels in VECTORS.items()]
+    for array, labels in ((wrenches, shown[0].columns), *vectors):
+        columns |= dict(zip(labels, np.moveaxis(array, -1, 0), strict=True))
     return columns
 
 

@@ -5,11 +5,12 @@ import sys
 from dataclasses import replace
 from operator import attrgetter
 
+import cvxpy as cp
 import numpy as np
 import pandas
 import pytest
 
-from quasistatic_ref import InputError, load_scenario, load_trajectory
+from quasistatic_ref import Extension, InputError, load_scenario, load_trajectory, rollout
 from quasistatic_ref.files.trajectory import header_read, header_table
 from quasistatic_ref.optional.show.table import table_written
 from tests.closeness import assert_same
@@ -89,6 +90,36 @@ def test_a_table_of_another_kind_is_refused_before_the_run(tmp_path, scene, cli)
         in cli("run", scene, "--out", tmp_path, "--table table.xls", status=2).err
     )
     assert not list(tmp_path.glob("*.npz"))
+
+
+WRENCH = ("f_d1 {}[N]", "f_d2 {}[N]", "f_n {}[N]", "tau_n {}[N m]")
+
+
+@pytest.mark.parametrize("record", ["light", "forces", "full"])
+def test_columns_of_what_is_not_unique_say_so(scene, record):
+    """A light record holds lam alone, of which forces on a patch are one of many answers."""
+    run = load_scenario(scene, {"record": record}, fast=True).run()
+    shown, word = (run.wrench, "of lam ") if record == "light" else (run.forces, "")
+    _check_wrenches(run, shown, word)
+
+
+def test_a_step_that_is_not_all_that_was_solved_has_the_columns_of_lam(scene):
+    """With a cone among its rows, a full record refuses forces as a light one does."""
+    scenario = load_scenario(scene, {"record": "full"})
+    cone = Extension(lambda s: [cp.norm(s.delta_q_a) <= 1e-3])
+    simulator = scenario.simulator(extension=lambda q: cone)
+    run = rollout(simulator, scenario.system.q_start, scenario.targets, 2, progress=False)
+    with pytest.raises(InputError, match="are not known: a step holds no costs or nonlinear"):
+        run.pair_forces()
+    _check_wrenches(run, run.wrench, "of lam ")
+
+
+def _check_wrenches(run, shown, word):
+    """The table has these wrenches, (steps, n_c, 4) [N, N m], by names with this word alone."""
+    table = run.contacts_to_pandas()
+    names = [name.format(word) for name in WRENCH]
+    assert [name for name in table if name.startswith(("f_", "tau_n"))] == names
+    assert_same(table[names].to_numpy().reshape(shown.shape), shown)
 
 
 def test_files_without_names_have_numbers(run):

@@ -1,5 +1,6 @@
 """What objects say of themselves: short, true, and safe whatever a name holds."""
 
+import re
 from dataclasses import replace
 from xml.etree import ElementTree
 
@@ -63,7 +64,9 @@ def test_every_object_of_a_run_is_short():
     result = first_step(scenario)
     run = scenario.run()
     light = replace(scenario, record="light").run()
-    check(run, light, result.step, result.solution.certificate)
+    check(scenario, run, light, result.step, result.solution.certificate)
+    assert not re.search("f_n|tau_n", repr(light))  # those of lam are not unique
+    assert repr(light).count("\n  grip(gripper/l...ger#0, bunny)/") > 1
     loads = [float(line.split()[-2]) for line in repr(run).splitlines()[-13:-1]]
     assert loads[0] > 1e-3 * max(loads) >= loads[-1]  # what bears load comes first
 
@@ -144,3 +147,15 @@ def test_words_and_numbers_are_cut_where_they_must():
     page = html_page(("t", (), ("a",), [("1",)] * (MOST_IN_HTML + 1)))
     assert page.count("<tr>") == 1 + MOST_IN_HTML
     assert page.endswith("<p>and 1 more</p></div>")
+
+
+@pytest.mark.parametrize("accuracy", [1e-9, 1e-12])
+def test_a_run_without_proof_prints_no_rounding(accuracy):
+    """The block rests: 4.905 N on four corners, gaps of zero, and no friction."""
+    run = load_scenario("block_push", steps=3, accuracy=accuracy, certify="off").run(progress=False)
+    printed = repr(run)
+    assert "3 steps by clarabel, nothing proved (certify = off)" in printed
+    assert "number 0, largest boundary layer 0 m" in printed
+    assert not re.search(r"\de-\d", printed)
+    rests = [line.split()[-5:] for line in printed.splitlines() if "floor(" in line]
+    assert rests == 4 * [["0", "0", "0", "1.226", "0"]]

@@ -11,16 +11,16 @@ from matplotlib import pyplot as plt
 from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, PillowWriter
 
 from quasistatic_ref.errors import InputError, check_kind
-from quasistatic_ref.files.content import bytes_written
 from quasistatic_ref.files.scenario.scenario import Scenario
 from quasistatic_ref.numbers.arrays import positive_number
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.draw import camera_of, draw_scene, in_common
 from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.moments import frames
-from quasistatic_ref.optional.show.figures.style import figure_style, sized
+from quasistatic_ref.optional.show.figures.style import closed, figure_style, sized
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.record.trajectory import Trajectory
+from quasistatic_ref.text.content import bytes_written
 
 FRAMES_PER_SECOND = 20
 DOTS_PER_INCH = 110
@@ -92,19 +92,19 @@ def animate(
     pace = "" if speed == 1 else f", speed {speed:g}"
     with figure_style(), plt.rc_context({"savefig.bbox": None}), TemporaryDirectory() as folder:
         figure, axes = plt.subplots(figsize=sized(4.0, 4.4), layout="constrained")
-        draw_scene(axes, moments[0], **fixed)  # before there is a film: a wrong option says so
-        title = figure.suptitle(" ")
-        figure.canvas.draw()
-        figure.set_layout_engine("none")  # one layout, the first frame's, serves all
-        film = Path(folder) / path.name
-        with writer.saving(figure, str(film), DOTS_PER_INCH):
-            for m in progress_bar(moments, unit="frame", words=path.name, shown=progress):
-                for drawn in (*axes.collections, *axes.patches, *axes.lines, *axes.texts):
-                    drawn.remove()
-                draw_scene(axes, m, **fixed | {"legend": False})  # the first frame's legend stays
-                title.set_text(f"t = {m.t:.2f} s{pace}")
-                writer.grab_frame()
-        plt.close(figure)
+        with closed(figure):
+            draw_scene(axes, moments[0], **fixed)  # before there is a film: a wrong option says so
+            title = figure.suptitle(" ")
+            figure.canvas.draw()
+            figure.set_layout_engine("none")  # one layout, the first frame's, serves all
+            film = Path(folder) / path.name
+            with writer.saving(figure, str(film), DOTS_PER_INCH):
+                for m in progress_bar(moments, unit="frame", words=path.name, shown=progress):
+                    for drawn in (*axes.collections, *axes.patches, *axes.lines, *axes.texts):
+                        drawn.remove()
+                    draw_scene(axes, m, **fixed | {"legend": False})  # that of the first stays
+                    title.set_text(f"t = {m.t:.2f} s{pace}")
+                    writer.grab_frame()
         return bytes_written(path, film.read_bytes())
 
 

@@ -28,7 +28,7 @@ from quasistatic_ref.optional.show.figures.pens import (
 )
 from quasistatic_ref.optional.show.figures.style import legend_above, scaled
 from quasistatic_ref.optional.show.loads import BEARING
-from quasistatic_ref.text.quoting import listed
+from quasistatic_ref.quoting import listed
 
 PARTS: Final = ("contacts", "frames", "cones", "forces")
 """What of contacts can be drawn."""
@@ -236,7 +236,7 @@ def _legend(axes: Axes, of: Moment, parts: Collection[str], scale: float) -> Non
     """Write above the axes what each colour and line stands for."""
     handles: list[Artist] = []
     if "forces" in parts and scale > 0:
-        label = f"1 N is {MILLI * scale:g} mm"
+        label = f"{of.newton} is {MILLI * scale:g} mm"
         handles.append(Line2D([], [], color=FORCE, marker=">", markersize=scaled(4), label=label))
     if "cones" in parts and any(c.bears and c.mu_v > 0 for c in of.contacts):
         label = "friction cone"

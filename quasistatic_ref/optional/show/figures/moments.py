@@ -75,6 +75,8 @@ class Moment:
     R, t_links : ndarray, shapes (L, 3, 3) and (L, 3)
         Poses of the links [-], [m].
     contacts : tuple of DrawnContact
+    newton : str
+        The unit of force, which says where the run does not know the forces of single contacts.
     colours : dict of int to str
         The colour of each link, by its number.
     """
@@ -84,6 +86,7 @@ class Moment:
     R: Array
     t_links: Array
     contacts: tuple[DrawnContact, ...]
+    newton: str
     colours: dict[int, str]
 
     def world(self, placed: PlacedShape, points: Array) -> Array:
@@ -95,7 +98,7 @@ class Moment:
 
 def still(scene: Scene) -> Moment:
     """The moment at which a scene starts: its bodies without contacts."""
-    return _moment(scene, scene.system.q_start, 0.0, ())
+    return _moment(scene, scene.system.q_start, 0.0, (), "1 N")
 
 
 def moment(scene: Scene, run: Trajectory, k: int) -> Moment:
@@ -123,14 +126,19 @@ def moment(scene: Scene, run: Trajectory, k: int) -> Moment:
     if not -run.steps <= k < run.steps:
         raise InputError(f"must be {-run.steps} to {run.steps - 1}", field="step", value=k)
     k = k % run.steps
-    return _moment(scene, run["q"][k], float(run["t"][k]) - run.header.h, _contacts(run, k))
+    shown = shown_forces(run, k)
+    contacts = _contacts(run, k, shown.wrench)
+    start = float(run["t"][k]) - run.header.h
+    return _moment(scene, run["q"][k], start, contacts, shown.newton)
 
 
-def _moment(scene: Scene, q: Array, t: float, contacts: tuple[DrawnContact, ...]) -> Moment:
+def _moment(
+    scene: Scene, q: Array, t: float, contacts: tuple[DrawnContact, ...], newton: str
+) -> Moment:
     """A scene at q, shape (n_q,), with contacts."""
     kinematics = scene.system.kinematics(q)
     colours = link_colours(scene.system)
-    return Moment(t, drawn_shapes(scene), kinematics.R, kinematics.t, contacts, colours)
+    return Moment(t, drawn_shapes(scene), kinematics.R, kinematics.t, contacts, newton, colours)
 
 
 def frames(scene: Scene, run: Trajectory, fps: float) -> tuple[list[Moment], float]:
@@ -209,10 +217,9 @@ def focus(moments: list[Moment], looks: Sequence[Visual] = ()) -> Array:
     return box_of(np.concatenate(points))
 
 
-def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:
+def _contacts(run: Trajectory, k: int, wrench: Array) -> tuple[DrawnContact, ...]:
     corners = rim(run.header.cone)
     edge = np.column_stack([corners, np.ones(len(corners))])
-    wrench = shown_forces(run, k)
     bears = bearing(wrench[:, 2])
     drawn = []
     for j, (*force, torque) in enumerate(wrench):

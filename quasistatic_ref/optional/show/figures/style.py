@@ -17,8 +17,8 @@ from matplotlib.legend import Legend
 from matplotlib.transforms import Bbox
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import written_whole
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.text.content import written_whole
 
 PAGE: Final = 6.3
 """Width of the text on a page [in]: A4 or letter with the usual margins."""
@@ -135,10 +135,24 @@ def room(axes: Axes) -> tuple[float, float]:
     return float(width), float(height)
 
 
+@contextmanager
+def closed(figure: Figure) -> Iterator[None]:
+    """Closes a figure at the end, also after an error.
+
+    Parameters
+    ----------
+    figure : Figure
+    """
+    try:
+        yield
+    finally:
+        plt.close(figure)
+
+
 def figure_written(
     figure: Figure, folder: str | Path, name: str, kinds: Sequence[str] = ("png", "pdf")
 ) -> list[Path]:
-    """Write a figure in each format, whole or not at all, and close it.
+    """Write a figure in each format, whole or not at all, and close it, also after an error.
 
     Parameters
     ----------
@@ -154,11 +168,10 @@ def figure_written(
     list of Path
     """
     paths = []
-    with figure_style():
+    with figure_style(), closed(figure):
         for kind in kinds:
             save = partial(figure.savefig, format=kind, metadata=METADATA[kind])
             paths.append(written_whole(Path(folder) / f"{name}.{kind}", save))
-    plt.close(figure)
     return paths
 
 

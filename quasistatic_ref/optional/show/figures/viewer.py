@@ -17,7 +17,6 @@ import numpy as np
 
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.errors import InputError, check_kind
-from quasistatic_ref.files.content import text_written
 from quasistatic_ref.files.scenario.scenario import Scenario
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.show.figures.draw import force_scale
@@ -36,6 +35,7 @@ from quasistatic_ref.parts import needed_package
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.scene import Scene
+from quasistatic_ref.text.content import text_written
 
 FRAMES_PER_SECOND = 30
 LONGEST = 0.25
@@ -113,7 +113,7 @@ def save_view(path: str | Path, shown: Scene | Trajectory, run: Trajectory | Non
     title = scene.path.stem if isinstance(scene, Scenario) else "scene"
     before, end, after = page.rpartition("</body>")
     before = before.replace("<title>MeshCat</title>", f"<title>{escape(title)}</title>", 1)
-    caption = CAPTION.format(_caption(title, scene, run, scale))
+    caption = CAPTION.format(_caption(title, scene, run, scale, moments[0].newton))
     return text_written(path, f"{before}{caption}{end}{after}")
 
 
@@ -148,14 +148,14 @@ def _scene(shown: Scene | Trajectory, run: Trajectory | None) -> tuple[Scene, Tr
     return shown.scene, shown
 
 
-def _caption(title: str, scene: Scene, run: Trajectory | None, scale: float) -> str:
+def _caption(title: str, scene: Scene, run: Trajectory | None, scale: float, newton: str) -> str:
     """The HTML text below a view: its title, and the colours of bodies and contact states."""
     words = [escape(title)]
     if run is not None:
         words.append(f"h = {1e3 * run.header.h:g} ms, friction {escape(run.header.cone)}")
     words += [_coloured(name, colour) for name, colour in body_colours(scene.system).items()]
     if scale:
-        words.append(f"1 N is {1e3 * scale:.3g} mm")
+        words.append(f"{newton} is {1e3 * scale:.3g} mm")
         words += [_coloured(state, colour) for state, colour in STATES.items()]
     return "; ".join(words)
 

@@ -21,9 +21,10 @@ from quasistatic_ref import (
     draw_scenes,
     load_scenario,
 )
-from quasistatic_ref.optional.show.figures import Camera, panels
+from quasistatic_ref.optional.show.figures import Camera, animation, panels
 from quasistatic_ref.optional.show.figures.draw import PARTS
 from quasistatic_ref.optional.show.figures.moments import moment
+from quasistatic_ref.optional.show.figures.style import figure_written
 from quasistatic_ref.optional.show.figures.surfaces import (
     AROUND,
     UP,
@@ -122,6 +123,15 @@ def test_forces_and_frames_are_drawn_to_scale_where_they_are(end, page):
     assert_close(unit, [np.sin(SLOPE), np.cos(SLOPE)])
 
 
+@pytest.mark.parametrize(
+    ("record", "newton"), [("full", "1 N"), ("forces", "1 N"), ("light", "1 N of lam")]
+)
+def test_the_legend_says_where_forces_are_not_unique(page, record, newton):
+    scenario = load_scenario("block_push", [f"record={record}"], steps=1, fast=True)
+    draw_scene(page, moment(scenario, scenario.run(), 0), metres_per_newton=0.02)
+    assert page.get_legend().get_texts()[0].get_text() == f"{newton} is 20 mm"
+
+
 def test_a_camera_from_the_front_sees_y_to_the_right_and_z_upwards():
     seen = Camera(azimuth=0, elevation=0).seen(np.array([[1.0, 2.0, 3.0]]))
     assert_relative(seen, [[2, 3, 1]])
@@ -200,6 +210,27 @@ def test_a_film_has_as_many_frames_a_second_as_were_wanted(incline, tmp_path, mo
     with Image.open(path) as film:
         assert film.n_frames == 3  # 30 steps of 10 ms
         assert film.info["duration"] == 100
+
+
+@pytest.mark.parametrize("fails", ["draw_scene", "bytes_written"])
+def test_a_film_that_fails_closes_its_figure(incline, tmp_path, monkeypatch, fails):
+    monkeypatch.setenv("PATH", "")  # without ffmpeg
+    before = plt.get_fignums()
+    with monkeypatch.context() as broken:
+        broken.setattr(animation, fails, lambda *_, **__: 1 / 0)
+        with pytest.raises(ZeroDivisionError):
+            animate(*incline, tmp_path / "blocks")
+    assert plt.get_fignums() == before
+    assert [*tmp_path.iterdir()] == []
+
+
+def test_a_figure_that_cannot_be_written_is_closed(tmp_path, monkeypatch):
+    before = plt.get_fignums()
+    figure = plt.figure()
+    monkeypatch.setattr(figure, "savefig", lambda *_, **__: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        figure_written(figure, tmp_path, "name")
+    assert plt.get_fignums() == before
 
 
 @pytest.mark.parametrize(

@@ -103,6 +103,8 @@ def test_a_page_says_what_it_shows(pushed, tmp_path, capfd):
     page = save_view(tmp_path / "run.html", scenario, run).read_text()
     assert "<title>block_push</title>" in page
     assert "1 N is 10 mm" in page
+    light = load_scenario("block_push", ["steps=1", "record=light"], fast=True).run()
+    assert "1 N of lam is " in save_view(tmp_path / "light.html", light).read_text()
     assert capfd.readouterr() == ("", "")
     still = save_view(tmp_path / "scene.html", scenario.simulator()).read_text()
     assert "<title>scene</title>" in still
