@@ -7,11 +7,11 @@ from pathlib import Path
 from quasistatic_ref.certify.groups import group_step, groups
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.files.content import LARGEST_TEXT
 from quasistatic_ref.files.step import save_step
 from quasistatic_ref.files.trajectory import load_trajectory
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.step.text import step_text
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.text.content import LARGEST_TEXT
 
 OF_ENTRY = 5
 """Bytes of an entry that is zero, as nearly all are in a large step."""

@@ -1,6 +1,7 @@
 """``quasistatic-ref``: one sub-command a file; nothing heavy is imported before it is needed.
 
-Exit status: 0 good, 1 a check failed, 2 bad input, 3 a step without solution, 130 interrupted.
+Exit status: 0 good, 1 a check failed, 2 bad input, 3 a step without solution, 130 interrupted
+(143 and 129 where SIGTERM or SIGHUP ended a run).
 """
 
 import argparse
@@ -16,7 +17,8 @@ from typing import Any, NoReturn
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError, QuasistaticError
-from quasistatic_ref.text.quoting import clipped, nearest_name, suggestion
+from quasistatic_ref.quoting import clipped, nearest_name, suggestion
+from quasistatic_ref.simulate.interrupt import exit_status
 
 CORE = "quasistatic_ref.cli"
 LAB = "quasistatic_ref.lab.commands"
@@ -118,8 +120,8 @@ def status(options: argparse.Namespace) -> int:
         return _failed(error, 2)
     except QuasistaticError as error:
         return _failed(error, 3)
-    except KeyboardInterrupt:
-        return _failed("interrupted", 130)
+    except KeyboardInterrupt as ended:
+        return _failed(str(ended) or "interrupted", exit_status(ended))
     except BrokenPipeError:  # the reader of our output, such as `head`, went away
         sys.stderr.close()
         return 0

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Final
 
-from quasistatic_ref.files.content import toml_read
+from quasistatic_ref.text.content import toml_read
 from quasistatic_ref.text.json_text import json_text
 
 BARE: Final = re.compile(r"[A-Za-z0-9_-]+")

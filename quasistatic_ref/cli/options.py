@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, Any, Final
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.option_change import OptionChange
 from quasistatic_ref.files.step import load_step, save_step
+from quasistatic_ref.quoting import aligned
+from quasistatic_ref.simulate.interrupt import exit_status
 from quasistatic_ref.simulate.record.failures import RunFailed
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.text.json_text import json_text
-from quasistatic_ref.text.quoting import aligned
 
 OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "step": {"type": Path, "help": "a step file (quasistatic-ref/step)"},
@@ -177,4 +178,5 @@ def failed_run(failure: RunFailed, path: Path) -> int:
         step = save_step(path.with_name(f"{path.stem}_failed_step.json"), failure.step)
         kept += f", the failing step in {step}"
     print(f"quasistatic-ref: {failure.reason}; {kept}", file=sys.stderr)
-    return 130 if isinstance(failure.__cause__, KeyboardInterrupt) else 3
+    cause = failure.__cause__
+    return exit_status(cause) if isinstance(cause, KeyboardInterrupt) else 3

@@ -12,7 +12,6 @@ import numpy as np
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.ignored import unknown_elements
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.files.content import writable_folder
 from quasistatic_ref.files.finding import finding_table
 from quasistatic_ref.files.npz import header_of, npz_arrays
 from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
@@ -20,9 +19,9 @@ from quasistatic_ref.files.trajectory import FORMAT, WHAT, save_trajectory
 from quasistatic_ref.parts import is_there, needing, part
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.record.failures import RunFailed
-from quasistatic_ref.simulate.record.header import Header
-from quasistatic_ref.simulate.record.trajectory import Trajectory, certified
+from quasistatic_ref.simulate.record.trajectory import NOT_PROVED, Trajectory, certified
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.text.content import writable_folder
 from quasistatic_ref.text.table_reader import TableReader
 
 
@@ -132,7 +131,7 @@ def run(options: argparse.Namespace) -> int:
     else:
         _print(summary)
         if numbers:
-            print(_artifacts(trajectory.header, did.least_artifacts(trajectory, scenario)))
+            print(lines.artifact_line(trajectory.header))
             for line in lines.lines(numbers, options.numbers):
                 shared.print_wrapped(line, "    ")
             if options.numbers:
@@ -192,7 +191,8 @@ def _print(summary: Mapping[str, Any]) -> None:
     worst = "not computed" if residual is None else f"{residual:.1e} (natural units)"
     speed = "fast" if summary["fast"] else "plain"
     solved = f"backend {summary['backend']}, {speed} path, worst residual {worst}"
-    print(f"{summary['certified']}; {solved}")
+    proved = summary["certified"]
+    print(proved if NOT_PROVED in proved else f"{proved}; {solved}")
     iterations = summary.get("s_iterations")
     if iterations:
         print(
@@ -272,15 +272,3 @@ def worst_residual(trajectory: Trajectory) -> float | None:
     if not residuals.size or np.isnan(residuals).any():
         return None
     return float(residuals.max())
-
-
-def _artifacts(header: Header, least: tuple[float, float]) -> str:
-    """Both artifacts of a run, 0 where they are below the `least` that is resolved, [-] and [m]."""
-    Pi = header.quasi_dynamic_number
-    known = 0.0 if Pi is None or Pi < least[0] else Pi
-    number = "none, no un-actuated body bears friction" if Pi is None else f"{known:.2g}"
-    layer = header.largest_boundary_layer or 0.0
-    layer = 1e6 * layer if layer > least[1] else 0.0
-    drag = f"largest quasi-dynamic number (drag over friction): {number}"
-    drag += getattr(header, "drag", "") if known else ""  # of a run that is at hand
-    return f"{drag}; largest boundary layer: {layer:.3g} um"

@@ -7,13 +7,12 @@ from pathlib import Path
 
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.groups import flat_rows
-from quasistatic_ref.certify.step_form import StepForm
-from quasistatic_ref.certify.working_set import fraction_point
+from quasistatic_ref.certify.step_program import StepProgram
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import text_written
+from quasistatic_ref.exact.working_set import fraction_point
 from quasistatic_ref.files.solution import infeasible_text, solution_text
 from quasistatic_ref.solve.backends import CERTIFY, DAQP
 from quasistatic_ref.solve.choice import solver_for
@@ -21,6 +20,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import StepSolution
+from quasistatic_ref.text.content import text_written
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -85,7 +85,7 @@ def decimals(solution: StepSolution, digits: int) -> list[tuple[str, ...]]:
     working = flat_rows(step, solution.certificate.active)
     names = [f"delta_q_a[{i}]" for i in range(step.n_a)]
     names += [f"delta_q_u[{i}]" for i in range(step.n_u)]
-    exact = fraction_point(StepForm(step), working).exact_x
+    exact = fraction_point(StepProgram(step), working).exact_x
     values = [decimal_string(Fraction(int(v.p), int(v.q)), digits) for v in exact]
     return list(zip(names, values, strict=True))
 

@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
     """
     if options.solution is None:
         with needing("an answer of exact_qp"):
-            from quasistatic_ref.optional.qp.files import load_answer
+            from quasistatic_ref.exact.qp.files import load_answer
         try:
             answer = load_answer(options.step)
         except InputError as error:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.resources import data_folder
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.quoting import suggestion
 
 CONTACT_QP = "contact-qp"
 """The set of quadratic programs that comes with the package."""

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import writable_folder
+from quasistatic_ref.text.content import writable_folder
 
 
 @contextmanager

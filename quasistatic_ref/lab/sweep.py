@@ -3,6 +3,7 @@
 import csv
 import io
 import math
+import re
 import time
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
@@ -14,7 +15,6 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import text_written, writable_folder
 from quasistatic_ref.files.option_change import OptionChange
 from quasistatic_ref.files.resources import scenario_path
 from quasistatic_ref.files.scenario.overrides import parsed
@@ -24,11 +24,13 @@ from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.parallel import workers as workers_here
 from quasistatic_ref.optional.doctor.did.numbers import by_name, numbers_of
+from quasistatic_ref.quoting import no_formula
+from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.record.failures import RunFailed
 from quasistatic_ref.simulate.record.trajectory import Trajectory
+from quasistatic_ref.text.content import text_written, writable_folder
 from quasistatic_ref.text.json_text import json_text
-from quasistatic_ref.text.quoting import no_formula
 from quasistatic_ref.tolerances import LARGE
 
 TABLE = "runs.csv"
@@ -38,7 +40,14 @@ DONE = "done"
 ENDED_EARLY = "ended_early"
 LAYER = "boundary_layer_um"
 MOST_RUNS = 100_000
+WHOLE = re.compile(r"\s*[+-]?\d+\s*")
+"""A whole number, as an end of a range is written."""
+ROOM = 50_000_000
+"""What may be kept of scenarios that have been checked [bytes]; half a million a scene."""
+SCENE = 500_000
 Row = dict[str, Any]
+_loaded: dict[tuple[str, tuple[str, ...]], tuple[int, Scenario]] = {}
+"""Scenarios that this process has checked and not run yet, each with its size [bytes]."""
 
 
 def simulate_many(
@@ -119,6 +128,7 @@ def simulate_many(
                     table.add(file, row)
                     bar.update()
             finally:  # what is done so far, if it is interrupted
+                _loaded.clear()
                 table.write()
     return table.rows
 
@@ -126,7 +136,8 @@ def simulate_many(
 class _Table:
     """The table of the runs that have ended, in the order of the values.
 
-    It is written whole as a run ends, unless that would take more than a tenth of the time.
+    A run that ends adds a line. Where it has a new column, the file is written anew, unless that
+    would take more than a tenth of the time; so it is in the end, in the order of the values.
 
     Parameters
     ----------
@@ -139,6 +150,7 @@ class _Table:
         self._path = folder / TABLE
         self._points = points
         self._not_before = 0.0
+        self._columns: list[str] = []
         self.done: dict[str, Row] = {}
 
     @property
@@ -153,14 +165,20 @@ class _Table:
     def add(self, file: str, row: Row) -> None:
         """Take the row of a run that has ended."""
         self.done[file] = row
-        if (begin := time.monotonic()) >= self._not_before:
+        if set(row["measures"]) <= set(self._columns):
+            with self._path.open("a", encoding="utf-8", newline="") as table:
+                cells = {"run": file, "values": self._points[file], **row}
+                table.write(_lines([_cells(cells, self._columns)]))
+        elif (begin := time.monotonic()) >= self._not_before:
             self.write()
             self._not_before = time.monotonic() + 9 * (time.monotonic() - begin)
 
     def write(self) -> None:
         """Write the file, if there is a row."""
         if self.done:
-            text_written(self._path, _table(self.rows))
+            rows = self.rows
+            self._columns = list(dict.fromkeys(name for row in rows for name in row["measures"]))
+            text_written(self._path, _table(rows, self._columns))
 
 
 def _kept(folder: Path, tasks: Sequence[tuple[str, str, Sequence[str]]]) -> dict[str, Row]:
@@ -191,6 +209,8 @@ def _kept(folder: Path, tasks: Sequence[tuple[str, str, Sequence[str]]]) -> dict
 def swept_values(text: str) -> tuple[str, list[float | str]]:
     """Field and values of ``FIELD=FIRST:LAST:COUNT`` or ``FIELD=VALUE,VALUE,...``.
 
+    Values between two ends that are written as whole numbers are such, if all are whole.
+
     Raises
     ------
     InputError
@@ -201,6 +221,8 @@ def swept_values(text: str) -> tuple[str, list[float | str]]:
     >>> from quasistatic_ref.lab.sweep import swept_values
     >>> swept_values("contacts.grip.mu_omega=0:0.04:5")
     ('contacts.grip.mu_omega', [0.0, 0.01, 0.02, 0.03, 0.04])
+    >>> swept_values("steps=40:140:3")
+    ('steps', [40, 90, 140])
     >>> swept_values("cone=pyramid,product")
     ('cone', ['pyramid', 'product'])
     """
@@ -209,7 +231,13 @@ def swept_values(text: str) -> tuple[str, list[float | str]]:
     try:
         if len(rest) == 2 and 1 <= int(rest[1]) <= MOST_RUNS:
             ends = float(first), float(rest[0])
-            return field, [float(f"{v:.15g}") for v in np.linspace(*ends, int(rest[1])).tolist()]
+            values: list[float | str] = [
+                float(f"{v:.15g}") for v in np.linspace(*ends, int(rest[1])).tolist()
+            ]
+            whole_ends = all(map(WHOLE.fullmatch, (first, rest[0])))
+            if whole_ends and not np.mod(values, 1).any():
+                values = [int(value) for value in values]
+            return field, values
     except ValueError:
         pass
     if not field or not range_text or rest:
@@ -240,8 +268,20 @@ def _changes(point: Mapping[str, Any], settings: Sequence[str]) -> list[str]:
 
 
 def check_scenario(scenario: str, changes: Sequence[str]) -> None:
-    """Raise the InputError that a scenario with these changes, or its simulator, raises."""
-    load_scenario(scenario, changes).simulator()
+    """Raise the InputError that a scenario with these changes, or its simulator, raises.
+
+    What it has loaded is kept for the run, where that is in this process, as long as there is room.
+    """
+    loaded = load_scenario(scenario, changes)
+    loaded.simulator()
+    size = SCENE + sum(_size(side) for pair in loaded.pairs for side in (pair.alpha, pair.beta))
+    if size + sum(each for each, _ in _loaded.values()) <= ROOM:
+        _loaded[scenario, tuple(changes)] = size, loaded
+
+
+def _size(placed: PlacedShape) -> int:
+    """About how many bytes a shape takes."""
+    return sum(x.nbytes for x in vars(placed.shape).values() if isinstance(x, np.ndarray))
 
 
 def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Trajectory, Row]:
@@ -252,12 +292,13 @@ def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Traje
     KeyboardInterrupt
         If the user ended it.
     """
-    loaded = load_scenario(scenario, changes)
+    _, loaded = _loaded.pop((scenario, tuple(changes)), (0, None))
+    loaded = loaded or load_scenario(scenario, changes)
     try:
         trajectory = loaded.run(progress=False, findings=False)
     except RunFailed as failure:
         if isinstance(failure.__cause__, KeyboardInterrupt):
-            raise KeyboardInterrupt from None
+            raise failure.__cause__ from None
         trajectory = failure.trajectory
     return file, trajectory, _row(trajectory, loaded)
 
@@ -299,22 +340,28 @@ def outcomes(trajectory: Trajectory, scenario: Scenario) -> dict[str, float | No
     }
 
 
-def _table(rows: Sequence[Row]) -> str:
-    """Return one line a run: its file, its values, what became of it.
+ABOUT = ("outcome", "reason", "findings", "not_looked_at")
+
+
+def _table(rows: Sequence[Row], names: Sequence[str]) -> str:
+    """Return one line a run: its file, its values, what became of it, its measures of these names.
 
     The steps that were taken are named so, because `steps` may be a value.
     """
-    names = list(dict.fromkeys(name for row in rows for name in row["measures"]))
     named = ["steps_taken" if name == "steps" else name for name in names]
+    head = ["run", *map(no_formula, rows[0]["values"]), *ABOUT, *map(no_formula, named)]
+    return _lines([head, *(_cells(row, names) for row in rows)])
+
+
+def _cells(row: Row, names: Sequence[str]) -> list[Any]:
+    """The cells of a run in the table, with its measures of these names."""
+    about = row | {"findings": "; ".join(row["findings"])}
+    words = [row["run"], *row["values"].values(), *(about[word] for word in ABOUT)]
+    safe = [no_formula(word) if isinstance(word, str) else word for word in words]
+    return [*safe, *(row["measures"].get(name) for name in names)]
+
+
+def _lines(cells: Iterable[Sequence[Any]]) -> str:
     text = io.StringIO()
-    lines = csv.writer(text, lineterminator="\n")
-    about = ["outcome", "reason", "findings", "not_looked_at"]
-    lines.writerow(["run", *map(no_formula, rows[0]["values"]), *about, *map(no_formula, named)])
-    for row in rows:
-        cells = [row[word] for word in about]
-        cells[2] = "; ".join(row["findings"])
-        numbers = [row["measures"].get(name) for name in names]
-        words = [row["run"], *row["values"].values(), *cells]
-        safe = [no_formula(word) if isinstance(word, str) else word for word in words]
-        lines.writerow([*safe, *numbers])
+    csv.writer(text, lineterminator="\n").writerows(cells)
     return text.getvalue()

@@ -157,7 +157,14 @@ OTHERS = {
     "run.npz": "a run, of which `extract` takes steps",
     "r.urdf.xacro": "a xacro; `xacro FILE > robot.urdf`",
     "step.json": "JSON; `solve` reads steps",
+    "robot.mjcf": "a MuJoCo scene; `run` and `opinion` read it",
+    "a.sdf": "an SDF, which nothing here reads",
+    "world.world": "an SDF, which nothing here reads",
+    "scene.yaml": "YAML; a scenario is TOML",
     "problem.mat": "a quadratic program; `qp`",
+    "scene.toml.txt": "a text, as some editors name files that they save; rename it to scene.toml",
+    "hand.URDF.txt": "a text, as some editors name files that they save; rename it to hand.URDF",
+    "scene.xml.txt": "a text, as some editors name files that they save; rename it to scene.xml",
 }
 
 

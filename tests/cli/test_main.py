@@ -46,6 +46,10 @@ def test_figures_are_made_by_name(out, capsys, cli):
     paths = [out / "a_screw.png", out / "a_screw.pdf"]
     assert capsys.readouterr().out.splitlines() == [str(path) for path in paths]
     assert all(path.stat().st_size > 1000 for path in paths)
+    paper = paths[0].read_bytes()
+    cli("figures a_screw --style slides --out", out)
+    assert paths[0].read_bytes() != paper
+    assert "did you mean 'slides'?" in cli("figures --style slide --out", out, status=2).err
     assert "did you mean 'a_screw'?" in one_sentence(
         cli("figures", "a_scre", "--out", out, status=2).err
     )

@@ -9,7 +9,7 @@ import pytest
 from jsonschema import Draft4Validator
 
 from docs.fields_page import reference_page
-from quasistatic_ref import Extra, InputError, load_scenario, solve_step
+from quasistatic_ref import Extra, InputError, load_scenario, save_step, solve_step
 from quasistatic_ref.files.resources import scenario_path
 from quasistatic_ref.files.scenario.scenario_table import TABLES
 from quasistatic_ref.files.scenario.world_solids import SOLIDS
@@ -17,6 +17,7 @@ from quasistatic_ref.files.trajectory import header_table
 from quasistatic_ref.lab.commands.schema import SCHEMAS, scenario_schema
 from quasistatic_ref.text.json_text import plain
 from tests.cases import cases
+from tests.closeness import assert_close
 from tests.errors.scene import SCENE, changed, scene_written
 from tests.extras import SCENARIOS
 from tests.helpers import random_step
@@ -144,3 +145,28 @@ def test_the_schema_of_a_file_takes_what_is_written_and_no_other_field(kind, rec
     for name in record:
         less = {key: value for key, value in record.items() if key != name}
         assert checked.is_valid(less) == (name in MAY_BE_LEFT_OUT[kind])
+
+
+def test_a_contact_s_J_in_a_step_file_is_what_the_schema_says(tmp_path):
+    """On an incline, where the world's axes are none of the frame's: by turning and moving it.
+
+    For a small motion J delta_q is how beta's point moves along x, y and z; its spin is the turn
+    about n. Alpha, the incline, does not move.
+    """
+    says = SCHEMAS["step"]()["definitions"]["contacts"]["properties"]["J"]["description"]
+    assert re.match("motion of beta's .* along the world's x, y and z, and spin about n", says)
+    scenario = load_scenario("block_incline", steps=1)
+    result = scenario.simulator().step(scenario.system.q_start)
+    written = json.loads(save_step(tmp_path / "step.json", result.step).read_text("utf-8"))
+    here, small = scenario.system.at(result.q_start), 1e-6
+    links = [pair.beta.link for pair in scenario.pairs for _ in range(pair.n_c)]
+    of_contacts = zip(written["contacts"], result.points.beta, links, strict=True)
+    for contact, point, link in of_contacts:
+        J, n = np.array(contact["J"]), np.array(contact["n"])
+        for k, one in enumerate(np.eye(J.shape[1])):
+            end = here.plus(small * one).kinematics
+            R = end.R[link] @ here.kinematics.R[link].T
+            moved = end.t[link] + R @ (point - here.kinematics.t[link]) - point
+            turned = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
+            assert_close(J[:3, k], moved / small, 1e-6)
+            assert_close(J[3, k], n @ turned / small, 1e-6)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, load_scenario, load_trajectory
+from quasistatic_ref.lab import sweep
 from quasistatic_ref.lab.processes import descendants
 from quasistatic_ref.lab.sweep import TABLE, simulate_many, swept_values
 from tests.cases import cases, first
@@ -86,6 +87,7 @@ def test_a_sweep_that_was_ended_has_no_workers_but_a_table_and_goes_on(tmp_path,
     process.wait()
     waited_for(lambda: all(map(has_ended, workers)))
     ended = content(folder / "runs")
+    ended = {path: one for path, one in ended.items() if path.suffix != ".partial"}  # half written
     assert 1 <= len(ended) < 3
     values["steps"][2] = 3  # what it did not come to may be another
     rows = swept(folder, **values)
@@ -164,12 +166,22 @@ def test_a_run_that_ends_early_is_a_row_too(tmp_path):
     ("text", "values"),
     [
         ("a.b=0:1:3", [0.0, 0.5, 1.0]),
+        ("a.b=40:140:3", [40, 90, 140]),
+        ("a.b=-1:1:3", [-1, 0, 1]),
+        ("a.b=0:1.0:2", [0.0, 1.0]),
         ("a.b=1,2.5", [1, 2.5]),
         ("a.b=pyramid,facets-8", ["pyramid", "facets-8"]),
     ],
 )
 def test_values_are_read_as_a_range_or_a_list(text, values):
-    assert swept_values(text) == ("a.b", values)
+    field, read = swept_values(text)
+    assert (field, read) == ("a.b", values)
+    assert list(map(type, read)) == list(map(type, values))
+
+
+def test_a_field_of_whole_numbers_is_swept_as_a_range(tmp_path):
+    field, values = swept_values("steps=1:3:3")
+    assert [row["measures"]["steps"] for row in swept(tmp_path, **{field: values})] == [1, 2, 3]
 
 
 @pytest.mark.parametrize("text", ["a.b", "a.b=", "a.b=0:1:0"])
@@ -214,3 +226,31 @@ def test_steps_that_are_judged_by_residuals_are_not_counted_as_exact(tmp_path):
     values = {"solver.certify": ["full", "residual"], "steps": [1]}
     rows = swept(tmp_path, **values)
     assert [row["measures"]["exact"] for row in rows] == [1.0, 0.0]
+
+
+def test_each_scenario_is_loaded_once_and_each_run_adds_its_line(tmp_path, monkeypatch):
+    """Also where a value is a word of several fields; the lines are those of the whole table."""
+    loads, lines = [], []
+    monkeypatch.setattr(sweep, "load_scenario", lambda *a: loads.append(a) or load_scenario(*a))
+
+    def run_of(*task):
+        result = run_of_one(*task)
+        lines.append((tmp_path / sweep.TABLE).read_text() if len(lines) else "")
+        return result
+
+    run_of_one = sweep.run_of
+    monkeypatch.setattr(sweep, "run_of", run_of)
+    grid = {"contacts.floor.mu_v": [0.1, 0.2, 0.3], "cone": ["pyramid", "product"]}
+    rows = simulate_many("sphere_spin", grid, tmp_path, settings=["steps=2"], workers=1)
+    whole = (tmp_path / sweep.TABLE).read_text()
+    assert len(loads) == len(rows) == 6
+    assert lines[1:] == ["".join(whole.splitlines(True)[: k + 1]) for k in range(1, 6)]
+
+
+def test_what_takes_too_much_room_is_loaded_again(tmp_path, monkeypatch):
+    loads = []
+    monkeypatch.setattr(sweep, "load_scenario", lambda *a: loads.append(a) or load_scenario(*a))
+    monkeypatch.setattr(sweep, "ROOM", 1.5 * sweep.SCENE)
+    grid = {"contacts.floor.mu_v": [0.1, 0.2, 0.3]}
+    simulate_many("sphere_spin", grid, tmp_path, settings=["steps=1"], workers=1)
+    assert len(loads) == 3 + 2  # the first was kept

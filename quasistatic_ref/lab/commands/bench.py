@@ -3,8 +3,8 @@
 import argparse
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.files.content import text_written, writable_folder
 from quasistatic_ref.lab.bench.report import measured, page, rows
+from quasistatic_ref.text.content import text_written, writable_folder
 from quasistatic_ref.text.json_text import json_text
 
 

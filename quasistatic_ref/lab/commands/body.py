@@ -4,13 +4,17 @@ import argparse
 import sys
 from pathlib import Path
 
+from quasistatic_ref.files.clouds import KINDS
+from quasistatic_ref.files.mesh_files import MESHES
 from quasistatic_ref.parts import needing
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    formats = "a cloud (CSV, XYZ, PTS, PCD, NPY, NPZ) or a mesh (STL, OBJ, PLY, OFF, GLB, DAE)"
-    parser.add_argument("scan", type=Path, help=formats)
+    clouds, meshes = (
+        ", ".join(suffix.removeprefix(".").upper() for suffix in kinds) for kinds in (KINDS, MESHES)
+    )
+    parser.add_argument("scan", type=Path, help=f"a cloud ({clouds}) or a mesh ({meshes})")
     weight = parser.add_mutually_exclusive_group(required=True)
     weight.add_argument("--mass", type=float, metavar="KG", help="mass of the body [kg]")
     words = "density of the body, in place of its mass [kg/m^3]"

@@ -4,7 +4,7 @@ import argparse
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.quoting import suggestion
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -28,9 +28,9 @@ def run(options: argparse.Namespace) -> int:
     InputError
         If a name is unknown.
     """
-    from quasistatic_ref.files.content import writable_folder
     from quasistatic_ref.lab.figures.gallery import gallery_figure, gallery_scripts
     from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
+    from quasistatic_ref.text.content import writable_folder
 
     scripts = gallery_scripts()
     for name in options.names:

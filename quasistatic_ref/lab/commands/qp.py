@@ -1,22 +1,30 @@
 """``qp FILE``: the exact answer of a quadratic program, and what solvers make of it."""
 
 import argparse
+import sys
 import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.lab.qp_files.load import SUFFIXES, load_qp
-from quasistatic_ref.optional.qp.answer import Answer, ExactQP, NoOptimum
-from quasistatic_ref.optional.qp.exact import exact_qp
-from quasistatic_ref.text.quoting import listed, one_line
+from quasistatic_ref.exact.qp.answer import Answer, ExactQP, NoOptimum
+from quasistatic_ref.exact.qp.exact import exact_qp
+from quasistatic_ref.exact.qp.program import QuadraticProgram
+from quasistatic_ref.exact.time_limit import TimeIsUp
+from quasistatic_ref.lab.study.problems.names import NATURAL, RAW
+from quasistatic_ref.optional.qp_files.load import SUFFIXES, file_programs
+from quasistatic_ref.quoting import listed, one_line
 
 if TYPE_CHECKING:
     from quasistatic_ref.lab.study.row import Row
 
 SETTINGS = ("default", "high")
 """The accuracies that solvers are asked for: their own, and 1e-9."""
+HEADS = {
+    RAW: "solvers get the file's numbers; primal, dual and gap are in natural units",
+    NATURAL: "solvers get the program in natural units, in which primal, dual and gap are, too",
+}
 MOST_NAMES = 20
 """Active rows that a line names."""
 
@@ -30,6 +38,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         metavar="NAME",
         help="solvers of qpsolvers, or cvxpy:NAME (default for a folder: all that are installed)",
+    )
+    parser.add_argument(
+        "--units",
+        choices=(RAW, NATURAL),
+        default=RAW,
+        help="in which solvers get the program: raw, the file's numbers (default), or natural, "
+        "powers of two of these that are near one",
+    )
+    parser.add_argument(
+        "--seconds",
+        type=float,
+        help="for the proof of a program; one that takes longer is left out",
     )
     shared.add(parser, "-o", metavar="ANSWER.json")
     shared.add(parser, "--out", default="study")
@@ -46,19 +66,23 @@ def run(options: argparse.Namespace) -> int:
     if options.file.is_dir():
         return _study(options)
     with about_file(options.file):
-        answers = {name: _answer(program) for name, program in load_qp(options.file).items()}
+        programs = _loaded(options.file)
+        answers = {name: _answer(p, options.seconds) for name, p in programs.items()}
     for name, answer in answers.items():
         print(one_line(f"{name}: {_in_words(answer)}"))
     if options.output is not None:
         if len(answers) > 1:
             raise InputError("holds several programs; -o writes one", file=options.file)
         for answer in answers.values():
-            print(f"wrote {answer.save(options.output)}")
+            if not isinstance(answer, TimeIsUp):
+                print(f"wrote {answer.save(options.output)}")
     if options.solvers:
         from quasistatic_ref.lab.study.foreign import known, rows_of
 
         if known(answers):
-            shared.print_rows(_table(rows_of(answers, _labels(options.solvers), SETTINGS)))
+            rows = rows_of(answers, _labels(options.solvers), SETTINGS, options.units)
+            print(HEADS[options.units])
+            shared.print_rows(_table(rows))
     return 0 if all(isinstance(answer, ExactQP) for answer in answers.values()) else 3
 
 
@@ -67,13 +91,13 @@ def _study(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.run import study
     from quasistatic_ref.lab.study.store import ROWS
 
-    answers: dict[str, Answer] = {}
+    answers: dict[str, Answer | TimeIsUp] = {}
     for path in sorted(options.file.iterdir()):
-        if path.suffix not in SUFFIXES:
+        if path.suffix.lower() not in SUFFIXES:
             continue
         try:
-            programs = load_qp(path)
-            answers |= {name: _answer(program) for name, program in programs.items()}
+            for name, program in _loaded(path).items():
+                answers[name] = _answer(program, options.seconds)
         except InputError as error:  # the others are a study all the same
             print(f"{path.name}: left out: {error}")
     for name, answer in answers.items():
@@ -82,26 +106,38 @@ def _study(options: argparse.Namespace) -> int:
         problem = "holds no program with an optimum, or proved to have no solution"
         raise InputError(problem, file=options.file)
     labels = _labels(options.solvers or ["*"])
-    study(known(answers), labels, SETTINGS, options.out, progress=not options.quiet)
+    units = (options.units,)
+    progress = not options.quiet
+    study(known(answers), labels, SETTINGS, options.out, units=units, progress=progress)
     print(
         f"wrote {Path(options.out) / ROWS}; 'quasistatic-ref study report {options.out}' tables it"
     )
     return 0
 
 
-def _answer(program: object) -> Answer:
+def _loaded(path: Path) -> dict[str, QuadraticProgram]:
+    """The programs of a file; what its reader warns of is printed."""
+    with warnings.catch_warnings(record=True) as remarks:
+        warnings.simplefilter("always")
+        programs = file_programs(path)
+    for remark in remarks:
+        print(f"quasistatic-ref: {path}: {remark.message}", file=sys.stderr)
+    return programs
+
+
+def _answer(program: QuadraticProgram, seconds: float | None) -> Answer | TimeIsUp:
     try:
         with warnings.catch_warnings(action="ignore"):  # a remark is printed
-            return exact_qp(program)  # type: ignore[arg-type]  # a program has all arrays
-    except NoOptimum as proof:
-        return proof
+            return exact_qp(program, seconds=seconds)
+    except (NoOptimum, TimeIsUp) as end:
+        return end
 
 
 def _labels(names: list[str]) -> list[str]:
     return [name if ":" in name else f"qpsolvers:{name}" for name in names]
 
 
-def _in_words(answer: Answer) -> str:
+def _in_words(answer: Answer | TimeIsUp) -> str:
     if not isinstance(answer, ExactQP):
         return str(answer)
     names = answer.active

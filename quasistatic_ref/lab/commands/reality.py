@@ -4,9 +4,9 @@ import argparse
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import text_written, writable_folder
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.step.cones import ELLIPSOID, cone
+from quasistatic_ref.text.content import text_written, writable_folder
 from quasistatic_ref.text.json_text import json_text
 
 NAME = "reality"

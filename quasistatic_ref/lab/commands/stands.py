@@ -4,6 +4,7 @@ Exit status 0; with ``--strict`` 1 if a body lacks something; 3 if a step has no
 """
 
 import argparse
+import math
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -12,12 +13,11 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.run import scenario_of
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.parts import part
+from quasistatic_ref.quoting import listed
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.record.failures import RunFailed
-from quasistatic_ref.simulate.record.trajectory import Trajectory
 from quasistatic_ref.simulate.standing import NOTHING_FREE, WORDS, Standing, Standings
 from quasistatic_ref.text.plain import field_values
-from quasistatic_ref.text.quoting import listed
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -47,13 +47,16 @@ def run(options: argparse.Namespace) -> int:
     part("stands")  # or its sentence
     shared.check_at_least_one(options, "every")
     scenario = scenario_of(options)
+    if options.at is not None:  # what comes after is not asked
+        (last,) = asked_steps(scenario.steps, scenario.h, options.at)
+        scenario = scenario.with_fields(steps=last + 1)
     failure = None
     try:
         trajectory = scenario.run(progress=not options.quiet, findings=False)
     except RunFailed as failed:
         failure = failed
         trajectory = failed.trajectory
-    steps = asked_steps(trajectory, options.at, options.every)
+    steps = asked_steps(trajectory.steps, scenario.h, options.at, options.every)
     bar = progress_bar(steps, unit="step", words="stands", shown=not options.quiet)
     certify = options.certify or "off"
     answers = {k: trajectory.stands(k, scenario, certify=certify) for k in bar}
@@ -65,28 +68,36 @@ def run(options: argparse.Namespace) -> int:
         head = ("body", "stands", "since step", f"most missing, in the {cone}", "at step")
         shared.print_rows([head, *map(_cells, rows)], [*map(_note, rows)])
     else:
-        print(NOTHING_FREE)
+        print(NOTHING_FREE if answers else "no step has ended")
     if failure is not None:
         print(f"quasistatic-ref: {failure.reason}", file=sys.stderr)
         return 3
     return int(options.strict and any(row["stands"] is False for row in rows))
 
 
-def asked_steps(trajectory: Trajectory, at: float | None, every: int) -> list[int]:
+def asked_steps(steps: int, h: float, at: float | None, every: int = 1) -> list[int]:
     """The steps that are asked: the one that ends at a time [s], or every so manyth and the last.
+
+    Parameters
+    ----------
+    steps : int
+        Of the run.
+    h : float
+        [s].
+    at, every
+        As above.
 
     Raises
     ------
     InputError
         If no step ends there.
     """
-    last = trajectory.steps - 1
     if at is None:
-        return sorted({*range(every - 1, last + 1, every), last} - {-1})
-    k = round(at / trajectory.header.h) - 1
-    if not 0 <= k <= last:
-        end = (last + 1) * trajectory.header.h
-        raise InputError(f"must be the end of a step, up to {end:g} s", field="--at", value=at)
+        return sorted({*range(every - 1, steps, every), steps - 1} - {-1})
+    k = round(at / h) - 1 if abs(at) < math.inf else -1
+    if not 0 <= k < steps:
+        problem = f"must be the end of a step, up to {steps * h:g} s"
+        raise InputError(problem, field="--at", value=at)
     return [k]
 
 

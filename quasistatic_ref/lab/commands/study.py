@@ -7,10 +7,10 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
-from quasistatic_ref.files.content import writable_folder
 from quasistatic_ref.lab.commands import study_problems
 from quasistatic_ref.lab.study.row import Row
 from quasistatic_ref.lab.study.saying import SAYINGS
+from quasistatic_ref.text.content import writable_folder
 
 ACTIONS = {
     "run": "run the default study, or go on with one that was stopped",

@@ -6,8 +6,8 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.files.scenario.scenario import load_scenario
 from quasistatic_ref.lab.sweep import DONE, TABLE, simulate_many, swept_values
+from quasistatic_ref.quoting import counted
 from quasistatic_ref.text.json_text import json_text
-from quasistatic_ref.text.quoting import counted
 
 SHOWN = 4
 """Measures of each run that are printed; the rest is in the table."""

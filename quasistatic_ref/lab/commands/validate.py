@@ -5,7 +5,6 @@ import sys
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import text_written, writable_folder
 from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, NOT_RUN, ClaimResult, claim_result
 from quasistatic_ref.lab.claims.registry import BY_NAME, CLAIMS
 from quasistatic_ref.lab.claims.report import (
@@ -16,7 +15,8 @@ from quasistatic_ref.lab.claims.report import (
     summary,
 )
 from quasistatic_ref.lab.commands import reality
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.text.content import text_written, writable_folder
 
 IN = {
     "daqp": "daqp",

@@ -1,34 +1,48 @@
-"""The figures of a study: digits against time, and digits where the accuracy was reached."""
+"""The figures of a study: digits, times, and what papers show of both."""
 
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from quasistatic_ref.files.content import written_whole
 from quasistatic_ref.lab.figures.line_styles import pens
-from quasistatic_ref.optional.show.figures.style import PAGE
+from quasistatic_ref.optional.show.figures.style import PAGE, closed
+from quasistatic_ref.text.content import written_whole
+
+DEFAULT = "default"
+"""The setting whose marks are half-filled where others stand beside it."""
+UNFILLED = {"markerfacecolor": "white"}
+HALF = {"fillstyle": "left", "linestyle": ""}
 
 
-def figures_written(folder: Path, points: Any, reached: Any) -> list[Path]:
-    """Draw both figures of what has any lines, as PNG.
+def figures_written(folder: Path, points: Any, reached: Any, ratios: Any) -> list[Path]:
+    """Draw the figures of what has any lines, as PNG.
 
     Parameters
     ----------
     folder : Path
-    points, reached : pandas.DataFrame
-        What ``digits_time`` and ``reached_digits`` draw.
+    points, reached, ratios : pandas.DataFrame
+        What ``digits_time`` and ``shifted_means``, ``reached_digits``, and ``performance_profile``
+        draw.
     """
+    drawn = (
+        (digits_time, points),
+        (reached_digits, reached),
+        (performance_profile, ratios),
+        (shifted_means, points),
+    )
     paths = []
-    for draw, table in ((digits_time, points), (reached_digits, reached)):
+    for draw, table in drawn:
         if len(table):
             figure = draw(table)
             path = folder / f"{draw.__name__}.png"
-            paths.append(written_whole(path, partial(figure.savefig, dpi=200)))
-            plt.close(figure)
+            with closed(figure):
+                paths.append(written_whole(path, partial(figure.savefig, dpi=200)))
     return paths
 
 
@@ -40,19 +54,24 @@ def digits_time(table: Any) -> Figure:
     table : pandas.DataFrame
         Columns ``label``, ``setting`` (in the order of accuracy), ``digits`` [-] and ``ms``.
     """
-    names = list(dict.fromkeys(table["label"]))
-    pen = pens(names)
-    figure, axes = plt.subplots(figsize=(PAGE, 4.4), layout="constrained")
+    pen = pens(list(dict.fromkeys(table["label"])))
+    figure, axes = plt.subplots(figsize=(PAGE, 4.6), layout="constrained")
+    handles = []
     for name, points in table.groupby("label", sort=False):
-        default = points["setting"] == "default"
-        kinds: Any = (points[~default], "none", {}), (points[default], "left", {"linestyle": ""})
-        for part, fill, more in kinds:
+        default = points["setting"] == DEFAULT
+        line = UNFILLED if len(points[~default]) > 1 else UNFILLED | {"linestyle": ""}
+        kinds: Any = (points[default], HALF), (points[~default], line)
+        for part, looks in kinds:
             if len(part):
-                dress = pen[str(name)] | more | {"fillstyle": fill, "clip_on": False}
-                axes.plot(part["ms"], part["digits"], **dress)
+                dress = pen[str(name)] | looks
+                axes.plot(part["ms"], part["digits"], **dress | {"clip_on": False})
+        handles.append(Line2D([], [], **dress))
+    if 0 < (table["setting"] == DEFAULT).sum() < len(table):
+        grey: dict[str, Any] = {"marker": "o", "color": "0.45", "label": f"setting {DEFAULT}"}
+        handles.append(Line2D([], [], **grey | HALF))
     axes.set(xscale="log", xlabel="median time of a call [ms]", ylim=(0, 16.5))
-    axes.set(yticks=range(0, 17, 4), ylabel=r"median correct digits of $\delta q$ [-]")
-    _legend(figure, names)
+    axes.set(yticks=range(0, 17, 4), ylabel="median correct digits of x [-]")
+    _legend(figure, handles)
     return figure
 
 
@@ -73,15 +92,62 @@ def reached_digits(table: Any) -> Figure:
         at = families.index(one.family) + 0.18 * (k - (len(settings) - 1) / 2)
         dress = pen[one.setting] | {"markerfacecolor": "white", "markevery": [1]}
         axes.plot([one.low, one.median], [at, at], **dress)
-    axes.set(xlim=(0, 16.5), xlabel=r"correct digits of $\delta q$ [-]", ylim=(len(families), -1))
+    axes.set(xlim=(0, 16.5), ylim=(len(families), -1))
+    axes.set_xlabel("correct digits of x, from the 5th percentile to the median [-]")
     axes.set_yticks(range(len(families)), [family.replace("_", " ") for family in families])
-    _legend(figure, settings)
+    _legend(figure, [Line2D([], [], **pen[name], markerfacecolor="white") for name in settings])
     return figure
 
 
-def _legend(figure: Figure, names: list[str]) -> None:
+def performance_profile(table: Any) -> Figure:
+    """Shares of problems that are solved within factors of the fastest time, a line a solver.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        Columns ``label`` and ``ratio``, of times [-], infinite where a problem is not solved.
+    """
+    pen = pens(list(dict.fromkeys(table["label"])))
+    finite = table["ratio"][np.isfinite(table["ratio"])]
+    end = 1.2 * finite.max() if len(finite) else 10.0
+    figure, axes = plt.subplots(figsize=(PAGE, 4.4), layout="constrained")
+    handles = []
+    for name, calls in table.groupby("label", sort=False):
+        solved = np.sort(calls["ratio"][np.isfinite(calls["ratio"])])
+        shares = 100 * np.arange(len(solved) + 1) / len(calls)
+        dress = pen[str(name)] | UNFILLED | {"markevery": [1 + len(solved) // 2]}
+        steps = np.concatenate([[1.0], solved, [end]])
+        axes.plot(steps, [*shares, shares[-1]], drawstyle="steps-post", **dress)
+        handles.append(Line2D([], [], **pen[str(name)] | UNFILLED))
+    axes.set(xscale="log", xlim=(0.9, end), xlabel="time over that of the fastest solver [-]")
+    axes.set(ylim=(0, 100), ylabel="problems solved with 6 digits [%]")
+    _legend(figure, handles)
+    return figure
+
+
+def shifted_means(table: Any) -> Figure:
+    """Shifted geometric means of times, a row a solver and a mark a setting.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        Columns ``label``, ``setting``, ``order`` of its accuracy, and ``mean`` [ms].
+    """
+    order = table.groupby("label")["mean"].min().sort_values()
+    settings = list(dict.fromkeys(table.sort_values("order")["setting"]))
+    rows = dict(zip(order.index, range(len(order)), strict=True))
+    clear = {"markerfacecolor": "none", "linestyle": ""}  # marks may lie on each other
+    pen = {name: one | clear for name, one in pens(settings).items()}
+    figure, axes = plt.subplots(figsize=(PAGE, 1.2 + 0.24 * len(rows)), layout="constrained")
+    for name, points in table.groupby("setting", sort=False):
+        axes.plot(points["mean"], points["label"].map(rows), **pen[str(name)])
+    axes.set(xscale="log", ylim=(len(rows), -1), xlabel="shifted geometric mean of times [ms]")
+    axes.set_yticks(range(len(rows)), order.index)
+    _legend(figure, [Line2D([], [], **pen[name]) for name in settings])
+    return figure
+
+
+def _legend(figure: Figure, handles: Sequence[Line2D]) -> None:
     """A legend below the axes."""
-    drawn = pens(names)
-    handles = [Line2D([], [], **drawn[name], markerfacecolor="white") for name in names]
-    figure.legend(handles, names, loc="outside lower center", ncols=3, handlelength=2.6,
+    figure.legend(handles=handles, loc="outside lower center", ncols=3, handlelength=2.6,
                   columnspacing=1.0)  # fmt: skip

@@ -1,7 +1,7 @@
 """Two free bodies that may touch: their closest points."""
 
 from quasistatic_ref.contact.all_pairs import closest_points
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.lab.made_steps.systems import body_text, system_of

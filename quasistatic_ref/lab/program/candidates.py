@@ -15,7 +15,7 @@ FILLED = 1e6
 """Distance of what fills the number of contacts [m]."""
 
 REPEATED = 1e-9
-"""[m], and [-] of normals: candidates that differ by less are one."""
+"""[m]: candidates that differ by less, and by less than SAME_NORMAL in the normal, are one."""
 
 RANKED = 1e-9
 """Over the smaller shape's size: distances are rounded to multiples of it before they rank."""
@@ -267,7 +267,7 @@ def crossing_index(last, k, i, j):
 
 def repeats(phi, alpha, n):
     """Which candidates repeat an earlier one."""
-    every = np.column_stack([phi, alpha, n])
+    every = np.column_stack([phi, alpha, n * (REPEATED / SAME_NORMAL)])
     same = np.all(np.abs(every[:, None] - every) <= REPEATED, axis=2)
     return np.tril(same, -1).any(axis=1)
 

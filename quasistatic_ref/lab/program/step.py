@@ -36,11 +36,20 @@ def entry_of(case, pair):
 
 
 def contacts_of(case, at):
-    """The contacts, pair by pair, without J."""
+    """The contacts, pair by pair, without J.
+
+    Raises
+    ------
+    ValueError
+        If a pair of a mesh asks for several contacts.
+    """
     contacts = []
     for pair in case["pairs"]:
         k = pair["k"]
         alpha, beta = sides_of(case, pair, at).values()
+        kinds = {alpha[0]["kind"], beta[0]["kind"]}
+        if k > 1 and "convex" in kinds and "cloud" not in kinds:
+            raise ValueError("outlines of a mesh's faces are not known here: ask for k = 1")
         phi, a, b, n, index, late = candidates(*alpha, *beta, k)
         rank = gaps(phi, smaller(alpha[0], beta[0]))
         for i in k_first(rank, index, late, k):

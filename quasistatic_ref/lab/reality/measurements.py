@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import json_read
 from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.text.quoting import suggestion
+from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.text.content import json_read
 
 
 @dataclass(frozen=True, eq=False)

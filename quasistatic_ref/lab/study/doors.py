@@ -12,6 +12,7 @@ from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.lab.study.saying import INFEASIBLE, SOLVED, saying
 from quasistatic_ref.lab.study.solvers import CVXPY, FUNCTION, QPSOLVERS, Solver
 from quasistatic_ref.optional.extensions.by_function import real_numbers
+from quasistatic_ref.quoting import one_line
 from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.solver import Reply
 from quasistatic_ref.step.standard_form import StandardForm
@@ -50,10 +51,12 @@ def call_of(solver: Solver) -> Call:
 
     def safe(program: Program, options: Options) -> Reply:
         try:
-            return call(program, options)
+            reply = call(program, options)
         except Exception as error:  # whatever another package raises
             words = " ".join(f"{type(error).__name__}: {error}".split())
-            return Reply(None, None, False, words[:WORDS])
+            reply = Reply(None, None, False, words[:WORDS])
+        reply.status = one_line(reply.status)
+        return reply
 
     return safe
 

@@ -4,16 +4,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from quasistatic_ref.exact.qp.answer import Answer, ExactQP, QPInfeasible
+from quasistatic_ref.exact.time_limit import TimeIsUp
 from quasistatic_ref.lab.study.limits import Limits
-from quasistatic_ref.lab.study.problems.names import NATURAL
-from quasistatic_ref.lab.study.program import Program
+from quasistatic_ref.lab.study.program import Program, units_of
 from quasistatic_ref.lab.study.row import Row
 from quasistatic_ref.lab.study.run import measured, plan
 from quasistatic_ref.lab.study.solvers import settings_of, solvers_of
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.numbers.pivots import surely_positive
-from quasistatic_ref.optional.qp.answer import Answer, ExactQP, QPInfeasible
-from quasistatic_ref.solve.units import units_of
 from quasistatic_ref.step.standard_form import StandardForm, Units, si_units
 
 
@@ -66,21 +65,24 @@ class Foreign:
         return self.answer.digits(x)
 
 
-def known(answers: Mapping[str, Answer]) -> list[Foreign]:
+def known(answers: Mapping[str, Answer | TimeIsUp]) -> list[Foreign]:
     """Answers of ``exact_qp``, optima and proofs of infeasibility, as problems of a study."""
     kinds = ExactQP, QPInfeasible
     return [Foreign(name, a) for name, a in answers.items() if isinstance(a, kinds)]
 
 
 def rows_of(
-    answers: Mapping[str, Answer], solvers: Sequence[str], settings: Sequence[str]
+    answers: Mapping[str, Answer | TimeIsUp],
+    solvers: Sequence[str],
+    settings: Sequence[str],
+    units: str,
 ) -> list[Row]:
-    """The rows of a study of some answers, measured here and written nowhere."""
+    """The rows of a study of some answers in some units, measured here and written nowhere."""
     chosen = solvers_of(solvers)
     return [
         row
         for solver in chosen
         for row in measured(
-            plan(known(answers), [solver], settings_of(settings), [NATURAL]), Limits()
+            plan(known(answers), [solver], settings_of(settings), [units]), Limits()
         )
     ]

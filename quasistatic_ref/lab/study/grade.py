@@ -9,9 +9,9 @@ from quasistatic_ref.lab.study.program import Known, Program
 from quasistatic_ref.lab.study.saying import OTHER, saying
 from quasistatic_ref.lab.study.solvers import Solver
 from quasistatic_ref.numbers.arrays import Array
+from quasistatic_ref.quoting import clipped
 from quasistatic_ref.solve.solver import Reply
 from quasistatic_ref.solve.units import in_natural, in_si
-from quasistatic_ref.text.quoting import clipped
 
 RESIDUALS = ("primal", "dual", "gap")
 

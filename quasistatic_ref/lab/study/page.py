@@ -1,4 +1,4 @@
-"""The page of a study: tables in Markdown and two figures, from its rows as pandas has them.
+"""The page of a study: tables in Markdown and figures, from its rows as pandas has them.
 
 Digits that a call *delivers* are those of its x if the solver says that it solved, and 0 otherwise,
 since a simulator cannot go on with an answer that its solver does not stand by.
@@ -10,17 +10,25 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import text_written
 from quasistatic_ref.lab.markdown import markdown_table
+from quasistatic_ref.lab.study.compared import (
+    CALLED,
+    SHIFT,
+    SIX,
+    UNSOLVED,
+    counted_seconds,
+    profile_shares,
+    shifted_mean,
+    time_ratios,
+)
 from quasistatic_ref.lab.study.problems.names import NATURAL
 from quasistatic_ref.lab.study.row import Row
 from quasistatic_ref.lab.study.saying import INFEASIBLE, OTHER, SOLVED
 from quasistatic_ref.lab.study.solvers import SETTINGS
 from quasistatic_ref.parts import needed_package
+from quasistatic_ref.text.content import text_written
 
 PAGE = "summary.md"
-SIX = 6.0
-"""Correct digits that a simulation wants [-]."""
 ORDER = {setting.name: k for k, setting in enumerate(SETTINGS)}
 
 
@@ -45,7 +53,7 @@ def page_written(rows: Sequence[Row], folder: Path) -> list[Path]:
     table = table_of(rows)
     return [
         text_written(folder / PAGE, page(table)),
-        *figures_written(folder / "figures", points(table), reached(table)),
+        *figures_written(folder / "figures", points(table), reached(table), ratios(table)),
     ]
 
 
@@ -73,7 +81,8 @@ def page(table: Any) -> str:
         "# Solvers on problems with exact answers",
         "",
         f"{table['problem'].nunique()} problems, {table['label'].nunique()} pairs of solver and "
-        f"door, {len(table):,} calls. Calls in natural units, unless a table says otherwise.",
+        f"door, {len(table):,} calls. Calls in {_natural(table)['units'].iloc[0]} units, unless "
+        "a table says otherwise.",
         "",
         "## What solvers say",
         "",
@@ -88,6 +97,16 @@ def page(table: Any) -> str:
         "the problems with a solution.",
         "",
         *_lines(_best(every), options=False),
+        "",
+        f"The shifted geometric mean is that of qpbenchmark: its shift is {SHIFT:g} s, and a call "
+        f"without 6 digits counts as {UNSOLVED:g} s.",
+        "",
+        "## Performance profile",
+        "",
+        "**Share of problems [%] that a solver, called as above, solves with 6 digits within a "
+        "factor of the time of the fastest** (Dolan and Moré, 2002).",
+        "",
+        *_profile(table),
         "",
         "## Every setting",
         "",
@@ -105,7 +124,9 @@ def page(table: Any) -> str:
 
 
 def _natural(table: Any) -> Any:
-    return table[table["units"] == NATURAL]
+    """The calls in natural units; those as the numbers stand, if a study has no others."""
+    natural = table[table["units"] == NATURAL]
+    return natural if len(natural) else table
 
 
 def _sayings(table: Any) -> list[str]:
@@ -129,8 +150,9 @@ def _by_setting(table: Any) -> Any:
             missed=(solvable["says"] == SOLVED) & solvable["reached"].eq(False),
             infeasible=solvable["says"] == INFEASIBLE,
             other=solvable["says"] == OTHER,
+            counted=counted_seconds(solvable),
         )
-        .groupby(["label", "setting", "options"], sort=False)
+        .groupby(CALLED, sort=False)
         .agg(
             problems=("problem", "nunique"),
             six=("delivered", lambda values: 100 * (values >= SIX).mean()),
@@ -138,6 +160,7 @@ def _by_setting(table: Any) -> Any:
             digits=("delivered", "median"),
             ms=("ms", "median"),
             ms_95=("ms", lambda values: values.quantile(0.95)),
+            mean=("counted", lambda seconds: 1e3 * shifted_mean(seconds)),
             missed=("missed", "sum"),
             infeasible=("infeasible", "sum"),
             other=("other", "sum"),
@@ -151,18 +174,19 @@ def _by_setting(table: Any) -> Any:
 def _best(every: Any) -> Any:
     """The best row of each solver: the one that most often has six digits."""
     order = every.sort_values(["six", "ms"], ascending=[False, True])
-    return order[~order["label"].str.partition(":")[2].duplicated()]
+    return order[~order["label"].str.split(":", n=1).str[-1].duplicated()]
 
 
 def _lines(every: Any, options: bool) -> list[str]:
     columns = ["solver", "setting", "problems", ">= 6 digits [%]", ">= 3 digits [%]",
-               "digits, median", "time, median [ms]", "time, 95 % [ms]", "solved, not reached",
-               "infeasible", "other"]  # fmt: skip
+               "digits, median", "time, median [ms]", "time, 95 % [ms]", "time, shifted mean [ms]",
+               "solved, not reached", "infeasible", "other"]  # fmt: skip
     rows = []
     for one in every.itertuples():
         shares = (_shown(v) for v in (one.six, one.three, one.digits))
-        rows.append([one.label, one.setting, one.problems, *shares, f"{one.ms:.3g}",
-                     f"{one.ms_95:.3g}", one.missed, one.infeasible, one.other])  # fmt: skip
+        times = (f"{float(f'{v:.3g}'):g}" for v in (one.ms, one.ms_95, one.mean))
+        counts = (one.missed, one.infeasible, one.other)
+        rows.append([one.label, one.setting, one.problems, *shares, *times, *counts])
         if options:
             rows[-1].append(f"`{one.options}`")
     return markdown_table([*columns, *["options"] * options], rows, 2)
@@ -210,10 +234,22 @@ def _units(table: Any) -> Iterator[str]:
 
 
 def points(table: Any) -> Any:
-    """Median digits and time of each solver, through its best door, at each setting."""
+    """Median digits and times of each solver, through its best door, at each setting."""
     every = _by_setting(table)
     shown = every["label"].isin(_best(every)["label"]) & (every["ms"] > 0)
-    return every[shown][["label", "setting", "digits", "ms"]]
+    return every[shown][["label", "setting", "order", "digits", "ms", "mean"]]
+
+
+def ratios(table: Any) -> Any:
+    """Times over the fastest of each solver as it has six digits most often, a line a call [-]."""
+    solvable = _natural(table)[lambda rows: rows["feasible"]]
+    return time_ratios(solvable, _best(_by_setting(table)))
+
+
+def _profile(table: Any) -> list[str]:
+    shares = profile_shares(ratios(table))
+    rows = [[name, *map(_shown, line)] for name, *line in shares.itertuples()]
+    return markdown_table(["solver", *shares.columns], rows, 1)
 
 
 def reached(table: Any) -> Any:

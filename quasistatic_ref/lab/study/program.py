@@ -2,8 +2,12 @@
 
 from typing import NamedTuple, Protocol
 
-from quasistatic_ref.numbers.arrays import Array
-from quasistatic_ref.solve.units import natural_form
+import numpy as np
+
+from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.numbers.arrays import Array, all_finite
+from quasistatic_ref.solve.by_group import coordinate_units
+from quasistatic_ref.solve.units import natural_units, out_of_range, sizes_of, squared_lengths
 from quasistatic_ref.step.standard_form import StandardForm, Units
 
 
@@ -28,9 +32,33 @@ class Program(NamedTuple):
     equations: int = 0
 
     def natural(self, units: Units) -> "Program":
-        """The program in natural units, which are powers of two: nothing is rounded."""
-        form = natural_form(StandardForm(*self[:4]), units)
+        """The program in natural units, which are powers of two: nothing is rounded.
+
+        Raises
+        ------
+        StepDataError
+            If a number leaves the range of float64.
+        """
+        S, ell, rho = units
+        H, g, A, b = self[:4]
+        form = StandardForm(H * np.outer(S, S), g * S / rho, A * (S / ell), b / (rho * ell))
+        if not all(all_finite(array.ravel()) for array in form):
+            raise out_of_range()
         return Program(*form, self.equations)
+
+
+def units_of(form: StandardForm) -> Units:
+    """Natural units of any program; not finite where its numbers are not.
+
+    Raises
+    ------
+    StepDataError
+        As :func:`~quasistatic_ref.certify.norm.energy_norm`.
+    """
+    coordinate = coordinate_units(np.diag(form.H))
+    free_length = energy_norm(form.H).of_impulse(form.g)
+    sizes = sizes_of(squared_lengths(form.A, coordinate), form.b, free_length)
+    return natural_units(coordinate, sizes)
 
 
 class Known(Protocol):

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import json_read, text_written
 from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.machine import machine
 from quasistatic_ref.lab.parallel import results
@@ -26,6 +25,7 @@ from quasistatic_ref.lab.study.solvers import Setting, Solver, settings_of, solv
 from quasistatic_ref.lab.study.store import ROWS, rows_read, rows_written
 from quasistatic_ref.lab.study.worker import Ended, Question, SolverProcess
 from quasistatic_ref.simulate.progress import progress_bar
+from quasistatic_ref.text.content import json_read, text_written
 from quasistatic_ref.text.json_text import json_text
 from quasistatic_ref.text.plain import fingerprint
 

@@ -11,8 +11,8 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.parts import needed_package
+from quasistatic_ref.quoting import suggestion
 from quasistatic_ref.solve.backends import BACKENDS, Options, installed
-from quasistatic_ref.text.quoting import suggestion
 
 QPSOLVERS, CVXPY, FUNCTION = ("qpsolvers", "cvxpy", "function")
 """Matrices to qpsolvers; a problem to CVXPY; ``(P, q, G, h, **options) -> (x, z, status)``."""

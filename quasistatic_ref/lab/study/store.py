@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import written_whole
 from quasistatic_ref.lab.study.row import Row, key_of
 from quasistatic_ref.parts import needed_package
+from quasistatic_ref.text.content import written_whole
 
 ROWS = "rows.parquet"
 COLUMNS = get_type_hints(Row)

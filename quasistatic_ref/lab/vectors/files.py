@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import json_read, text_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import Json
+from quasistatic_ref.quoting import suggestion
+from quasistatic_ref.text.content import json_read, text_written
 from quasistatic_ref.text.json_text import plain
-from quasistatic_ref.text.quoting import suggestion
 from quasistatic_ref.text.table_reader import TableReader
 
 VERSION = 1

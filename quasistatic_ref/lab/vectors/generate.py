@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from quasistatic_ref.errors import InputError, QuasistaticError
-from quasistatic_ref.files.content import bytes_read, bytes_written, text_written, writable_folder
 from quasistatic_ref.lab.vectors.agreed import PROGRAM, agreed_record
 from quasistatic_ref.lab.vectors.files import (
     Case,
@@ -23,6 +22,7 @@ from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.trees import Json
 from quasistatic_ref.lab.vectors.versions import FORMAT, FORMAT_VERSION, MANIFEST, RELEASE
 from quasistatic_ref.simulate.progress import progress_bar
+from quasistatic_ref.text.content import bytes_read, bytes_written, text_written, writable_folder
 
 COPIED = ("README.md", "CITATION.cff", "LICENSE*", "inputs/*.json", "schemas/*.json")
 """What is taken over as it is."""

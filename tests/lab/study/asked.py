@@ -7,6 +7,7 @@ from quasistatic_ref.lab.study.page import page, page_written, table_of
 from quasistatic_ref.lab.study.problems.folder import FACTS, NUMBERS, manifest, set_read
 from quasistatic_ref.lab.study.problems.selection import problems_taken
 from quasistatic_ref.lab.study.program import Program
+from quasistatic_ref.lab.study.row import Row
 from quasistatic_ref.lab.study.run import measured, plan, study
 from quasistatic_ref.lab.study.solvers import (
     BY_NAME,
@@ -29,6 +30,7 @@ __all__ = [
     "SETTINGS",
     "Limits",
     "Program",
+    "Row",
     "Setting",
     "Solver",
     "call_of",

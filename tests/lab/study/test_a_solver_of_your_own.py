@@ -5,11 +5,16 @@ import os
 import shlex
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pandas
 import pytest
 
+from quasistatic_ref import InputError
+from quasistatic_ref.lab.study.page import table_of
+from quasistatic_ref.lab.study.solvers import function_solver
+from quasistatic_ref.lab.study.store import rows_read
 from tests.lab.study.asked import Limits, study
 from tests.pages import EXAMPLES, ROOT, named_files, shell_lines
 from tests.processes import python
@@ -58,3 +63,19 @@ def test_a_program_in_c_runs_in_a_study(folder, monkeypatch):
     solved = rows[rows.feasible & (rows.says == "solved")]
     assert len(solved) >= 2
     assert (solved.digits > 9).all()
+
+
+LACKING = {
+    "pyarrow": lambda: rows_read("study"),
+    "pandas": lambda: table_of([]),
+    "cloudpickle": lambda: function_solver(print),
+}
+
+
+@pytest.mark.parametrize("package", LACKING)
+def test_the_page_names_the_remedy_of_a_package_that_is_missing(package, monkeypatch):
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(InputError, match=f"needs {package}: ") as refused:
+        LACKING[package]()
+    _, remedy = str(refused.value).split(": ")
+    assert f"`{remedy}`" in PAGE

@@ -45,7 +45,7 @@ def test_lines_of_the_tables_by_loops_over_the_rows(committed, table):
     osqp = [row for row in natural if (row.door, row.solver) == ("qpsolvers", "osqp")]
     high = [row for row in osqp if row.setting == "high" and row.feasible]
     digits = [row.digits if row.says == "solved" else 0.0 for row in high]
-    (line,) = cells(text.partition("## Every setting")[0], "qpsolvers:osqp")
+    (line,) = cells(text.partition("## Performance profile")[0], "qpsolvers:osqp")
     shares = [f"{100 * sum(d >= most for d in digits) / len(digits):.1f}" for most in (6, 3)]
     assert line[1:6] == ["high", str(len(high)), *shares, f"{median(digits):.1f}"]
     assert float(line[6]) == pytest.approx(1e3 * median(row.seconds for row in high), 1e-2)
@@ -76,7 +76,8 @@ def test_in_how_many_families_an_accuracy_that_is_reached_gives_six_digits(table
 def test_the_page_is_written_with_its_figures(committed, tmp_path):
     paths = page_written(committed[::50], tmp_path)
     names = [path.relative_to(tmp_path).as_posix() for path in paths]
-    assert names == ["summary.md", "figures/digits_time.png", "figures/reached_digits.png"]
+    drawn = ("digits_time", "reached_digits", "performance_profile", "shifted_means")
+    assert names == ["summary.md", *(f"figures/{name}.png" for name in drawn)]
     with pytest.raises(InputError, match="there are no rows to show; run the study first"):
         page_written([], tmp_path)
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.program.distance import closest_points
+from quasistatic_ref.lab.program.step import contacts_of
 from tests.cases import first
 from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import (
@@ -87,3 +88,15 @@ def test_the_plain_program_shares_no_code_with_the_package():
                 assert {alias.name for alias in part.names} <= LIBRARIES
             elif isinstance(part, ast.ImportFrom):
                 assert part.module in (own if part.level == 1 else LIBRARIES)
+
+
+@pytest.mark.parametrize("other", ["convex", "box", "halfspace"])
+def test_several_contacts_of_a_mesh_are_refused(other):
+    pose = {"xyz": [0, 0, 0], "quaternion": [0, 0, 0, 1]}
+    shapes = {
+        name: {"body": None, "shape": {"kind": kind}, "pose": pose}
+        for name, kind in (("mesh", "convex"), ("other", other))
+    }
+    pair = {"name": "p", "alpha": "mesh", "beta": "other", "k": 2}
+    with pytest.raises(ValueError, match="ask for k = 1"):
+        contacts_of({"shapes": shapes, "pairs": [pair]}, {None: (np.eye(3), np.zeros(3), None)})

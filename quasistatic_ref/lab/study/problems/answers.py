@@ -5,11 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.certify.failures import StepInfeasible
-from quasistatic_ref.certify.form import ExactForm
 from quasistatic_ref.certify.groups import group_steps
-from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.certify.optimum import optimum_by_groups
-from quasistatic_ref.certify.step_form import StepForm
+from quasistatic_ref.certify.step_program import StepProgram
+from quasistatic_ref.exact.minimiser import Minimiser
+from quasistatic_ref.exact.program import ExactProgram
 from quasistatic_ref.lab.made_steps.rigid import program_step
 from quasistatic_ref.lab.study.problems.problem import EXACT, Answer
 from quasistatic_ref.numbers.arrays import Array
@@ -40,16 +40,16 @@ def exact_answer(form: StandardForm, warm: Sequence[int] = ()) -> Answer:
         return Answer(EXACT, 0.0, NONE, NONE, NONE, NONE, farkas)
     slack = np.zeros(step.m)
     for group, part in parts:
-        slack[group.rows] = exact_slack(StepForm(part), group.within(optimum.working_set))
+        slack[group.rows] = exact_slack(StepProgram(part), group.within(optimum.working_set))
     return Answer(EXACT, 0.0, optimum.delta_q, optimum.net, slack, optimum.lam, {})
 
 
-def exact_slack(form: ExactForm, working_set: Sequence[int]) -> Array:
+def exact_slack(form: ExactProgram, working_set: Sequence[int]) -> Array:
     """A x - b at the minimiser on a working set, each entry rounded correctly, shape (m,) [m].
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactProgram
     working_set : sequence of int
         Independent rows.
     """

@@ -12,10 +12,10 @@ import numpy as np
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import bytes_written, text_written, written_whole
 from quasistatic_ref.lab.folders import contact_qp_folder
 from quasistatic_ref.lab.study.problems.problem import QP, Problem
 from quasistatic_ref.parts import needed_package
+from quasistatic_ref.text.content import bytes_written, text_written, written_whole
 
 CARRIED = ("LICENSE*", "CITATION.cff")
 """Files of contact-qp that come with every export."""

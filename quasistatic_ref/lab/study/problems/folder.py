@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import LARGEST_TEXT, bytes_read, json_read
 from quasistatic_ref.files.npz import npz_arrays
 from quasistatic_ref.lab.study.problems.problem import ENCLOSED, EXACT, Answer, Problem
 from quasistatic_ref.step.standard_form import Units
+from quasistatic_ref.text.content import LARGEST_TEXT, bytes_read, json_read
 from quasistatic_ref.text.table_reader import TableReader
 
 FORMAT = "quasistatic-ref/problem-set"

@@ -12,10 +12,10 @@ from quasistatic_ref.files.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.lab.study.problems.answers import exact_answer
 from quasistatic_ref.lab.study.problems.problem import QP, Problem
 from quasistatic_ref.lab.study.problems.selection import evenly
+from quasistatic_ref.lab.study.program import units_of
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.record.failures import RunFailed
 from quasistatic_ref.simulate.record.trajectory import Trajectory
-from quasistatic_ref.solve.units import units_of
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
 

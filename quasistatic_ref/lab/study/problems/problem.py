@@ -7,8 +7,9 @@ from typing import Any
 
 from scipy.sparse import csr_matrix
 
-from quasistatic_ref.certify.norm import digits_of_error, energy_norm
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.exact.digits import digits_of_error
 from quasistatic_ref.lab.study.program import Program
 from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.step.standard_form import StandardForm, Units, si_units

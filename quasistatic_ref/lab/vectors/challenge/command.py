@@ -5,11 +5,11 @@ import sys
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.files.content import json_read
 from quasistatic_ref.lab.vectors.challenge.finding import FORMAT
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.run import Outcome, asked_again, challenge
 from quasistatic_ref.lab.vectors.check.verdict import DIGITS
+from quasistatic_ref.text.content import json_read
 
 
 def challenge_status(options: argparse.Namespace) -> int:
@@ -63,10 +63,13 @@ def _print_outcome(outcome: Outcome, options: argparse.Namespace) -> None:
                 "implementation": outcome.implementation,
                 "findings": [finding.record for finding in outcome.findings],
                 "remark": outcome.remark,
+                "not_asked": outcome.not_asked,
             }
         )
         return
     shared.print_rows(outcome.rows)
+    if outcome.not_asked:
+        print(outcome.not_asked)
     if options.again or options.quiet:
         for finding in outcome.findings:
             print(f"quasistatic-ref: {finding.title}", file=sys.stderr)

@@ -6,10 +6,10 @@ import shlex
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from quasistatic_ref.files.content import text_written
 from quasistatic_ref.lab.vectors.check.side_by_side import side_by_side
 from quasistatic_ref.lab.vectors.trees import Json, mapped
-from quasistatic_ref.text.quoting import aligned
+from quasistatic_ref.quoting import aligned
+from quasistatic_ref.text.content import text_written
 
 RECORD = "counterexample.json"
 FORMAT = "quasistatic-ref/counterexample"

@@ -28,6 +28,14 @@ EASY_CASES = 5
 """The first cases of a layer; plain ones and hard ones take turns after them."""
 MOST_FINDINGS = 3
 """Findings of a layer, after which it gets no further cases."""
+ROUND = ("cylinder", "cone", "ellipsoid")
+EDGED = ("box", "capsule", "convex")
+"""Kinds of shapes: the plain program has no answer where a round one overlaps one of these, or
+another round one."""
+UNANSWERED = (
+    f"not asked: a {', '.join(ROUND[:-1])} or {ROUND[-1]} in a {', '.join(EDGED[:-1])} or "
+    f"{EDGED[-1]} shape, or in another of them: the plain program has no answer where they overlap"
+)
 CASES = 1000
 """How many are asked if neither they nor the time is limited."""
 
@@ -69,6 +77,11 @@ class Outcome:
         """Where to look first; empty if no answer is wrong."""
         wrong = {finding.layer for finding in self.findings if finding.kind == "wrong"}
         return next((usual_sentence(layer) for layer in CHALLENGED if layer in wrong), "")
+
+    @property
+    def not_asked(self) -> str:
+        """What no case of its layers has; empty if they have no pairs of shapes."""
+        return UNANSWERED if self.cases("distance") or self.cases("step") else ""
 
     @property
     def status(self) -> int:

@@ -19,7 +19,7 @@ from quasistatic_ref.lab.vectors.check.multipliers import farkas_verdict
 from quasistatic_ref.lab.vectors.check.verdict import FAILED, PASSED, Verdict, acceptance, failure
 from quasistatic_ref.lab.vectors.layers.derivative import FIELDS
 from quasistatic_ref.lab.vectors.trees import Json
-from quasistatic_ref.text.quoting import one_line
+from quasistatic_ref.quoting import one_line
 
 IN_PART = ("step", "derivative")
 """Layers whose answers may leave fields out; nothing is said of these."""

@@ -9,7 +9,8 @@ from operator import mul
 
 import numpy as np
 
-from quasistatic_ref.certify.farkas import farkas_refutation, fractions_read
+from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.exact.fractions import fractions_read
 from quasistatic_ref.lab.made_steps.rigid import program_step
 from quasistatic_ref.lab.program.wrench import contact_wrench
 from quasistatic_ref.lab.vectors.check.compare import ROUNDING, number_problem, tolerance_of

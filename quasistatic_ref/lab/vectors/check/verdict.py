@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass, replace
 import numpy as np
 
 from quasistatic_ref.lab.vectors.trees import Json
-from quasistatic_ref.text.quoting import one_line
+from quasistatic_ref.quoting import one_line
 
 PASSED = "passed"
 ACCEPTABLE = "acceptable"

@@ -10,7 +10,7 @@ import numpy as np
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.groups import group_steps
 from quasistatic_ref.contact.all_pairs import closest_points
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.forces import COMPLIANCE
@@ -22,6 +22,7 @@ from quasistatic_ref.numbers.arrays import Array
 from quasistatic_ref.optional.forces.forces import contact_forces
 from quasistatic_ref.optional.forces.of_group import group_compliance
 from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.simulate.form_step import form_step
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Contacts, StepData
 from quasistatic_ref.step.solution import StepSolution
@@ -84,7 +85,7 @@ def posed_case(case_input: Json) -> PosedCase:
     points = points.chosen(order)
     force = wrench_force(case_input, mine, q)
     q_bar_a = target[: system.n_q_a]
-    step = simulator.step_data(q, q_bar_a, force, points)
+    step = form_step(simulator.plan, system.at(q), q_bar_a, force, points)
     return PosedCase(mine, simulator, q, q_bar_a, force, points, step)
 
 
@@ -95,7 +96,7 @@ def own_step(case_input: Json) -> Json:
     output = _program(step, mine)
     output["contacts"] = [
         {
-            "pair": simulator.layout.names[j],
+            "pair": simulator.plan.layout.names[j],
             "index": int(points.point[j]),
             "alpha": points.alpha[j].tolist(),
             "beta": points.beta[j].tolist(),
@@ -123,7 +124,7 @@ def own_step(case_input: Json) -> Json:
 def _forces(case: Json, simulator: Simulator, solution: StepSolution) -> Json:
     """The forces by the compliances of a case, where contacts of a group have one."""
     compliance_of = {pair["name"]: pair.get("compliance", COMPLIANCE) for pair in case["pairs"]}
-    each = np.array([compliance_of[name] for name in simulator.layout.names])
+    each = np.array([compliance_of[name] for name in simulator.plan.layout.names])
     try:
         forces = contact_forces(solution.step, each, (solution.delta_q, solution.wrench))
     except InputError:
@@ -137,7 +138,7 @@ def with_compliance(case: Json) -> Json:
     compliances = np.zeros(posed.step.contacts.n_c)
     for group, part in group_steps(posed.step):
         compliances[group.contacts] = COARSER * group_compliance(part)
-    by_pair = dict(zip(posed.simulator.layout.names, compliances.tolist(), strict=True))
+    by_pair = dict(zip(posed.simulator.plan.layout.names, compliances.tolist(), strict=True))
     return {**case, "pairs": [{**p, "compliance": by_pair[p["name"]]} for p in case["pairs"]]}
 
 

@@ -13,6 +13,7 @@ import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.certify.norm import error_length
+from quasistatic_ref.lab.study.problems import folder
 from quasistatic_ref.lab.study.problems.checking import refutation
 from tests.lab.study.asked import FACTS, NUMBERS, contact_qp_folder, manifest, set_read
 from tests.oracles.rational_kkt import exact
@@ -62,6 +63,16 @@ def test_an_answer_that_was_changed_is_refuted(members, kind):
         changed = replace(one.answer, x=one.answer.x * (1 + off))
     assert refutation(one) is None
     assert refutation(replace(one, answer=changed)) is not None
+
+
+def test_the_command_proves_answers_again_and_names_a_changed_one(members, monkeypatch, cli):
+    right = next(one for one in members if one.answer.kind == "exact" and not one.answer.farkas)
+    wrong = replace(right, answer=replace(right.answer, x=right.answer.x * (1 + 2e-16)))
+    for one, refuted in ((right, 0), (wrong, 1)):
+        monkeypatch.setattr(folder, "set_read", lambda *_, one=one: [one])
+        said = cli("study problems check --exact --quiet", status=refuted)
+        assert f"{1 - refuted} answers proved again, {refuted} refuted" in said.out
+        assert (right.id in said.err) == bool(refuted)
 
 
 def test_a_set_whose_numbers_were_changed_is_refused(tmp_path):

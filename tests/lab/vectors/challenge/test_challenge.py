@@ -5,8 +5,11 @@ import shlex
 
 import pytest
 
+from quasistatic_ref.lab.program.layers import plain
 from quasistatic_ref.lab.vectors.challenge.fresh import CHALLENGED, cut_scene, fresh_case
-from quasistatic_ref.lab.vectors.challenge.run import challenge
+from quasistatic_ref.lab.vectors.challenge.fresh import record_of as fresh_record
+from quasistatic_ref.lab.vectors.challenge.random_scenes import SHAPES
+from quasistatic_ref.lab.vectors.challenge.run import EDGED, ROUND, UNANSWERED, challenge
 from tests.lab.vectors.challenge.programs import command
 from tests.lab.vectors.committed_cases import record_of
 
@@ -74,3 +77,34 @@ def test_the_package_and_the_plain_program_agree_on_new_cases(level, seeds):
         for name in CHALLENGED:
             measured = name in ("distance", "step") and CURVED & kinds
             assert measured or record_of(name, cases[name]), (name, seed)
+
+
+def overlapping(alpha, beta, rng):
+    """An input of the layer `distance`: two shapes at nearly the same place."""
+    poses = [{"xyz": rng.uniform(-0.01, 0.01, 3), "quaternion": rng.normal(size=4)} for _ in "ab"]
+    return plain(
+        {"alpha": {"kind": alpha, **SHAPES[alpha]}, "pose_alpha": poses[0]}
+        | {"beta": {"kind": beta, **SHAPES[beta]}, "pose_beta": poses[1]}
+    )
+
+
+SOLIDS = [kind for kind in SHAPES if kind not in ("cloud", "halfspace")]
+
+
+@pytest.mark.parametrize("alpha", SOLIDS)
+def test_overlaps_that_no_case_has_are_said_and_others_have_an_answer(alpha, rng):
+    for beta in SOLIDS:
+        is_round = [kind in ROUND for kind in (alpha, beta)]
+        said = all(is_round) or (any(is_round) and bool({alpha, beta} & {*EDGED}))
+        answer = fresh_record("distance", overlapping(alpha, beta, rng))
+        assert (answer is None) == said, beta
+    assert {*ROUND, *EDGED} <= {*UNANSWERED.replace(",", "").split()}
+
+
+@pytest.mark.parametrize(("layer", "says"), [("distance", True), ("step", True), ("qp", False)])
+def test_the_report_says_which_overlaps_are_not_asked(layer, says, tmp_path, cli):
+    program = command("wrong", tmp_path)
+    words = f"vectors challenge --cases 1 --layer {layer} --command '{program}' --out", tmp_path
+    assert (UNANSWERED in cli(*words, status=1).out) == says
+    report = json.loads(cli(*words, "--json", status=1).out)
+    assert report["not_asked"] == (UNANSWERED if says else "")

@@ -2,6 +2,7 @@
 
 import json
 import signal
+import time
 
 import pytest
 
@@ -41,6 +42,15 @@ def test_a_program_that_is_right_has_no_findings(challenged):
     assert (counts(printed), printed.err) == (RIGHT, "")
 
 
+def test_cases_are_asked_for_some_seconds(tmp_path, cli):
+    program = "--command", f"'{command('right', tmp_path)}'", "--out", tmp_path / "found"
+    begin = time.monotonic()
+    (row,) = counts(cli("vectors challenge", SELECTION, "--seconds 0.5 --quiet", *program))
+    assert time.monotonic() - begin >= 0.5
+    assert int(row["passed"]) > 0
+
+
+@pytest.mark.shared
 @pytest.mark.parametrize(
     ("name", "kind", "words"),
     [

@@ -64,6 +64,7 @@ def test_the_mistakes_are_those_of_the_page():
     assert layers_of == {n: {layer for layer, *_ in MISTAKES[n]["changes"]} for n in names}
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize(("name", "layer", "field", "file", "right", "wrong"), OF_THE_PAGE)
 def test_a_committed_case_finds_each_mistake_and_passes_without_it(
     name, layer, field, file, right, wrong

@@ -115,6 +115,7 @@ def noisy(value, size, rng):
     return [one + size * top * rng.uniform(-1, 1) for one in value]
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("layer", NUMPY)
 def test_noise_of_1e_15_is_rounding_and_of_1e_13_is_right_to_12_digits(layer, rng):
     """On what the plain program answers."""
