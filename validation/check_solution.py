@@ -432,20 +432,22 @@ def convex(P, rows):
 def balanced(P, q, W, L):
     """The x and y of P x + q + W'y = 0 where rows W and L hold, x of least norm; None if none.
 
-    And the multipliers of L that hold x against directions that P and W leave free.
+    And the multipliers of L that hold x against the directions v of other points: P v + W'm = 0.
     """
     n, k = len(q), len(W)
     M = [[*row, *(a[i] for a, _, _ in W)] for i, row in enumerate(P)]
     M += [[*a, *[Fraction(0)] * k] for a, _, _ in W + L]
     found = solutions(M, [-v for v in q] + [side for _, side, _ in W + L], n + k)
-    if found is None or any(any(v[n:]) for v in found[1]):
+    _, loose = solutions(M[: n + k], [Fraction(0)] * (n + k), n + k)
+    if found is None or not all(any(v[:n]) for v in loose):  # W is dependent
         return None
-    (z, free), (_, loose) = found, solutions(P + [a for a, _, _ in W], [Fraction(0)] * (n + k), n)
-    x, N = z[:n], [v[:n] for v in free]
-    w, _ = solutions([[dot(u, v) for v in N] for u in N], [-dot(u, x) for u in N], len(N))
-    x = [v + sum(t * u[i] for t, u in zip(w, N, strict=True)) for i, v in enumerate(x)]
+    z, free = found
+    squares = [[dot(u[:n], v[:n]) for v in free] for u in free]
+    w, _ = solutions(squares, [-dot(u[:n], z[:n]) for u in free], len(free))
+    z = [v + sum(t * u[i] for t, u in zip(w, free, strict=True)) for i, v in enumerate(z)]
+    x = z[:n]
     held = solutions(
-        [[dot(a, u) for a, _, _ in L] for u in loose], [-dot(x, u) for u in loose], len(L)
+        [[dot(a, u[:n]) for a, _, _ in L] for u in loose], [-dot(x, u[:n]) for u in loose], len(L)
     )
     return None if held is None or held[1] else (x, z[n:], held[0])
 
@@ -506,7 +508,8 @@ def program_verdicts(qp):
         way = [number(v, "direction") for v in qp["direction"]]
         need(len(way) == n, "direction has another length than q")
         bear = {name for name, y in zip(qp["active"], y_W, strict=True) if y}
-        free = any(way) and not any(along(P, way)) and dot(q, way) == 0
+        pull = along(P, way)
+        free = any(way) and dot(way, pull) == 0 and dot(q, way) + dot(x, pull) == 0
         for name, (a, side, sign) in rows.items():
             slope = dot(a, way)
             if slope and (name in bear or not sign or (dot(a, x) == side and slope * sign > 0)):

@@ -16,7 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.files.content import text_written
+from quasistatic_ref.text.content import text_written
 from validation.programs.engines.table import page
 from validation.tools.scripts import RESULTS, ROOT, environment, record_written, script_options
 

@@ -8,7 +8,7 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.files.content import text_written
+from quasistatic_ref.text.content import text_written
 from quasistatic_ref.text.json_text import plain
 
 ROOT = Path(__file__).parents[2]

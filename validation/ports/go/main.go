@@ -169,7 +169,12 @@ func supported(layer string, input []byte) bool {
 		read(input, &in)
 		for _, pair := range in.Pairs {
 			alpha, beta := in.Shapes[pair.Alpha].Shape, in.Shapes[pair.Beta].Shape
-			kinds = append(kinds, [2]string{named(alpha).Kind, named(beta).Kind})
+			one, other := named(alpha).Kind, named(beta).Kind
+			kinds = append(kinds, [2]string{one, other})
+			// Outlines of a mesh's faces are not known here.
+			if pair.K > 1 && (one == "convex" || other == "convex") && one != "cloud" && other != "cloud" {
+				return false
+			}
 		}
 	}
 	for _, pair := range kinds {

@@ -100,7 +100,7 @@ func candidates(alpha, beta Shape, at, bt Pose, k int) (found []Candidate) {
 	}
 	for i, c := range found {
 		for _, d := range found[:i] {
-			if math.Abs(c.Phi-d.Phi) <= 1e-9 && norm(sub(c.Alpha, d.Alpha)) <= 1e-9 && norm(sub(c.N, d.N)) <= 1e-9 {
+			if math.Abs(c.Phi-d.Phi) <= 1e-9 && norm(sub(c.Alpha, d.Alpha)) <= 1e-9 && norm(sub(c.N, d.N)) <= 1e-6 {
 				found[i].behind = true
 			}
 		}
