@@ -128,15 +128,14 @@ doctest_global_setup = """
 from fractions import Fraction
 import numpy as np
 import quasistatic_ref as qr
-from quasistatic_ref.certify.norm import digits_of_error
+from quasistatic_ref.exact.digits import digits_of_error
 from quasistatic_ref.cli.decimals import decimal_string
 np.set_printoptions(precision=8, suppress=False)  # a page before may have changed these
 """
 
 
 CLOSED_FORMS = (
-    "derivations", "exactness", "cones", "derivatives", "conventions",
-    "extensions", "artifacts", "stands", "studies",
+    "derivations", "exactness", "cones", "derivatives", "extensions", "artifacts", "studies",
 )  # fmt: skip
 """The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""
 RESULT = re.compile(r"\*\*\((R\d+)\)([^*]*)\*\*")
@@ -169,7 +168,7 @@ CONTENTS = {
         "extensions", "guides/check_your_implementation", "included/vectors", "studies",
         "included/contact_qp", "api/index",
     ),
-    "Work on it": ("one_hour", "contributing", "adding"),
+    "Work on it": ("read_a_step", "contributing", "adding", "libraries"),
 }  # fmt: skip
 """The parts of the site and their pages, in the order of its navigation."""
 INDEXED = {
@@ -186,7 +185,9 @@ SENTENCE = 20
 """Letters from which on a cell of a table holds more than a name or a number."""
 TABLES = re.compile(r"^\[The tables\]\((\S+)\)$", re.MULTILINE)
 """A line that leads to committed tables, which stand on the site in its place."""
-OUTSIDE = re.compile(r"\[([^\]]+)\]\(((?:\.\./)+(?:validation|slides)/[^)#]+\.md)\)")
+OUTSIDE = re.compile(
+    r"\[([^\]]+)\]\(((?:\.\./)+(?:validation|slides|quasistatic_ref)/[^)#]+\.md)\)"
+)
 """A link to Markdown that is no page of the site: it is downloaded."""
 CITED_EQUATION = re.compile(r":eq:`eq-(\d+)`")
 CITED_NAME = re.compile(r":(?:class|func|meth|attr|mod):`~?(?:\w+\.)*(\w+)`")

@@ -1,4 +1,4 @@
-"""A step, and the same step slowly: the force of a finger that wipes, and of two that lift.
+"""A step, and the same step without drag: the force of a finger that wipes, and of two that lift.
 
 The finger is to press with 5 N; what slides rises, so that it presses with more, (R13). The two
 press with 12 N each and lift 1 kg: drag makes it slip, what slips rises, and both add to friction.
@@ -18,7 +18,7 @@ from quasistatic_ref.step.data import StepData
 
 TIMES = np.array([2e-3, 5e-3, 10e-3, 20e-3, 50e-3, 100e-3])
 V, MU_V, SLOWLY = 0.05, 0.5, 10.0
-STYLES = {"run": "o", "slowly": "^", "slowly, by Coulomb's law": "s"}
+STYLES = {"run": "o", "without drag": "^", "without drag and layer": "s"}
 PEN: dict[str, Any] = {"color": "black", "markerfacecolor": "none", "linewidth": 0.9}
 GREY: dict[str, Any] = {"color": "0.6", "linewidth": 3, "label": "formula (R13); half the weight"}
 FINGERS = {

@@ -12,7 +12,7 @@ import numpy as np
 import pinocchio as pin
 
 from docs.drawings.labels import label_axes
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.closest_points import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.files.scenario.scenario import load_scenario
 from quasistatic_ref.lab.made_steps.free_pair import geometry
