@@ -20,14 +20,16 @@ _HOMES = {
     "model.system": "System",
     "model.body": "Body",
     "model.state": "State",
+    "model.kinematics": "Kinematics",
+    "model.joints.joint": "Joint",
     "shapes.placed_shape": "Sphere Box Cylinder Capsule Cone Ellipsoid HalfSpace PointCloud "
     "PlacedShape",
     "shapes.convex_mesh": "convex_hull",
     "contact.pairs": "ContactPair",
-    "contact.distance": "ClosestPoints",
+    "contact.closest_points": "ClosestPoints",
     "simulate.target": "Targets",
     # Steps in sequence.
-    "simulate.result": "StepResult",
+    "simulate.result": "StepResult StepArrays",
     "simulate.limits": "Limits",
     "simulate.simulator": "Simulator",
     "simulate.steps": "Steps",
@@ -35,9 +37,11 @@ _HOMES = {
     "optional.derivatives.step_jax": "step_jax",
     "simulate.rollout": "rollout",
     "simulate.recorder": "Recorder",
-    "simulate.observer": "Observer",
+    "simulate.observer": "Observer Recording",
+    "simulate.standing": "Standings",
     "simulate.finding": "Finding",
     "simulate.record.trajectory": "Trajectory",
+    "simulate.record.header": "Header",
     "files.trajectory": "load_trajectory save_trajectory",
     "files.scenario.scenario": "Scenario load_scenario",
     "optional.scans.body": "scanned_body",
@@ -56,12 +60,18 @@ _HOMES = {
     "optional.coulomb.fixed_point": "coulomb_step CoulombSolution NoFixedPoint",
     "certify.verification": "verify verify_answer",
     "certify.farkas": "FarkasVector",
-    "certify.verdict": "Verdict",
+    "exact.verdict": "Verdict",
     "certify.residuals": "Residuals optimality_residuals",
     "optional.forces.forces": "contact_forces",
     # Any quadratic program.
-    "optional.qp.exact": "exact_lp exact_ls exact_qp",
-    "optional.qp.answer": "ExactQP QPInfeasible QPNotConvex QPUnbounded",
+    "exact.qp.exact": "exact_lp exact_ls exact_qp",
+    "exact.qp.answer": "ExactQP QPInfeasible QPNotConvex QPUnbounded",
+    "exact.qp.program": "QuadraticProgram",
+    "exact.time_limit": "TimeIsUp",
+    "exact.qp.files": "load_answer",
+    "optional.qp_files.load": "load_qp",
+    "optional.qp_doors.by_cvxpy": "Exact",
+    "optional.qp_doors.by_qpsolvers": "register_qpsolvers",
     # A run in pictures and numbers.
     "optional.show.figures.animation": "animate",
     "optional.show.figures.draw": "draw_scene draw_scenes",
@@ -97,7 +107,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         Residuals as Residuals,
         optimality_residuals as optimality_residuals,
     )
-    from quasistatic_ref.certify.verdict import Verdict as Verdict
+    from quasistatic_ref.exact.verdict import Verdict as Verdict
     from quasistatic_ref.certify.verification import (
         verify as verify,
         verify_answer as verify_answer,
@@ -107,7 +117,7 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         load_solution as load_solution,
         save_solution as save_solution,
     )
-    from quasistatic_ref.contact.distance import ClosestPoints as ClosestPoints
+    from quasistatic_ref.contact.closest_points import ClosestPoints as ClosestPoints
     from quasistatic_ref.contact.pairs import ContactPair as ContactPair
     from quasistatic_ref.errors import (
         BackendError as BackendError,
@@ -120,6 +130,8 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
         StepDataError as StepDataError,
     )
     from quasistatic_ref.model.body import Body as Body
+    from quasistatic_ref.model.joints.joint import Joint as Joint
+    from quasistatic_ref.model.kinematics import Kinematics as Kinematics
     from quasistatic_ref.model.state import State as State
     from quasistatic_ref.model.system import System as System
     from quasistatic_ref.optional.coulomb.fixed_point import (
@@ -142,17 +154,25 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.optional.mujoco.mujoco import mujoco_step as mujoco_step
     from quasistatic_ref.optional.mujoco.mujoco_opinion import mujoco_opinion as mujoco_opinion
     from quasistatic_ref.optional.mujoco.scene import mujoco_scenario as mujoco_scenario
-    from quasistatic_ref.optional.qp.answer import (
+    from quasistatic_ref.exact.qp.answer import (
         ExactQP as ExactQP,
         QPInfeasible as QPInfeasible,
         QPNotConvex as QPNotConvex,
         QPUnbounded as QPUnbounded,
     )
-    from quasistatic_ref.optional.qp.exact import (
+    from quasistatic_ref.exact.qp.exact import (
         exact_lp as exact_lp,
         exact_ls as exact_ls,
         exact_qp as exact_qp,
     )
+    from quasistatic_ref.exact.qp.files import load_answer as load_answer
+    from quasistatic_ref.exact.qp.program import QuadraticProgram as QuadraticProgram
+    from quasistatic_ref.exact.time_limit import TimeIsUp as TimeIsUp
+    from quasistatic_ref.optional.qp_doors.by_cvxpy import Exact as Exact
+    from quasistatic_ref.optional.qp_doors.by_qpsolvers import (
+        register_qpsolvers as register_qpsolvers,
+    )
+    from quasistatic_ref.optional.qp_files.load import load_qp as load_qp
     from quasistatic_ref.optional.scans.body import scanned_body as scanned_body
     from quasistatic_ref.optional.show.figures.animation import animate as animate
     from quasistatic_ref.optional.show.figures.draw import (
@@ -183,11 +203,13 @@ if TYPE_CHECKING:  # what editors and type checkers see: the same names, with th
     from quasistatic_ref.simulate.finding import Finding as Finding
     from quasistatic_ref.simulate.limits import Limits as Limits
     from quasistatic_ref.simulate.record.motions import relative_turn as relative_turn
-    from quasistatic_ref.simulate.observer import Observer as Observer
+    from quasistatic_ref.simulate.observer import Observer as Observer, Recording as Recording
     from quasistatic_ref.simulate.recorder import Recorder as Recorder
-    from quasistatic_ref.simulate.result import StepResult as StepResult
+    from quasistatic_ref.simulate.record.header import Header as Header
+    from quasistatic_ref.simulate.result import StepArrays as StepArrays, StepResult as StepResult
     from quasistatic_ref.simulate.rollout import rollout as rollout
     from quasistatic_ref.simulate.simulator import Simulator as Simulator
+    from quasistatic_ref.simulate.standing import Standings as Standings
     from quasistatic_ref.simulate.steps import Steps as Steps
     from quasistatic_ref.simulate.target import Targets as Targets
     from quasistatic_ref.simulate.record.trajectory import Trajectory as Trajectory

@@ -16,7 +16,7 @@ from os import PathLike, fspath
 from types import UnionType
 from typing import ParamSpec, TypeVar
 
-from quasistatic_ref.text.quoting import (
+from quasistatic_ref.quoting import (
     clipped,
     one_line,
     short_words,
@@ -212,8 +212,11 @@ def about_field(field: str) -> Iterator[None]:
         raise
 
 
-def keywords_named(function: Callable[P, R]) -> Callable[P, R]:
-    """The same function, which answers a wrong keyword with the right one: InputError."""
+def keywords_named(function: Callable[P, R], **remedies: str) -> Callable[P, R]:
+    """The same function, which answers a wrong keyword with the right one: InputError.
+
+    `remedies` are words for keywords of which no other is near.
+    """
     known = [word for word in signature(function).parameters if word != "self"]
     name = function.__qualname__.removesuffix(".__init__")
 
@@ -221,9 +224,20 @@ def keywords_named(function: Callable[P, R]) -> Callable[P, R]:
     def answering(*args: P.args, **kwargs: P.kwargs) -> R:
         for word, value in kwargs.items():
             if word not in known:
-                problem = f"is no argument of {name}{suggestion(word, known)}"
-                raise InputError(problem, field=word, value=value)
+                hint = f"; {remedies[word]}" if word in remedies else suggestion(word, known)
+                raise InputError(f"is no argument of {name}{hint}", field=word, value=value)
         return function(*args, **kwargs)
+
+    return answering
+
+
+def fields_named(**remedies: str) -> Callable[[type[R]], type[R]]:
+    """Have a dataclass answer a wrong keyword as :func:`keywords_named` does."""
+
+    def answering(kind: type[R]) -> type[R]:
+        constructor = "__init__"
+        setattr(kind, constructor, keywords_named(getattr(kind, constructor), **remedies))
+        return kind
 
     return answering
 

@@ -48,7 +48,7 @@ UPRIGHT: Final = 1e-9
 The direction of its lowest point is then rounding; on a rim of 1 m all points are level to 1 nm."""
 
 REPEATED: Final = 1e-9
-"""Largest difference of distance [m], point [m] and normal [-] of candidates that are one contact.
+"""Largest difference of distance and point [m] of candidates that are one contact.
 
 Computed twice, one contact differs by 1e-16, or 3e-9 at worst between nearly parallel edges."""
 

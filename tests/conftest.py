@@ -9,7 +9,7 @@ import os
 import resource
 import shlex
 import sys
-from collections import Counter
+from collections import defaultdict
 from functools import partial
 from pathlib import Path
 
@@ -27,8 +27,9 @@ settings.load_profile("same")  # pytest's --hypothesis-profile names another
 
 
 def pytest_addoption(parser):
-    """How many random steps both speeds take: more than a few are slow."""
+    """How many random steps both speeds take, and which share of slow tests a line takes."""
     parser.addoption("--count", type=int, default=40, help="random steps at both speeds")
+    parser.addoption("--share", type=int, default=0, help="0, README's line; 1 or 2: of `shared`")
 
 
 def pytest_configure(config):
@@ -36,28 +37,49 @@ def pytest_configure(config):
     config.pluginmanager.register(missing_parts)
     config.addinivalue_line("markers", "extra(name): a test that needs an extra of pyproject.toml")
     config.addinivalue_line("markers", "long: one of many of its kind; pytest -m long takes them")
+    config.addinivalue_line("markers", "shared: slow; lines that run all tests share its cases")
     config.addinivalue_line("markers", "ci: what README's line leaves to .ci/run, marked by itself")
 
 
-MANY = 6
-"""Cases of a test, of more of which README's line takes every third; a file that is named, all."""
+SHARES = 3
+"""Lines that share the cases of slow tests: README's, that of the lowest versions, and `extras`."""
 
 
 def pytest_collection_modifyitems(config, items):
     """Skip what needs an extra that is not installed, and mark what README's line does not run."""
     whole = {Path(path).name for path in config.args} == {"tests"}
-    cases = Counter(item.nodeid.partition("[")[0] for item in items)
-    seen = Counter()
+    share = {item: k for item, k in shares(items) if whole}
     for item in items:
-        test = item.nodeid.partition("[")[0]
-        if whole and cases[test] > MANY and seen[test] % 3:
-            item.add_marker(pytest.mark.long)
-        seen[test] += 1
         extras = [extra for mark in item.iter_markers("extra") for extra in mark.args]
         for extra in filter(is_missing, extras):
             item.add_marker(pytest.mark.skip(reason=reason(extra)))
-        if item.get_closest_marker("long") or not all(map(is_in_test, extras)):
+        last = share.get(item) == SHARES - 1
+        if last or item.get_closest_marker("long") or not all(map(is_in_test, extras)):
             item.add_marker(pytest.mark.ci)
+        if item in share and share[item] != config.getoption("--share"):
+            item.add_marker(pytest.mark.long)
+
+
+def shares(items):
+    """Each case of a slow test that one line takes, and which.
+
+    All take the first case of each value, where parameters have columns of their own.
+    """
+    of_test = defaultdict(list)
+    for item in items:
+        if item.get_closest_marker("shared") and not item.get_closest_marker("long"):
+            of_test[item.nodeid.partition("[")[0]].append(item)
+    for each in of_test.values():
+        columns = set(zip(*(item.callspec.indices.values() for item in each), strict=True))
+        seen = [set() for _ in columns]
+        rest = []
+        for item, *values in zip(each, *columns, strict=True):
+            fresh = [value not in those for value, those in zip(values, seen, strict=True)]
+            for value, those in zip(values, seen, strict=True):
+                those.add(value)
+            if len(columns) == 1 or not any(fresh):
+                rest.append(item)
+        yield from ((item, k % SHARES) for k, item in enumerate(rest))
 
 
 @pytest.hookimpl(wrapper=True)

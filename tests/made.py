@@ -1,10 +1,9 @@
 """What tests make and read steps, files and bits with: this file alone knows where it is kept."""
 
-from quasistatic_ref.certify.step_form import StepForm
+from quasistatic_ref.certify.step_program import StepProgram
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.files.clouds import point_cloud, seen_points
-from quasistatic_ref.files.content import text_written
 from quasistatic_ref.files.mesh_files import loaded_mesh, mesh_hull, mesh_path
 from quasistatic_ref.files.solution import infeasible_text, solution_text
 from quasistatic_ref.lab.made_steps.at_random import (
@@ -34,13 +33,14 @@ from quasistatic_ref.lab.made_steps.rigid import (
     sphere_step,
 )
 from quasistatic_ref.step.text import step_record, step_sha256, step_text
+from quasistatic_ref.text.content import text_written
 from quasistatic_ref.text.plain import Plain, bits
 
 __all__ = [
     "GRAVITY",
     "Plain",
     "Rng",
-    "StepForm",
+    "StepProgram",
     "X",
     "Y",
     "Z",

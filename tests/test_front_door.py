@@ -8,6 +8,7 @@ import tempfile
 from importlib import import_module
 from itertools import chain
 from operator import attrgetter
+from typing import get_type_hints
 
 import numpy as np
 import pytest
@@ -167,6 +168,30 @@ def test_a_user_s_file_has_types(tmp_path):
     found = python(*call, cwd=tmp_path, status=1).stdout
     assert 'Cannot access attribute "phy" for class "Trajectory"' in found
     assert "\"Literal['exakt']\" have no overlap" in found
+
+
+def functions_of(name):
+    """What a public name annotates: itself, and the functions of a class and of its bases."""
+    named = attrgetter(name)(qr)
+    yield named
+    for kind in [k for k in getattr(named, "__mro__", ()) if k.__module__.startswith("quasi")]:
+        for member in vars(kind).values():
+            of_property = getattr(member, "fget", None) or getattr(member, "func", None)
+            function = of_property or getattr(member, "__func__", member)
+            if inspect.isfunction(function):
+                yield function
+
+
+@pytest.mark.parametrize("name", marked_parameters([*NAMES, *FIGURES], EXTRAS))
+def test_every_annotation_of_a_name_can_be_resolved(name):
+    for annotated in functions_of(name):
+        assert isinstance(get_type_hints(annotated), dict)
+
+
+def test_a_result_ends_in_a_state_and_steps_have_one_default_of_force():
+    assert get_type_hints(qr.StepResult)["end"] is qr.State
+    steppers = qr.Simulator.step, qr.Simulator.steps, qr.rollout
+    assert [inspect.signature(one).parameters["force"].default for one in steppers] == [None] * 3
 
 
 @pytest.mark.parametrize("name", marked_parameters([*NAMES, *FIGURES], EXTRAS))

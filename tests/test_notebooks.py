@@ -49,6 +49,26 @@ def test_a_script_runs_without_a_robot_library():
     python("-c", run)
 
 
+@pytest.mark.extra("notebooks")
+def test_a_run_shows_its_progress_in_a_notebook_and_nothing_if_it_is_not_to():
+    """A kernel's standard error is no terminal; a bar is a widget there."""
+    import nbclient
+    import nbformat
+
+    run = "import quasistatic_ref as qr\nrun = qr.load_scenario('block_push', steps=3).run({})"
+    cells = [nbformat.v4.new_code_cell(run.format(word)) for word in ("", "progress=False")]
+    book = nbformat.v4.new_notebook(cells=cells)
+    nbclient.NotebookClient(book, timeout=100).execute()
+    shown = [
+        sum(
+            "application/vnd.jupyter.widget-view+json" in one.get("data", {})
+            for one in cell.outputs
+        )
+        for cell in book.cells
+    ]
+    assert shown == [1, 0]
+
+
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
 def test_a_notebook_has_the_sources_of_its_script_and_outputs(script):
     path = script.with_suffix(".ipynb")

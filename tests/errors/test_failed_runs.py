@@ -7,8 +7,15 @@ import threading
 import numpy as np
 import pytest
 
-from quasistatic_ref import Limits, RunFailed, load_scenario, load_step, load_trajectory
-from quasistatic_ref.simulate.interrupt import Interrupt
+from quasistatic_ref import (
+    Limits,
+    Observer,
+    RunFailed,
+    load_scenario,
+    load_step,
+    load_trajectory,
+)
+from quasistatic_ref.simulate.interrupt import ENDS, Interrupt, exit_status
 from tests.cases import cases
 from tests.closeness import assert_relative
 from tests.errors.scene import SCENE, SUNK, changed, scene_written
@@ -100,24 +107,45 @@ def test_a_position_that_is_no_number_is_out_of_the_scene():
 
 @pytest.fixture
 def listening():
-    """SIGINT as a terminal has it: a process in the background ignores it."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    """Signals as a terminal has them: a process in the background ignores SIGINT."""
+    before = {one: signal.signal(one, usual) for one, usual in ENDS.items()}
     yield
-    signal.signal(signal.SIGINT, before)
+    for one, handler in before.items():
+        signal.signal(one, handler)
 
 
 @pytest.mark.usefixtures("listening")
-def test_ctrl_c_is_noted_once_and_raised_the_second_time():
-    before = signal.getsignal(signal.SIGINT)
+@pytest.mark.parametrize("end", ENDS)
+def test_a_signal_is_noted_once_and_raised_the_second_time(end):
+    before = signal.getsignal(end)
     with Interrupt() as interrupt:
         interrupt.check()
-        signal.raise_signal(signal.SIGINT)
-        assert interrupt.noted
+        signal.raise_signal(end)
+        assert interrupt.noted == end
         with pytest.raises(KeyboardInterrupt):
             interrupt.check()
-        with pytest.raises(KeyboardInterrupt):
-            signal.raise_signal(signal.SIGINT)
-    assert signal.getsignal(signal.SIGINT) is before
+        with pytest.raises(KeyboardInterrupt) as raised:
+            signal.raise_signal(end)
+    assert exit_status(raised.value) == 128 + end
+    assert signal.getsignal(end) is before
+
+
+@pytest.mark.usefixtures("listening")
+@pytest.mark.parametrize("end", ENDS)
+def test_a_signal_keeps_the_steps_before_it(end, tmp_path):
+    """It comes while step 1 is taken, which is kept as well."""
+
+    class Ending(Observer):
+        def before(self, recorder):
+            if recorder.steps == 1:
+                signal.raise_signal(end)
+
+    scenario = load_scenario(scene_written(tmp_path), fast=True)
+    with pytest.raises(RunFailed) as raised:
+        scenario.run(observers=[Ending()])
+    word = "interrupted" if end == signal.SIGINT else f"ended by {end.name}"
+    assert str(raised.value) == f"step 2: {word}"
+    assert raised.value.trajectory.steps == 2
 
 
 def test_a_handler_of_the_caller_is_left_alone():
@@ -126,7 +154,7 @@ def test_a_handler_of_the_caller_is_left_alone():
     try:
         with Interrupt() as interrupt:
             signal.raise_signal(signal.SIGINT)
-        assert (calls, interrupt.noted) == ([signal.SIGINT], False)
+        assert (calls, interrupt.noted) == ([signal.SIGINT], None)
     finally:
         signal.signal(signal.SIGINT, before)
 

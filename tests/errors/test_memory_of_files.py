@@ -79,6 +79,7 @@ READERS = {
 }
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("name", FILES)
 def test_a_file_takes_at_most_forty_times_its_size(tmp_path, name):
     path, content = tmp_path / name, FILES[name]

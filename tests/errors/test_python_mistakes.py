@@ -3,7 +3,12 @@
 Each line is an answer, and the calls that it is given to.
 """
 
+from pathlib import Path
+
+import coal
+import mujoco
 import numpy as np
+import pinocchio as pin
 import pytest
 
 import quasistatic_ref as qr
@@ -106,10 +111,35 @@ MISTAKES = {
     "cone: must be the name of a cone": lambda: STEP.replace(cone=["pyramid"]),
     "law: is not a choice": lambda: simulator(law=["convex"]),
     r"bodies: must be a list of bodies: System\(\[body\]\)": lambda: qr.System(BLOCK),
-    "bodies: must be a list of bodies, each as Body makes it": lambda: qr.System(["block"]),
+    "bodies: must be a list of bodies, each as Body or Body.of_pinocchio makes it": lambda: (
+        qr.System(["block"])
+    ),
+    "pose: is no argument of Body; give xyz=pose.translation": (
+        lambda: qr.Body("b", "b.urdf", pose=pin.SE3.Identity()),
+        lambda: qr.Body.of_shape("b", qr.Sphere(0.1), 1.0, pose=pin.SE3.Identity()),
+        lambda: qr.Body.of_pinocchio("b", pin.Model(), pose=pin.SE3.Identity()),
+    ),
+    "actuate: is no argument of Body; did you mean 'actuated'": lambda: qr.Body(
+        "b", "b.urdf", actuate="all"
+    ),
+    "b.urdf: must be a path, or a URDF as text; of_pinocchio takes": lambda: qr.Body(
+        "b", pin.Model()
+    ),
+    r"must be a pinocchio.Model: robot.model, and": lambda: qr.Body.of_pinocchio(
+        "b", pin.RobotWrapper(pin.Model())
+    ),
+    r"b.shape: must be one of this package, such as Box\(box.halfSide\)": lambda: qr.Body.of_shape(
+        "b", coal.Box(1.0, 1.0, 1.0), 1.0
+    ),
     "b.package_dirs: must be a list of": lambda: qr.Body("b", "b.urdf", package_dirs="x"),
     "step: must be a StepData": lambda: qr.verify(qr.SolutionFile(3)),
     "extension: must be an Extension": lambda: qr.solve_step(STEP, extension=3),
+    "extension.terms: must be a function of": lambda: qr.Extension([]),
+    "extension.without_stiffness: must be True or False": lambda: qr.Extension(
+        without_stiffness="no"
+    ),
+    "extension.rises: must be Rises": lambda: qr.Extension(rises=[1.0]),
+    "extension.rows: must be an Extra": lambda: qr.Extension(rows=(np.eye(3), np.zeros(3))),
     "solver: is no argument of .*; did you mean 'backend'": (
         lambda: qr.solve_step(STEP, solver="osqp"),
         lambda: simulator(solver="osqp"),
@@ -129,7 +159,23 @@ MISTAKES = {
     "ignore: must be a list of names": lambda: run(ignore=[3]),
     "is not an array of this trajectory": lambda: RUN[["phi"]],
     "name: must be a name": lambda: SYSTEM.of(Q, ["block"]),
-    "model: must be a mujoco.MjModel": lambda: qr.mujoco_step(3, 3, 0.01),
+    "model: must be a mujoco.MjModel": (
+        lambda: qr.mujoco_step(3, 3, 0.01),
+        lambda: qr.mujoco_scenario({"h": 0.01}),
+    ),
+    r"a mujoco.MjModel: spec.compile\(\)": (
+        lambda: qr.mujoco_step(mujoco.MjSpec(), 3, 0.01),
+        lambda: qr.mujoco_opinion(mujoco.MjSpec(), 3),
+        lambda: qr.mujoco_scenario(mujoco.MjSpec()),
+    ),
+    r"a mujoco.MjModel: mujoco.MjModel.from_xml_path\(file\)": (
+        lambda: qr.mujoco_step("scene.xml", 3, 0.01),
+        lambda: qr.mujoco_opinion(Path("scene.xml"), 3),
+        lambda: qr.mujoco_scenario("scene.xml"),
+    ),
+    "data: must be a mujoco.MjData": lambda: qr.mujoco_scenario(
+        mujoco.MjSpec().compile(), "scene.xml"
+    ),
     "tolerance: must be a number greater than 0": lambda: qr.mujoco_opinion(3, 3, "1"),
     "of: must be a Moment, as figures.moment makes it": lambda: qr.draw_scene(None, 3),
     "moments: must be a list of moments": lambda: qr.draw_scenes([], [3]),

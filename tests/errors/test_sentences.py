@@ -12,7 +12,7 @@ from quasistatic_ref import (
     errors,
     load_scenario,
 )
-from quasistatic_ref.text.quoting import LONGEST, MOST_NAMES, suggestion
+from quasistatic_ref.quoting import LONGEST, MOST_NAMES, suggestion
 
 
 def test_there_is_one_root():

@@ -130,11 +130,11 @@ def of_extras():
         words_of(named(r"^\| ((?:`\w+`(?:, )?)+) \|", "docs/quickstart.md")),
         "The extra {} is not in the table of docs/quickstart.md: add a row",
     )
-    for_use = EXTRAS.keys() - {"all", "compared", "test", "docs"}
+    for_use = EXTRAS.keys() - {"all", "compared", "diff", "test", "docs"}
     yield (
         for_use,
         words_of(EXTRAS["all"]),
-        "The extra {} is not in all: add it to all in pyproject.toml, or to the four that are not",
+        "The extra {} is not in all: add it to all in pyproject.toml, or to the five that are not",
     )
     tested = [name for name in for_use if packages(EXTRAS[name]) <= packages(EXTRAS["test"])]
     calls = re.findall(r"\bextra\((.*)\)", texts("tests/**/*.py"))
@@ -167,6 +167,11 @@ def of_names_and_commands():
         re.findall(r'[(\[]"([\w-]+)"', texts("tests/**/test_*.py")),
         'No test calls cli("{}", ...): add a file to tests/cli',
     )
+    yield (
+        [f"{word} of {leaf}" for (word, leaf), given in of_tests().items() if not given],
+        (),
+        "No test gives the option {}: let one call cli with it, beside those of the command",
+    )
     options = {
         f"{leaf.prog} {action.option_strings[-1]}": action.help
         for leaf in LEAVES
@@ -178,6 +183,23 @@ def of_names_and_commands():
         [name for name, says in options.items() if says],
         "{} has no line in --help, nor on the page of options: add help=... where it is declared",
     )
+
+
+def of_tests():
+    """Whether a file of tests has an option and its command; one of several that share its help."""
+    files = [path.read_text("utf-8") for path in ROOT.glob("tests/**/test_*.py")]
+    commands = {}
+    for leaf in LEAVES:
+        for action in leaf._actions:
+            if action.option_strings and action.dest != "help":
+                key = action.option_strings[-1], action.help
+                commands.setdefault(key, []).append(leaf.prog.split()[-1])
+    given = {}
+    for (word, _), names in commands.items():
+        option = re.compile(rf"{word}(?![\w-])")
+        command = re.compile(rf"""["' ]({"|".join(names)})["' ]""")
+        given[word, names[0]] = any(option.search(one) and command.search(one) for one in files)
+    return given
 
 
 def of_proofs():

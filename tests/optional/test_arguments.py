@@ -44,6 +44,8 @@ GOOD = {
     "convex_hull": (np.eye(4, 3),),
     "coulomb_step": (STEP,),
     "derivatives": (SIMULATOR, Q, Q_A),
+    "load_answer": ("x.json",),
+    "load_qp": ("x.npz",),
     "load_scenario": ("sphere_spin",),
     "load_solution": ("x.json", STEP),
     "load_step": ("x.json",),
@@ -73,7 +75,8 @@ GOOD = {
 """Public callables that people call, with good arguments, of methods an object first."""
 ELSEWHERE = {
     *("draw_scene", "draw_scenes"),  # tests/optional/show
-    *("exact_lp", "exact_ls", "exact_qp"),  # tests/optional/qp
+    *("exact_lp", "exact_ls", "exact_qp"),  # tests/exact/qp
+    "register_qpsolvers",  # tests/optional/qp_doors
     *("mujoco_opinion", "mujoco_scenario", "mujoco_step"),  # tests/optional/mujoco
 }
 OTHERS = {"scanned_body": {"mass": 1.0}, "Simulator": {"h": 0.01, "K_q": 100.0}}

@@ -1,13 +1,14 @@
 """Each part is what the core expects of it: mypy reads this file, and each row is loaded."""
 
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 
 from quasistatic_ref import Simulator
-from quasistatic_ref.certify.refined import BearingRows
 from quasistatic_ref.contact import crossings, normals
 from quasistatic_ref.contact.solids.solid_pair import WitnessOfPair
+from quasistatic_ref.exact.refined import BearingRows
 from quasistatic_ref.files import clouds, mesh_files
 from quasistatic_ref.files.scenario import scenario
 from quasistatic_ref.files.urdf import file
@@ -15,7 +16,7 @@ from quasistatic_ref.model import body, world
 from quasistatic_ref.numbers import arrays, compiled
 from quasistatic_ref.optional.compiled import leaves
 from quasistatic_ref.optional.coulomb import fixed_point
-from quasistatic_ref.optional.curved import by_coal, clouds_by_coal, rims, ways_out
+from quasistatic_ref.optional.curved import by_coal, measured_by_coal, rims, ways_out
 from quasistatic_ref.optional.daqp import bearing_rows, default, solver
 from quasistatic_ref.optional.doctor import checks, observer, texts
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
@@ -27,11 +28,11 @@ from quasistatic_ref.optional.qpsolvers import through_qpsolvers
 from quasistatic_ref.optional.show import pages, table
 from quasistatic_ref.optional.stands import after, slow, stands
 from quasistatic_ref.parts import PARTS, is_there, part
+from quasistatic_ref.shown import Page
 from quasistatic_ref.simulate import distance_source, recorder, simulator, step_solver
 from quasistatic_ref.simulate.record import trajectory
 from quasistatic_ref.solve import backends, choice, many, solve
 from quasistatic_ref.step import cones, extension, solution
-from quasistatic_ref.text.shown import Page
 
 
 class Expected:
@@ -47,19 +48,20 @@ class Expected:
     known_gaps: normals.KnownGaps = ways_out.known_gaps
     is_compiled: compiled.IsCompiled = leaves.is_compiled
     compiled_function: compiled.CompiledFunction = leaves.compiled_function
-    pairs_by_coal: distance_source.ChangedPairs = clouds_by_coal.pairs_by_coal
+    pairs_by_coal: distance_source.ChangedPairs = measured_by_coal.pairs_by_coal
     ellipsoid: cones.FrictionCone = ELLIPSOID_CONE
     coulomb: step_solver.CoulombSolution = fixed_point.simulated_solution
     coulomb_from: Callable[..., fixed_point.CoulombSolution] = fixed_point.fixed_point_from
     posed: extension.Posed = extended.posed
-    extended_step: solve.ExtendedStep = extended.extended_step
-    extended_solution: step_solver.ExtendedSolution = extended.simulated_solution
+    extended_solution: solve.ExtendedSolution = extended.extended_solution
+    simulated_solution: step_solver.SimulatedSolution = extended.simulated_solution
     contact_forces: solution.ForcesOfStep = forces.contact_forces
     function_solver: choice.FunctionSolver = by_function.FunctionSolver
+    function_at: Callable[[str], Callable[..., Any]] = by_function.function_at
     qpsolvers_solver: choice.NamedSolver = through_qpsolvers.QpsolversSolver
     qpsolvers_names: backends.SolverNames = through_qpsolvers.available_solvers
     daqp_solver: choice.NamedSolver = solver.DaqpSolver
-    cold_answers: many.ColdAnswers = solver.cold_answers
+    cold_replies: many.ColdReplies = solver.cold_replies
     bearing_rows: BearingRows = bearing_rows.bearing_rows
     fast_backend: scenario.FastBackend = default.default_backend
     slow_step: Callable[..., slow.Slow] = slow.slow_step
