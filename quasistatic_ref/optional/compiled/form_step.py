@@ -1,4 +1,4 @@
-"""What a step forms of closest points, and its programs in natural units: source/step.c."""
+"""What a step forms of closest points: source/step.c."""
 
 from collections.abc import Callable
 from typing import Any
@@ -22,12 +22,11 @@ from quasistatic_ref.optional.compiled.library import function
 from quasistatic_ref.optional.compiled.sums import all_known, table
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, Sphere
 from quasistatic_ref.simulate.form_step import StepBlock, StepPlan, checked_force
-from quasistatic_ref.solve.by_group import GroupIndex, GroupPrograms, NaturalHessian, layout_of
+from quasistatic_ref.solve.by_group import layout_of
 from quasistatic_ref.solve.natural_step import NaturalStep
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.hessian import Hessian
-from quasistatic_ref.step.standard_form import Units
 from quasistatic_ref.text.plain import bits
 
 IN_C = (
@@ -41,8 +40,6 @@ IN_C = (
 """Coefficients [-] of gap, slip_1, slip_2 and spin in the six rows of ``pyramid_rows``."""
 
 Formed = Callable[[Kinematics, ClosestPoints, Array, Hessian], StepData | None]
-Programs = tuple[GroupPrograms, bool]
-Write = Callable[..., Programs | None]
 
 
 def loads(plan: StepPlan) -> Callable[[State, ArrayLike, ArrayLike | None], Array | None] | None:
@@ -170,42 +167,3 @@ def bits_of_formed(step: StepData) -> Any:
     if isinstance(step.formed, StepBlock):
         natural = step.formed.natural(step, layout)
     return bits((step, natural.own_inequalities, natural.g, natural.units))
-
-
-def write(layout: GroupIndex) -> Write:
-    """``GroupIndex.write`` in C; it declines rows of a user's own, and numbers not finite."""
-    n_v = len(layout.coordinates)
-    sizes = np.array([*layout.place.shape, n_v, layout.size])
-    kept = addresses((sizes, layout.place, layout.coordinates, layout.rows))
-    compiled = function("natural_programs")
-
-    def answer(
-        A: Array,
-        b: Array,
-        g: Array,
-        A_extra: Array,
-        units: Units,
-        H: NaturalHessian,
-        programs: GroupPrograms,
-    ) -> Programs | None:
-        if len(A_extra):
-            return None
-        read = addresses((A, b, g, H.own_unit, units.coordinate))
-        written = addresses((), (programs.g, programs.A, programs.b))
-        finite = compiled(*kept, *read, units.length, units.size, *written)
-        return (programs, True) if finite else None
-
-    return answer
-
-
-def trials_of_write() -> list[tuple[GroupIndex, tuple[Any, ...]]]:
-    """Programs of the other trial's step: some contacts move with fewer coordinates than others."""
-    ((plan, of_step),) = trials_of_formed()
-    layout = plan.group_layout
-    assert layout is not None
-    H = of_step[-1].once(layout.natural_hessian)
-    numbers = np.sin(np.arange(1.0, 1.0 + layout.place.size))
-    A = np.where(layout.place < layout.size, numbers.reshape(layout.place.shape), 0.0)
-    g, b = numbers[: len(H.unit)], numbers[: len(A)]
-    units = Units(H.unit, 0.5, 0.25)
-    return [(layout, (A, b, g, np.zeros((0, len(g))), units, H, layout.empty_programs(H)))]

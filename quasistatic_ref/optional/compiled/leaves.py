@@ -15,7 +15,7 @@ LEAVES: Final[Mapping[str, str]] = {
     "Sums.plus": "sums:plus",
     "StepPlan.loads": "form_step:loads",
     "StepPlan.formed": "form_step:formed",
-    "GroupIndex.write": "form_step:write",
+    "GroupIndex.write": "programs:write",
 }
 """By a function, or a method, ``module:name`` of what stands in its place.
 
