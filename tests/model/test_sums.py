@@ -39,7 +39,8 @@ def turned(joints, rng):
     for joint in joints:
         if joint.unit_vector:
             unit = q[joint.unit_part]
-            unit[:] = np.eye(len(unit))[rng.integers(len(unit))] if rng.random() < 0.2 else unit
+            axes = np.vstack([np.eye(len(unit)), -np.eye(len(unit))])
+            unit[:] = axes[rng.integers(len(axes))] if rng.random() < 0.2 else unit
             unit /= np.sqrt(unit @ unit)
     return q
 
@@ -55,6 +56,15 @@ def test_many_joints_at_once_are_each_by_itself(kind, rng):
 def test_joints_by_compiled_code_are_each_by_itself(kind, other, rng):
     check(joints_of(kind, other), rng)
     check(joints_of(*[kind] * (1 + 2 * MANY_JOINTS)), rng)
+
+
+@pytest.mark.parametrize("joints", [1, 1 + 2 * MANY_JOINTS])
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if len(kind.neutral()) == 2])
+@pytest.mark.parametrize("unit", [*np.eye(2), *-np.eye(2)], ids=str)
+def test_half_a_turn_is_pi_whichever_way_it_begins(unit, kind, joints):
+    """Of the two names of one turn the positive one, as a difference of zeros has a sign."""
+    change = Sums(joints_of(*[kind] * joints)).change(np.tile(unit, joints), np.tile(-unit, joints))
+    assert change.tolist() == [np.pi] * joints
 
 
 def test_each_of_several_changes_is_its_own(rng):

@@ -72,7 +72,7 @@ def made(case, changes=(), also=dict, **more):
             return mujoco_scenario(model, **USUAL | tables.get("with", {}))
         for body in tables["bodies"].values():
             kind, *sizes = body["urdf"].split()
-            if sizes:
+            if kind in SOLIDS:
                 *sizes, mass = map(float, sizes)
                 body["urdf"] = Body.of_shape("solid", SOLIDS[kind](*sizes), mass).urdf
         return load_scenario(USUAL | {"fast": True, "solver": UNPROVED} | tables)

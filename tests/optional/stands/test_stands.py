@@ -14,9 +14,11 @@ from quasistatic_ref import (
     RunFailed,
     Sphere,
     load_scenario,
+    rollout,
 )
 from quasistatic_ref.lab.commands.stands import asked_steps, over_steps
 from tests.closeness import assert_relative
+from tests.files.urdf.urdf_texts import collision, inertial, joint, link, robot
 from tests.optional.rows import CASES, made, params, rows_of
 
 G = 9.81
@@ -212,6 +214,83 @@ def test_a_light_record_needs_the_scenario_and_a_scene_of_no_free_body_says_so()
     assert run.stands(59, scenario)["sphere"].missing_Nm > 0
     actuated = load_scenario("peg_in_hole", steps=1, backend="daqp")
     assert "nothing in this scene is free" in str(actuated.run(progress=False).stands(0))
+
+
+@pytest.mark.parametrize("off", [0.0, 0.3, -0.2])
+def test_a_plank_over_an_edge_lacks_the_same_wherever_its_origin_is(off):
+    """About the edge, d before the centre and h below it, a = g d / (k^2 + d^2 + h^2).
+
+    A clamp on it bears m a r and I a; the plank of 1 kg is 0.6 m by 0.02 m.
+    """
+    k2, d, h = (0.6**2 + 0.02**2) / 12, 0.1, 0.01
+    moments = tuple(str(k2) for _ in range(3))
+    origin = f'<origin xyz="{off} 0 0"/>'
+    size = collision('<box size="0.6 0.1 0.02"/>', origin)
+    plank = robot(link("b", size, inertial("1", moments, origin)))
+    floor = row_of("a board of 0.4 m")
+    changes = {"bodies.b.urdf": plank, "bodies.b.pose.xyz": [d - off, 0, h]}
+    row = standings(made(floor, changes), None)["b"]
+    a = G * d / (k2 + d**2 + h**2)
+    assert_relative([row.missing_N, row.missing_Nm], [a * np.hypot(d, h), k2 * a], 1e-3)
+
+
+def double_pendulum(moment, **tables):
+    """Horizontal links of 1 kg and 1 m, centred, on hinges without friction."""
+    first = inertial("1", (str(moment),) * 3, '<origin xyz="0.5 0 0"/>')
+    second = inertial("1", ("0.001",) * 3, '<origin xyz="0.5 0 0"/>')
+    arm = robot(
+        link("w", inertial=""), link("a", inertial=first), link("b", inertial=second),
+        joint("j", "w", "a", axis="0 1 0"),
+        joint("k", "a", "b", axis="0 1 0", more='<origin xyz="1 0 0"/>'),
+    )  # fmt: skip
+    return load_scenario({"h": 0.02, "steps": 3, "bodies": {"arm": {"urdf": arm}}} | tables)
+
+
+@pytest.mark.parametrize("moment", [0.42, 0.46])
+def test_a_joint_with_a_small_share_of_the_power_counts(moment):
+    """What hinges lack is (m c + m (l + c), m c) g = (2, 0.5) g, also where k has 4 % of r a."""
+    row = standings(double_pendulum(moment), None)["arm/j"]
+    assert_relative(row.missing_Nm, G * np.hypot(2.0, 0.5))
+    assert_relative(np.abs(row.direction) * row.missing_Nm, [2 * G, G / 2])
+
+
+def test_a_full_record_is_asked_by_its_simulator_where_the_arm_is():
+    scenario = double_pendulum(0.42, record="full")
+    simulator = scenario.simulator()
+    run = scenario.run(progress=False, findings=False)
+    there = simulator.stands(run["q"][3], run["q_bar_a"][2], None)["arm/j"]
+    at_the_start = simulator.stands(run["q"][0], run["q_bar_a"][0], None)["arm/j"]
+    assert run.stands(2, simulator)["arm/j"].missing_Nm == there.missing_Nm
+    assert there.missing_Nm < at_the_start.missing_Nm  # r falls as the arm goes down
+
+
+def test_a_full_record_gives_a_turned_block_its_load_in_the_world():
+    """5 N along x on 1 kg, turned by 0.5 rad, lack 5 N - mu m g along x."""
+    changes = {"bodies.b.pose.rpy": [0, 0, 0.5], "contacts.f.mu_v": 0.2, "bodies.b.wrenches": []}
+    scenario = made(row_of("6 N"), changes)
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    F = scenario.system.load(q, "b", force=(5.0, 0.0, 0.0))
+    run = rollout(simulator, q, [], 2, force=F, record="full", progress=False, findings=False)
+    row = run.stands(0, simulator)["b"]
+    m = 1.0
+    assert_relative(row.missing_N, 5.0 - 0.2 * m * G)
+    assert row.direction == pytest.approx([-1, 0, 0], abs=1e-9)
+
+
+def test_a_block_on_a_prestressed_spring_of_the_user_stands():
+    """Its cost h k |x - m g / k|^2 / 2 bears m g; one that begins slack gives way by m g / k."""
+    import cvxpy as cp
+
+    h, k = 0.01, 500.0
+    scenario = made(row_of("6 N"), {"bodies.b.pose.xyz": [0, 0, 1], "bodies.b.wrenches": []})
+    rows = []
+    for sag in (G / k, 0.0):
+        up = np.array([0.0, 0.0, sag])
+        spring = Extension(lambda s, up=up: [h * k / 2 * cp.sum_squares(s.delta_q[:3] - up)])
+        rows.append(scenario.simulator(lambda q, spring=spring: spring).stands()["b"])
+    assert (rows[0].stands, rows[0].reason) == (True, "")
+    assert rows[1].stands is None
+    assert rows[1].reason.startswith("gives way by 19.6 mm first")
 
 
 def bar_in_a_grip(cone, friction, torsion):
