@@ -102,6 +102,7 @@ def test_residuals_of_a_subnormal_answer_are_of_the_answer_as_given():
     assert solution.certificate.residuals["stationarity"] == natural > 0
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("backend", ["none", "daqp", None])
 def test_an_answer_near_the_ends_of_float64_is_verified_or_refused_in_a_sentence(backend):
     kinds = Counter()

@@ -26,6 +26,7 @@ def test_proofs_of_settled_scenes_hold_in_fractions(kind, count):
     assert cold.get("delta_q") == json.loads(text).get("delta_q")
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize(("kind", "count"), [("wall", 8), ("tower", 7), ("grid", 9)])
 def test_a_refined_start_and_walks_alone_end_at_the_same_bits(kind, count):
     step = settled_step(kind, 1, count)

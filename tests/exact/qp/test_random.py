@@ -44,6 +44,7 @@ def forged(path, rng):
     return name
 
 
+@pytest.mark.shared
 @pytest.mark.filterwarnings("ignore:.* is a number here")  # programs of any scale
 @pytest.mark.parametrize("part", SHORT)
 def test_4000_programs_have_the_answers_of_another_method_in_fractions(part, tmp_path):

@@ -23,6 +23,7 @@ def answer_of(program):
         return proof
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("part", SHORT)
 def test_500_sparse_programs_have_the_answers_of_another_method(part, monkeypatch):
     monkeypatch.setattr(guess, "MANY_VARIABLES", 1)

@@ -220,6 +220,7 @@ LIGHT_COSTS = {
 }
 
 
+@pytest.mark.shared
 @pytest.mark.parametrize("name", LIGHT_COSTS)
 def test_the_command_grades_the_program_of_the_file_and_natural_units_if_asked(name, tmp_path, cli):
     """Digits are those of the user's own call; only in natural units are the three alike."""
