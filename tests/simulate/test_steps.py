@@ -102,6 +102,23 @@ def test_unproved_steps_of_a_group_without_rows_are_those_of_each_alone(n_a, rng
         assert bits(many.delta_q[k]) == bits(simulator.steps(q, q, load).delta_q[0])
 
 
+@pytest.mark.parametrize("certify", ["off", "residual", "full"])
+@pytest.mark.parametrize("depth", [1e-3, 0.03])
+def test_loads_that_begin_deep_are_those_of_a_cold_simulator(depth, certify, rng):
+    """Of 10 g, which the push out of the floor moves by more than the loads do."""
+    block = qr.Body.of_shape("b", qr.Box((0.05, 0.05, 0.05)), 0.01, xyz=(0.0, 0.0, 0.05 - depth))
+    system = qr.System([block])
+    floor = qr.PlacedShape.in_world("floor", qr.HalfSpace((0, 0, 1), 0.0))
+    pair = qr.ContactPair("c", floor, system.shapes[0], 0.5, 0.0, 4, 8)
+    simulator = qr.Simulator(system, [pair], h=0.01, backend="daqp", certify=certify)
+    here = system.at(system.q_start).plus(0.01 * np.array([0, 0, 0, 1, 2, 30]))
+    loads = 0.1 * rng.normal(size=(N, 6))
+    results = simulator.steps(here, [], loads)
+    for result, load in zip(results, loads, strict=True):
+        simulator.start_cold()
+        assert data(result) == data(simulator.step(here, [], load))
+
+
 def test_steps_at_once_refuse_a_target_or_load_as_a_step_does():
     simulator, here, targets, loads = place("bunny_grasp", "solver.backend=daqp")
     wrong = np.zeros((N, 1))

@@ -109,6 +109,16 @@ def test_without_load_and_penetration_the_size_is_a_length_that_counts_as_unmove
     assert NaturalStep(with_own_rows(np.zeros((0, 2)), [])).units.size == size
 
 
+@pytest.mark.parametrize("h", [1e-2, 1e-4])
+@pytest.mark.parametrize("backend", ["daqp", "clarabel"])
+def test_an_unproved_answer_ends_at_a_users_wall(backend, h):
+    """A proof would mend a wall in other units: 20 N push 1 kg to it, x = 1e-6 m (h / 0.01 s)^2."""
+    end = 1e-6 * (h / 1e-2) ** 2
+    push = sphere_on_floor(m=1.0, mu_v=0.1, wrench=(20.0, 0, -9.81, 0, 0, 0), h=h)
+    step = push.replace(extra=Extra(("wall",), -np.eye(6)[:1], [-end]))
+    assert_relative(solve_step(step, backend, certify="off").delta_q[0], end, 1e-6)
+
+
 @pytest.mark.parametrize("depth", [1e-3, 1.0])
 def test_a_deep_penetration_sets_the_size_where_the_load_is_small(depth):
     # ||H^-1 g||_H is nearly 0 here: without the push out, b' would be as large as depth / 0.

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from quasistatic_ref.lab.program.candidates import candidates
 from quasistatic_ref.lab.program.distance import closest_points
 from quasistatic_ref.lab.program.step import contacts_of
 from tests.cases import first
@@ -22,7 +23,7 @@ from tests.lab.vectors.committed_cases import (
     report_on,
     verdict_of,
 )
-from tests.made import text_written
+from tests.made import bits, text_written
 from tests.pages import PACKAGE
 from tests.processes import python
 from tests.tolerances import CLOSED_FORM
@@ -59,6 +60,18 @@ def test_the_plain_program_passes_layers_1_to_8(tmp_path, every):
 def test_the_plain_program_takes_challenges(cli):
     program = f"'{sys.executable} -m quasistatic_ref.lab.program'"
     cli("vectors challenge --quiet --cases 8 --command", program)
+
+
+def test_points_of_a_cloud_that_are_written_twice_are_one():
+    corners = [[x, y, 0.0] for x in (-0.1, 0.1) for y in (-0.1, 0.1)]
+    floor = {"kind": "halfspace", "normal": [0, 0, 1], "offset": 0}
+    here = np.eye(3), np.zeros(3)
+    once, twice = (
+        candidates(floor, here, {"kind": "cloud", "points": points}, here, 4)
+        for points in (corners, [*corners, *corners])
+    )
+    assert bits(twice) == bits(once)
+    assert len(once[0]) == 4
 
 
 def test_faults_of_programs_that_challenges_found_are_mended():

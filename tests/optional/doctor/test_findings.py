@@ -1,9 +1,14 @@
 """Each finding of the page has a scene and an end, and each note one that only just lacks it."""
 
+import numpy as np
+
+import quasistatic_ref as qr
+from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.optional.doctor.texts import NAMES, NOTES
 from tests.meta.remedies import assert_alike
 from tests.optional.doctor.mistake_scenes import GRAVE, mistakes
 from tests.optional.rows import CASES
+from tests.wholes import wholes_formed
 
 
 def test_each_finding_of_the_page_has_a_scene():
@@ -48,3 +53,15 @@ def test_each_finding_ends_where_its_remedy_is_applied():
         'No remedy of "{}" is applied: write after."REMEDY" = { ... } into one of its cases in '
         "tests/optional/doctor/cases",
     )
+
+
+def test_findings_of_many_bodies_form_no_whole_arrays(monkeypatch):
+    """Of 1000 boxes J has 0.8 GB. What 500 N push off leaves its place by leaps."""
+    scene = boxes(50)
+    n_v = len(scene.force)
+    simulator = scene.simulator("off", True)
+    wholes = wholes_formed(n_v, monkeypatch)
+    options = {"force": 500 * scene.force, "record": "light", "progress": False}
+    run = qr.rollout(simulator, scene.q, np.zeros(0), 6, **options)
+    assert len(run.findings) > 0
+    assert not wholes
