@@ -9,8 +9,10 @@ import yaml
 
 import quasistatic_ref as qr
 from quasistatic_ref.cli import main
+from quasistatic_ref.files.mesh_files import MESHES
 from quasistatic_ref.lab.claims import registry
 from quasistatic_ref.lab.program.rows import cone_table
+from quasistatic_ref.optional.qp_files.load import READERS
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.step.cones import CONES, ELLIPSOID, cone
 from tests.meta.remedies import assert_none
@@ -146,6 +148,29 @@ def of_extras():
     )
 
 
+def of_formats():
+    """The same of extensions of files."""
+    file = "tests/errors/test_spoilt_files.py"
+    yield (
+        MESHES,
+        named(r'^    "\w+(\.\w+)": mesh_read', file),
+        f"No good {{}} is spoilt: add a row to READERS of {file}, and the file to `good`",
+        f"{file} reads {{}}, which is not among MESHES of files/mesh_files.py: add it",
+    )
+    file = "docs/guides/file_formats.md"
+    meshes = named(r"^Meshes are (.*)\.$", file)
+    yield MESHES, re.findall(r"\.\w+", *meshes), f"{{}} is not among the meshes of {file}: add it"
+    file = "docs/exact_qp.md"
+    rows = " ".join(named(r"^\| (`\..*?) \|", file))
+    yield READERS, re.findall(r"\.\w+", rows), f"{{}} is not in the table of {file}: add a row"
+    tests = texts("tests/optional/qp_files/*.py", "tests/exact/qp/*.py")
+    yield (
+        READERS,
+        [suffix for suffix in READERS if suffix in tests.lower()],
+        "No test reads a {}: add one to tests/optional/qp_files",
+    )
+
+
 def of_names_and_commands():
     """The same of what users write."""
     yield (
@@ -231,6 +256,10 @@ def of_proofs():
 
 def test_findings_and_cones_are_on_their_pages_and_in_their_tables():
     assert_none(of_findings_and_cones())
+
+
+def test_formats_of_files_are_on_their_pages_and_tested():
+    assert_none(of_formats())
 
 
 def test_extras_are_whole_and_on_their_pages():

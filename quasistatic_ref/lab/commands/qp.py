@@ -13,7 +13,7 @@ from quasistatic_ref.exact.qp.exact import exact_qp
 from quasistatic_ref.exact.qp.program import QuadraticProgram
 from quasistatic_ref.exact.time_limit import TimeIsUp
 from quasistatic_ref.lab.study.problems.names import NATURAL, RAW
-from quasistatic_ref.optional.qp_files.load import SUFFIXES, file_programs
+from quasistatic_ref.optional.qp_files.load import READERS, file_programs
 from quasistatic_ref.quoting import listed, one_line
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ MOST_NAMES = 20
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    words = f"a file of a program, {listed(SUFFIXES)}, or a folder of such, which is a study"
+    words = f"a file of a program, {listed([*READERS])}, or a folder of such, which is a study"
     parser.add_argument("file", type=Path, help=words)
     parser.add_argument(
         "--solvers",
@@ -93,7 +93,7 @@ def _study(options: argparse.Namespace) -> int:
 
     answers: dict[str, Answer | TimeIsUp] = {}
     for path in sorted(options.file.iterdir()):
-        if path.suffix.lower() not in SUFFIXES:
+        if path.suffix.lower() not in READERS:
             continue
         try:
             for name, program in _loaded(path).items():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import pickle
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
@@ -21,8 +21,6 @@ from quasistatic_ref.optional.qp_files.qps import qps_program
 from quasistatic_ref.quoting import known_names, suggestion
 from quasistatic_ref.text.content import bytes_read
 
-SUFFIXES: Final = (".npz", ".qps", ".mps", ".sif", ".mat", ".parquet", ".json")
-"""In lower case, or in upper case."""
 BOUNDLESS: Final = 9e19
 """What a .mat file of the Maros-Meszaros set has, or more, where there is no limit."""
 MOST_NUMBERS: Final = 2**24
@@ -88,11 +86,10 @@ def file_programs(path: str | Path) -> dict[str, QuadraticProgram]:
     with about_file(path):
         path = Path(path)
         suffix = path.suffix.lower()
-        if suffix not in SUFFIXES:
+        if suffix not in READERS:
             remedy = REMEDIES.get(suffix, "save the program by qpsolvers.Problem.save")
-            raise InputError(f"is none of {', '.join(SUFFIXES)}: {remedy}")
-        read = dict(zip(SUFFIXES, (_npz, _qps, _qps, _qps, _mat, _parquet, _json), strict=True))
-        return read[suffix](path)
+            raise InputError(f"is none of {', '.join(READERS)}: {remedy}")
+        return READERS[suffix](path)
 
 
 def check_size(n: int, rows: int) -> None:
@@ -256,3 +253,15 @@ def _package(module: str, package: str, what: str) -> Any:
         return import_module(module)
     except ImportError:
         raise InputError(f"{what} is read by {package}: pip install {package}") from None
+
+
+READERS: Final[Mapping[str, Callable[[Path], dict[str, QuadraticProgram]]]] = {
+    ".npz": _npz,
+    ".qps": _qps,
+    ".mps": _qps,
+    ".sif": _qps,
+    ".mat": _mat,
+    ".parquet": _parquet,
+    ".json": _json,
+}
+"""By an extension, in lower case or in upper case, what reads all programs of a file."""

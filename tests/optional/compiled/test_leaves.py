@@ -1,7 +1,9 @@
 """When compiled functions stand in the place of NumPy's, and when they do not."""
 
 import os
+from functools import partial
 from inspect import unwrap
+from timeit import timeit
 
 import pytest
 
@@ -39,6 +41,22 @@ def test_a_leaf_answers_its_trials(function):
     of, trials = leaves.leaf(function)
     assert all(of(instance)(*arguments) is not None for instance, arguments in trials())
     assert leaves.is_right(function)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("function", FUNCTIONS, ids=lambda function: function.__qualname__)
+def test_a_leaf_takes_less_time_than_numpy(function):
+    """The least of several rounds, in turn, of what its trials ask: as much as a small step."""
+    of, trials = leaves.leaf(function)
+    for instance, arguments in trials():
+        ways = {"C": of(instance), "NumPy": partial(function, instance)}
+        rounds = [
+            {name: timeit(partial(way, *arguments), number=200) for name, way in ways.items()}
+            for _ in range(9)
+        ]
+        least = {name: min(one[name] for one in rounds) for name in ways}
+        ratio = least["C"] / least["NumPy"]
+        assert ratio < 1, f"{function.__qualname__} takes {ratio:.2f} of NumPy's time: remove it"
 
 
 def test_a_leaf_with_other_bits_is_left_out(monkeypatch, capfd):
