@@ -229,7 +229,7 @@ class QPInfeasible(NoOptimum):
     def _in_words(self) -> str:
         rows = self.problem.rows
         places = [rows.names.index(name) for name in self.rows]
-        if len(places) == 1 and not rows.a[places].any():
+        if len(places) == 1 and not rows.entries.counts[places].any():
             (i,) = places
             side = rows.c[i] if rows.names[i][0] == "G" else -rows.c[i]
             return f"{self.rows[0]} asks for 0 {'=' if i < rows.equations else '<='} {side:.3g}"
@@ -248,7 +248,8 @@ class QPInfeasible(NoOptimum):
         """By how much the limits miss, and the largest number of the rows."""
         rows = self.problem.rows
         _, total = Proof(self.problem).block.combined(row_factors(rows.names, self.exact))
-        largest = max(np.abs(rows.a[places]).max(), np.abs(rows.c[places]).max())
+        named = rows.entries.some(np.array(places), np.arange(rows.entries.n))
+        largest = max(np.abs(named.value).max(initial=0.0), np.abs(rows.c[places]).max())
         return abs(nearest_fraction(total)), float(largest)
 
 

@@ -41,17 +41,16 @@ class LinearModel:
 
     def __init__(self, block: Block) -> None:
         self.block = block
-        entries = np.count_nonzero(block.a, axis=1)
-        self.general = np.flatnonzero(entries > 1)
+        self.general = np.flatnonzero(block.entries.counts > 1)
         self.low, self.high = np.full(block.n, -np.inf), np.full(block.n, np.inf)
         self.of_low, self.of_high = np.full((2, block.n), -1)
-        for i in np.flatnonzero(entries == 1).tolist():
-            j = int(np.flatnonzero(block.a[i])[0])
-            limit = -block.c[i] / block.a[i, j]
+        for i in np.flatnonzero(block.entries.counts == 1).tolist():
+            (j,), (v,) = (part.tolist() for part in block.entries.entries(i))
+            limit = -block.c[i] / v
             equation = i < block.equations
-            if (equation or block.a[i, j] > 0) and limit > self.low[j]:
+            if (equation or v > 0) and limit > self.low[j]:
                 self.low[j], self.of_low[j] = limit, i
-            if (equation or block.a[i, j] < 0) and limit < self.high[j]:
+            if (equation or v < 0) and limit < self.high[j]:
                 self.high[j], self.of_high[j] = limit, i
 
     def solver(self, cost: Array, **options: Any) -> Any:
@@ -64,12 +63,12 @@ class LinearModel:
         model.col_lower_, model.col_upper_ = self.low, self.high
         model.row_lower_ = -block.c[general]
         model.row_upper_ = np.where(general < block.equations, -block.c[general], np.inf)
-        row, column = np.nonzero(block.a[general])
+        rows = block.entries.some(general, np.arange(block.n))
         matrix = model.a_matrix_
         matrix.format_ = highspy.MatrixFormat.kRowwise
-        matrix.start_ = np.searchsorted(row, np.arange(len(general) + 1)).astype(np.int32)
-        matrix.index_ = column.astype(np.int32)
-        matrix.value_ = block.a[general][row, column]
+        matrix.start_ = rows.start.astype(np.int32)
+        matrix.index_ = rows.column.astype(np.int32)
+        matrix.value_ = rows.value
         solver = highspy.Highs.__base__()  # the class itself prints its version
         for name, value in {
             "output_flag": False,
@@ -103,12 +102,14 @@ def basis_rows(block: Block) -> tuple[list[int], Array] | None:
     y = np.concatenate([np.array(solution.row_dual)[held], np.array(solution.col_dual)[~free]])
     y[len(general) :] *= np.where(high[~free], -1.0, 1.0)
     equations = model.general[~held & (model.general < block.equations)]
-    a = block.a
+    in_basis, fixed = np.flatnonzero(free), np.flatnonzero(~free)
+    a, of_equations = (block.entries.some(some, in_basis).dense() for some in (general, equations))
+    b, beside = (block.entries.some(some, fixed).dense() for some in (general, equations))
     try:
-        of_general = np.linalg.solve(a[np.ix_(general, free)].T, a[np.ix_(equations, free)].T)
+        of_general = np.linalg.solve(a.T, of_equations.T)
     except np.linalg.LinAlgError:
         return None
-    of_bounds = a[np.ix_(equations, ~free)].T - a[np.ix_(general, ~free)].T @ of_general
+    of_bounds = beside.T - b.T @ of_general
     of_bounds[high[~free]] *= -1.0
     bear = rows >= block.equations
     chosen = with_equations(y[bear], np.concatenate([of_general, of_bounds])[bear])

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpz
 
-from quasistatic_ref.exact.components import components
+from quasistatic_ref.exact.components import connected_components
 from quasistatic_ref.exact.program import EXACT, MatrixProgram, exact_matrix
 from quasistatic_ref.exact.qp.sparse import first_independent, independent
+from quasistatic_ref.exact.qp.sparse_matrix import stacked
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.numbers.modulo import independent_modulo, independent_rows, primes
 from quasistatic_ref.numbers.precision import working_precision
@@ -94,33 +95,36 @@ class Block:
     ----------
     n, m, equations : int
         Numbers of coordinates, of rows, and of equations, which are the first rows.
-    a, c : ndarray, shapes (m, n) and (m,)
-        Of the rows a x + c >= 0 in float64.
+    entries : SparseMatrix
+        The a, (m, n), of the rows a x + c >= 0 in float64.
+    c : ndarray, shape (m,)
     P, q : list of dict of int to fmpz, list of fmpz
         The symmetric part of the cost, times `unit`.
     unit : fmpq
-    square : ndarray, shape (n, n)
-        P in float64.
+    is_linear : bool
+        Whether P is zero.
     is_float : bool
-        Whether that is symmetric, and P itself.
+        Whether P in float64 is symmetric, and P itself.
     """
 
     def __init__(self, program: QuadraticProgram, coordinates: Indices, rows: Indices) -> None:
         self.program, self.coordinates, self.rows = program, coordinates, rows
         self.n, self.m = len(coordinates), len(rows)
         self.equations = int((rows < program.rows.equations).sum())
-        self.a = program.rows.a[np.ix_(rows, coordinates)]
+        self.entries = program.rows.entries.some(rows, coordinates)
         self.c = program.rows.c[rows]
         n = self.n
-        self.square = program.P[np.ix_(coordinates, coordinates)]
-        there = (self.square != 0) | (self.square.T != 0)
-        i, j = np.nonzero(there)
+        couplings = program.couplings.some(coordinates, coordinates)
+        i, j = couplings.row, couplings.column
+        self.is_linear = not len(i)
         exact_P, exact_q = (program.exact.get(name, {}) for name in ("P", "q"))
-        self.is_float = not exact_P and np.array_equal(self.square, self.square.T)
+        self.is_float = not exact_P and (
+            self.is_linear or np.array_equal(self.square, self.square.T)
+        )
         places = [*coordinates[i] * len(program.q) + coordinates[j]] if exact_P else []
         others = {t: exact_P[k] for t, k in enumerate(places) if k in exact_P}
         others |= {len(i) + t: exact_q[k] for t, k in enumerate(coordinates) if k in exact_q}
-        whole, unit = whole_numbers(np.append(self.square[i, j], program.q[coordinates]), others)
+        whole, unit = whole_numbers(np.append(couplings.value, program.q[coordinates]), others)
         square, self.q = (
             dict(zip(zip(i.tolist(), j.tolist(), strict=True), whole, strict=False)),
             whole[len(i) :],
@@ -135,6 +139,16 @@ class Block:
         self._primes = primes()
         self.prime = next(self._primes)
 
+    @property
+    def square(self) -> Array:
+        """P in float64, shape (n, n) [any unit]."""
+        return self.program.P[np.ix_(self.coordinates, self.coordinates)]
+
+    @cached_property
+    def a(self) -> Array:
+        """The rows' matrix with its zeros, shape (m, n) [any unit]."""
+        return self.entries.dense()
+
     def lucky(self, decide: Callable[[], Result]) -> Result:
         """The answer of `decide`, called with one prime after another until it has one."""
         while True:
@@ -146,8 +160,8 @@ class Block:
     def row(self, i: int) -> Row:
         """Row i in whole numbers."""
         if i not in self._kept:
-            at = np.flatnonzero(self.a[i] != 0)
-            numbers = np.append(self.a[i, at], self.c[i])
+            at, values = self.entries.entries(i)
+            numbers = np.append(values, self.c[i])
             others = self.program.rows.others(int(self.rows[i]), self.coordinates[at].tolist())
             (*entries, side), unit = whole_numbers(numbers, others)
             c = fmpq(side)
@@ -303,10 +317,13 @@ def shortest(v: Sequence[fmpz]) -> list[fmpz]:
 
 def blocks_of(program: QuadraticProgram) -> list[Block]:
     """The blocks of a program, in the order of their first coordinates."""
-    P, rows = program.P, program.rows
-    coupled = (P != 0) | (P.T != 0) | np.eye(len(P), dtype=bool)
-    coordinate, row = components(np.concatenate([coupled, rows.a != 0]))
+    n = len(program.q)
+    every = stacked([program.couplings, program.rows.entries])
+    itself = np.arange(n)
+    pairs = np.append(every.row, itself), np.append(every.column, itself)
+    coordinate, group = connected_components(*pairs, (len(every.counts), n))
+    row = group[n:]
     return [
-        Block(program, np.flatnonzero(coordinate == first), np.flatnonzero(row[len(P) :] == first))
+        Block(program, np.flatnonzero(coordinate == first), np.flatnonzero(row == first))
         for first in np.unique(coordinate)
     ]

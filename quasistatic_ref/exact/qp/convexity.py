@@ -9,7 +9,7 @@ from typing import Final, NamedTuple, cast
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz, fmpz_mat
 
-from quasistatic_ref.exact.components import components
+from quasistatic_ref.exact.components import connected_components
 from quasistatic_ref.exact.program import EXACT
 from quasistatic_ref.exact.qp.block import (
     Block,
@@ -52,7 +52,7 @@ def convex_cost(block: Block) -> Convex:
 
 def _convex_cost(block: Block) -> Convex:
     P, n = block.P, block.n
-    if block.is_float and surely_positive(block.square):
+    if block.is_float and not block.is_linear and surely_positive(block.square):
         return Convex(P, block.q, block.unit, definite=True)
     try:
         return Convex(P, block.q, block.unit, semidefinite(P, block.prime) == n)
@@ -136,10 +136,9 @@ def semidefinite(P: Sequence[Sparse], prime: int) -> int:
     ------
     Indefinite
     """
-    there = np.eye(len(P), dtype=bool)
-    for i, row in enumerate(P):
-        there[i, [*row]] = True
-    label, _ = components(there)
+    pairs = [(i, j) for i, row in enumerate(P) for j in (i, *row)]
+    i, j = np.array(pairs).T
+    label, _ = connected_components(i, j, (len(P), len(P)))
     rank = 0
     for first in np.unique(label):
         at = np.flatnonzero(label == first).tolist()

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, Final, TypeVar
 
@@ -195,8 +196,10 @@ class Face:
         """The rows outside of W whose slacks float64 does not show to be positive."""
         block = self.block
         with np.errstate(all="ignore"):
-            sizes = (np.abs(block.a) + UNDERFLOW) @ (np.abs(self.x) + UNDERFLOW) + np.abs(block.c)
-            shown = block.a @ self.x + block.c > (2 * block.n + 64) * UNIT * sizes + UNDERFLOW
+            a, x = block.entries, self.x
+            size = replace(a, value=np.abs(a.value) + UNDERFLOW).sums(np.abs(x) + UNDERFLOW)
+            bound = (2 * block.n + 64) * UNIT * (size + np.abs(block.c)) + UNDERFLOW
+            shown = a.sums(x) + block.c > bound
         shown[self.W] = True
         shown[: block.equations] = False
         return [i for i in np.flatnonzero(~shown).tolist() if i not in self.Y]

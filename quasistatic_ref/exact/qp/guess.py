@@ -175,7 +175,7 @@ def guessed(
         If initvals is neither.
     """
     if initvals is None:
-        if block.n >= MANY_VARIABLES and not block.square.any():
+        if block.n >= MANY_VARIABLES and block.is_linear:
             with suppress(ImportError):
                 basis = basis_rows(block)
                 if basis is not None:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.exact.qp.numbers import exact_numbers
+from quasistatic_ref.exact.qp.sparse_matrix import SparseMatrix, stacked
 from quasistatic_ref.numbers.arrays import Array, Indices
 from quasistatic_ref.shown import Shown
 from quasistatic_ref.text.plain import Plain
@@ -96,33 +97,45 @@ class QuadraticProgram(Plain, Shown):
     exact: Mapping[str, Mapping[int, Fraction]] = field(default_factory=dict)
 
     @cached_property
+    def couplings(self) -> SparseMatrix:
+        """P by its entries, with a zero where only the entry across it is none [any unit]."""
+        if not self.P.any():
+            none = np.zeros(0, np.int64)
+            return SparseMatrix.of(none, none, np.zeros(0), self.P.shape)
+        i, j = np.nonzero((self.P != 0) | (self.P.T != 0))
+        return SparseMatrix.of(i, j, self.P[i, j], self.P.shape)
+
+    @cached_property
     def rows(self) -> Rows:
         """The rows of the program, equations first."""
         k, e, n = len(self.h), len(self.b), len(self.q)
-        eye = np.eye(n)
+        every = np.arange(n)
+        above, below = (
+            SparseMatrix.of(every, every, np.full(n, way), (n, n)) for way in (1.0, -1.0)
+        )
         fixed = self.lb == self.ub
         low, high = (self.exact.get(name, {}) for name in ("lb", "ub"))
         fixed[[i for i in {*low, *high} if low.get(i) != high.get(i)]] = False
         at_box = k + e
         groups = [  # name, sign and first slot of multipliers; a, c and which of them are rows
-            ("A", -1, k, self.A, -self.b, np.full(e, True)),
-            ("lb", -1, at_box, eye, -self.lb, fixed),
-            ("G", 1, 0, -self.G, self.h, np.isfinite(self.h)),
-            ("lb", -1, at_box, eye, -self.lb, np.isfinite(self.lb) & ~fixed),
-            ("ub", 1, at_box, -eye, self.ub, np.isfinite(self.ub) & ~fixed),
+            ("A", -1, k, SparseMatrix.of_dense(self.A), -self.b, np.full(e, True)),
+            ("lb", -1, at_box, above, -self.lb, fixed),
+            ("G", 1, 0, SparseMatrix.of_dense(self.G, -1.0), self.h, np.isfinite(self.h)),
+            ("lb", -1, at_box, above, -self.lb, np.isfinite(self.lb) & ~fixed),
+            ("ub", 1, at_box, below, self.ub, np.isfinite(self.ub) & ~fixed),
         ]
         parts = []
         for name, of_row, first, rows, sides, there in groups:
             at = np.flatnonzero(there)
             labels = [f"{name}[{i}]" for i in at]
-            numbers = rows[at] + 0.0, sides[at] + 0.0
+            numbers = rows.some(at, every), sides[at] + 0.0
             parts.append((labels, first + at, np.full(len(at), of_row), *numbers))
-        names, slot, sign, a, c = zip(*parts, strict=True)
+        names, slot, sign, entries, c = zip(*parts, strict=True)
         return Rows(
             names=[*chain(*names)],
             slot=np.concatenate(slot),
             sign=np.concatenate(sign),
-            a=np.concatenate(a),
+            entries=stacked(entries),
             c=np.concatenate(c),
             equations=e + int(fixed.sum()),
             exact=self._exact_rows(),
@@ -167,7 +180,9 @@ class Rows:
         As ``"G[3]"``, of ``"G"``, ``"A"``, ``"lb"`` and ``"ub"``; where lb = ub the one is lb's.
     slot, sign : ndarray of int, shape (m,)
         Where the multiplier of each stands in z, y and z_box, one after the other; and times what.
-    a, c : ndarray, shapes (m, n) and (m,)
+    entries : SparseMatrix
+        a, shape (m, n) [any unit].
+    c : ndarray, shape (m,)
         [Any unit.]
     equations : int
         How many of the first are equations.
@@ -178,15 +193,20 @@ class Rows:
     names: list[str]
     slot: Indices
     sign: Indices
-    a: Array
+    entries: SparseMatrix
     c: Array
     equations: int
     exact: Mapping[str, Mapping[int, Fraction]]
 
+    @property
+    def a(self) -> Array:
+        """The matrix, zeros included, shape (m, n) [any unit]."""
+        return self.entries.dense()
+
     def others(self, i: int, columns: Sequence[int]) -> dict[int, Fraction]:
         """Exact entries of row i that float64 rounds, by place in `columns`; its side is last."""
         row = self.exact.get(self.names[i], {})
-        places = (*columns, self.a.shape[1]) if row else ()
+        places = (*columns, self.entries.n) if row else ()
         return {t: row[j] for t, j in enumerate(places) if j in row}
 
 
@@ -250,6 +270,8 @@ def check_symmetric(P: Array) -> None:
 
     InputError if P is not symmetric.
     """
+    if not P.any():
+        return
     off = np.abs(P - P.T)
     if off.max() <= SYMMETRIC * np.abs(P).max():
         return

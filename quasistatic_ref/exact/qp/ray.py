@@ -57,7 +57,7 @@ def _ray(model: LinearModel) -> Array | None:
 
 def _factors(block: Block, rows: Indices, ray: Array) -> list[dict[int, fmpq]]:
     """The factors of rows, each way, that leave the columns zero that a ray leaves so."""
-    a = block.a[rows]
+    a = block.entries.some(rows, np.arange(block.n)).dense()
     left, size = np.abs(ray @ a), np.abs(ray) @ np.abs(a)
     whole = [block.row(int(i)) for i in rows]
     vanish = np.flatnonzero((size > 0) & (left <= SMALL * size)).tolist()

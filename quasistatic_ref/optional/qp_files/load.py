@@ -25,8 +25,8 @@ BOUNDLESS: Final = 9e19
 """What a .mat file of the Maros-Meszaros set has, or more, where there is no limit."""
 MOST_NUMBERS: Final = 2**24
 """Numbers that are read from a file: 128 MiB."""
-MOST_ENTRIES: Final = 2**26
-"""Entries of P and of all rows, zeros included: 512 MiB."""
+MOST_ENTRIES: Final = 2**28
+"""Entries of P and of all rows, zeros included, which take memory beside others alone."""
 REMEDIES: Final = {
     ".lp": "write the model as .qps",
     ".qplib": "write the model as .qps",

@@ -257,7 +257,7 @@ def _filled(
     shape: tuple[int, ...], entries: dict[int, Fraction], other: float = 0.0
 ) -> tuple[Array, dict[int, Fraction]]:
     """An array of the nearest float64 numbers, and what float64 does not hold."""
-    flat = np.full(int(np.prod(shape)), other)
+    flat = np.full(math.prod(shape), other) if other else np.zeros(math.prod(shape))
     exact = {}
     for place, v in entries.items():
         flat[place] = nearest(v.numerator, v.denominator)
