@@ -101,7 +101,9 @@ def basis_rows(block: Block) -> tuple[list[int], Array] | None:
     rows = np.concatenate([general, of_bound])
     y = np.concatenate([np.array(solution.row_dual)[held], np.array(solution.col_dual)[~free]])
     y[len(general) :] *= np.where(high[~free], -1.0, 1.0)
-    equations = model.general[~held & (model.general < block.equations)]
+    of_basic = model.of_low[free]  # a fixed coordinate may be basic, too
+    outside = np.append(model.general[~held], of_basic[of_basic >= 0])
+    equations = outside[outside < block.equations]
     in_basis, fixed = np.flatnonzero(free), np.flatnonzero(~free)
     a, of_equations = (block.entries.some(some, in_basis).dense() for some in (general, equations))
     b, beside = (block.entries.some(some, fixed).dense() for some in (general, equations))
