@@ -204,7 +204,7 @@ class Block:
         some = [*W]
         if {*range(self.equations)} <= {*W}:
             some = [i for i in W if i >= self.equations or i in self.held_equations]
-        if self._surely_independent(some):
+        if self.surely_independent(some):
             return some
         return [some[t] for t in self._first_independent(some)]
 
@@ -217,7 +217,7 @@ class Block:
         """Whether rows are independent."""
         return len(self.independent(W)) == len(W)
 
-    def _surely_independent(self, W: Sequence[int]) -> bool:
+    def surely_independent(self, W: Sequence[int]) -> bool:
         """Whether a prime proves that rows are independent."""
         _, general, rest = self.split(W)
         return independent([self.row(i).entries for i in general], rest, self.prime)

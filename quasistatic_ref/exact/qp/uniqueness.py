@@ -73,7 +73,7 @@ def multipliers_witness(block: Block, W: Sequence[int], tight: Sequence[int]) ->
     They are iff A_W'c = A_E'c_E with c_E >= 0, and any sign for equations, implies c_E = 0; by
     Gordan's theorem, iff some v has A_W v = 0 and A_E v > 0.
     """
-    if not tight or block.are_independent([*W, *tight]):
+    if not tight or block.surely_independent([*W, *tight]):
         return Witness(True, {}, [])
     for p in sorted(tight, key=lambda p: p >= block.equations):  # all equations depend on W
         c = combination(block, W, p)
