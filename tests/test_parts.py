@@ -1,6 +1,7 @@
 """Parts can be taken away, with their tests; the grasp keeps its bits, and a word says its part."""
 
 import re
+import shlex
 import shutil
 import sys
 from contextlib import ExitStack, contextmanager
@@ -197,7 +198,7 @@ def test_a_word_is_refused_in_a_sentence_that_names_its_part(without, word, ever
     gone = "optional" if every else f"optional/{part}"
     without(gone)
     (tmp_path / "bunny.ply").touch()
-    in_folder = [option.format(folder=tmp_path) for option in options]
+    in_folder = [shlex.quote(option.format(folder=tmp_path)) for option in options]
     command = ["run", GRASP, "--set", "steps=1", "--out", tmp_path, *in_folder]
     assert f"{word} needs quasistatic_ref/{gone}\n" in cli(*command, status=2).err
 

@@ -7,7 +7,7 @@ from tests.scenes import written_scenario
 
 @pytest.fixture
 def scene(tmp_path):
-    return str(written_scenario(tmp_path))
+    return written_scenario(tmp_path)
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ from tests.helpers import one_sentence, pinch, point_on_floor
 
 
 def test_verify_says_that_an_answer_is_false_and_names_a_file_that_is_missing(tmp_path, cli):
-    step = str(save_step(tmp_path / "step.json", point_on_floor(force=(0.5, 0.0, -3.0))))
+    step = save_step(tmp_path / "step.json", point_on_floor(force=(0.5, 0.0, -3.0)))
     false = tmp_path / "false.json"
     cli("solve", step, "-o", false)
     false.write_text(false.read_text().replace('"delta_q": [', '"delta_q": [1'))

@@ -72,7 +72,7 @@ def test_a_path_that_comes_back_is_good(inner, value, cli):
 def test_a_path_of_the_user_leads_anywhere(inner, value, cli):
     """On the command line, and in tables of others where the user names its folder."""
     value = value.replace("{}", str(inner.parent))
-    cli("inspect", scene_written(inner), "--set", f"bodies.ball.urdf={value}")
+    cli("inspect", scene_written(inner), "--set", shlex.quote(f"bodies.ball.urdf={value}"))
     scene = changed(SCENE, ("bodies/ball/urdf", value))
     load_scenario(scene, {"roots": [str(inner.parent)]}, of_others=True)
 

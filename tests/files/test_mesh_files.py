@@ -2,6 +2,7 @@
 
 import os
 import re
+import shlex
 import sys
 import warnings
 
@@ -102,8 +103,9 @@ def test_a_relative_path_in_a_text_leads_out_of_no_folder_and_the_option_is_name
 ):
     folder = text_written(tmp_path / "arm/urdf/arm.urdf", "").parent
     text_written(folder / address, TETRAHEDRON)
-    remedy = f"name its folder: --root {tmp_path / ROOTS[address]}, or package_dirs"
-    with pytest.raises(ModelError, match=f"outside the folder of this file .*{remedy}"):
+    root = shlex.quote(str(tmp_path / ROOTS[address]))
+    remedy = f"name its folder: --root {root}, or package_dirs"
+    with pytest.raises(ModelError, match=f"outside the folder of this file .*{re.escape(remedy)}"):
         mesh_path(address, folder, is_of_file=False)
 
 

@@ -60,7 +60,7 @@ def scene(tmp_path, monkeypatch):
     with_pad = changed(
         SCENE, ("shapes/pad", pad), ("contacts/floor/alpha", "pad"), ("contacts/push", ...)
     )
-    return str(scene_written(tmp_path, with_pad))
+    return scene_written(tmp_path, with_pad)
 
 
 @pytest.mark.parametrize("other", [Sphere(0.05), HalfSpace((0, 0, -1.0), 0.05)])

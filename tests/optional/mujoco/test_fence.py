@@ -1,6 +1,7 @@
 """What an MJCF file may read, and how much it may ask for."""
 
 import os
+import shlex
 import sys
 
 import mujoco
@@ -154,7 +155,7 @@ def test_a_model_reads_where_a_urdf_reads(tmp_path, inside, file, place, named, 
     root = (home.parent / named).resolve()
     sentence = refusal(path) + " "
     assert f"mesh[m].file: leads to {root / 'm.obj'}, outside the folder" in sentence
-    assert f"name its folder: --root {root} " in sentence
+    assert f"name its folder: --root {shlex.quote(str(root))} " in sentence
     assert compiler.compiled_model(path, [root]).nmesh == 1
 
 

@@ -1,5 +1,6 @@
 """Programs that are challenged: each a few lines of Python, that answer well or not."""
 
+import shlex
 import sys
 
 ANSWERS = """
@@ -92,4 +93,4 @@ def command(name, folder):
     """The command of one of them."""
     path = folder / "program.py"
     path.write_text(ANSWERS + PROGRAMS[name])
-    return f"{sys.executable} {path}"
+    return shlex.join([sys.executable, str(path)])

@@ -51,7 +51,8 @@ def test_every_fresh_case_is_the_same_again_and_has_an_answer(name, level):
 def test_the_command_writes_counterexamples_that_can_be_asked_again(tmp_path, cli):
     out = tmp_path / "found"
     program = command("wrong", tmp_path)
-    asked = f"--command '{program}' --layer selection --cases 1 --quiet --out"
+    ask = f"--command {shlex.quote(program)}"
+    asked = f"{ask} --layer selection --cases 1 --quiet --out"
     printed = cli("vectors challenge", asked, out, status=1)
     (folder,) = out.iterdir()
     assert printed.out.splitlines()[-1] == str(folder)
@@ -61,10 +62,10 @@ def test_the_command_writes_counterexamples_that_can_be_asked_again(tmp_path, cl
     wanted = ["--command", program, "--again", str(folder / "counterexample.json")]
     assert shlex.split(line)[3:] == wanted  # as a shell takes it apart
     again = "vectors challenge --again", folder / "counterexample.json"
-    (record,) = json.loads(cli(*again, f"--command '{program}' --json", status=1).out)["findings"]
+    (record,) = json.loads(cli(*again, f"{ask} --json", status=1).out)["findings"]
     assert record == json.loads((folder / "counterexample.json").read_text())
     right = command("right", tmp_path)
-    cli(*again, f"--command '{right}' --quiet")
+    cli(*again, f"--command {shlex.quote(right)} --quiet")
 
 
 @pytest.mark.parametrize("seeds", [range(3), pytest.param(range(3, 12), marks=pytest.mark.long)])
@@ -103,8 +104,8 @@ def test_overlaps_that_no_case_has_are_said_and_others_have_an_answer(alpha, rng
 
 @pytest.mark.parametrize(("layer", "says"), [("distance", True), ("step", True), ("qp", False)])
 def test_the_report_says_which_overlaps_are_not_asked(layer, says, tmp_path, cli):
-    program = command("wrong", tmp_path)
-    words = f"vectors challenge --cases 1 --layer {layer} --command '{program}' --out", tmp_path
+    program = shlex.quote(command("wrong", tmp_path))
+    words = f"vectors challenge --cases 1 --layer {layer} --command {program} --out", tmp_path
     assert (UNANSWERED in cli(*words, status=1).out) == says
     report = json.loads(cli(*words, "--json", status=1).out)
     assert report["not_asked"] == (UNANSWERED if says else "")

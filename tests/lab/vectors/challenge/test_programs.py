@@ -1,6 +1,7 @@
 """A program that ends, hangs or prints what is no answer is reported and started again."""
 
 import json
+import shlex
 import signal
 import time
 
@@ -22,7 +23,7 @@ def challenged(tmp_path, cli):
 
     def printed(name, more=SELECTION, status=0):
         words = ("--cases 12 --quiet", more, "--timeout", str(SECONDS.get(name, 10.0)))
-        program = "--command", f"'{command(name, tmp_path)}'", "--out", tmp_path / "found"
+        program = "--command", shlex.quote(command(name, tmp_path)), "--out", tmp_path / "found"
         return cli("vectors challenge", *words, *program, status=status)
 
     return printed
@@ -43,7 +44,7 @@ def test_a_program_that_is_right_has_no_findings(challenged):
 
 
 def test_cases_are_asked_for_some_seconds(tmp_path, cli):
-    program = "--command", f"'{command('right', tmp_path)}'", "--out", tmp_path / "found"
+    program = "--command", shlex.quote(command("right", tmp_path)), "--out", tmp_path / "found"
     begin = time.monotonic()
     (row,) = counts(cli("vectors challenge", SELECTION, "--seconds 0.5 --quiet", *program))
     assert time.monotonic() - begin >= 0.5
