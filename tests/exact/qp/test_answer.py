@@ -30,7 +30,11 @@ def test_the_program_of_the_page_prints_what_the_page_says(capsys):
 
 KINDS = tomllib.loads(Path(__file__).with_name("forged.toml").read_text("utf-8"))
 PROGRAM = KINDS["optimum"]["program"]
-FORGED = [(kind, *forged) for kind, one in KINDS.items() for forged in one["forged"]]
+FORGED = [
+    pytest.param(kind, changes, reason, id=f"{kind}: {changes}")
+    for kind, one in KINDS.items()
+    for changes, reason in one["forged"]
+]
 NOT_JUDGED = [{"active": ["G[0]", "A[0]"]}, {"multipliers_unique": True}]
 """What the checker in one file takes: an order of rows, and that multipliers are unique."""
 

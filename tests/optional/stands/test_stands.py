@@ -85,8 +85,15 @@ def backwards(scene):
     return scene | {"bodies": dict(reversed(scene["bodies"].items())), "contacts": contacts}
 
 
-@pytest.mark.parametrize("also", [dict, backwards])
-@pytest.mark.parametrize(("row", "ask"), [(row, ask) for row in ROWS for ask in row["ask"]])
+ASKED = [
+    pytest.param(row, ask, id=f"{row['what']}: {number}")
+    for row in ROWS
+    for number, ask in enumerate(row["ask"])
+]
+
+
+@pytest.mark.parametrize("also", [dict, backwards], ids=["in order", "backwards"])
+@pytest.mark.parametrize(("row", "ask"), ASKED)
 def test_bodies_stand_or_lack_what_is_right_by_hand_whatever_the_order(row, ask, also):
     scenario = made(row, ask.get("set", {}), also)
     assert_by_hand(scenario, run_of(scenario), ask["stands"])
