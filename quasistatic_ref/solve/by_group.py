@@ -159,7 +159,8 @@ class GroupIndex:
     def natural_hessian(self, hessian: Hessian) -> NaturalHessian:
         """H without a user's cost in natural units; StepDataError as of the norm."""
         parts = [hessian.part(group.coordinates) for group in self.groups]
-        return self._natural([H.matrix for H in parts], [norm_of_hessian(H) for H in parts])
+        with np.errstate(all="ignore"):  # of what is refused
+            return self._natural([H.matrix for H in parts], [norm_of_hessian(H) for H in parts])
 
     def natural_hessian_of(self, step: StepData) -> NaturalHessian:
         """H of a step in natural units: formed once for all steps that share theirs."""

@@ -10,11 +10,9 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.optional.compiled import leaves
 from quasistatic_ref.simulate.form_step import form_step
 from tests.processes import python
 
-LEAVES = sorted(leaves.LEAVES)
 SCENES = 300
 H = 0.01
 FLOOR = qr.PlacedShape.in_world("floor", qr.HalfSpace((0, 0, 1), 0.0))
@@ -125,31 +123,6 @@ def test_steps_of_300_scenes_have_the_same_bits_with_compiled_code_and_without()
     code = "from tests.simulate.test_form_step import digest; print(digest())"
     without = python("-c", code, env=os.environ | {"QUASISTATIC_REF_COMPILED": "0"})
     assert without.stdout.split() == [digest()]
-
-
-@pytest.mark.extra("compiled")
-@pytest.mark.parametrize("without", LEAVES)
-def test_what_one_compiled_function_declines_has_the_same_bits(without, monkeypatch):
-    with_all = digest(45)
-    is_compiled = leaves.is_compiled
-    monkeypatch.setattr(
-        leaves, "is_compiled", lambda f: f.__qualname__ != without and is_compiled(f)
-    )
-    assert digest(45) == with_all
-
-
-@pytest.mark.extra("compiled")
-def test_compiled_code_forms_nearly_all_steps():
-    assert sum(formed(*scene(seed)).formed is not None for seed in range(SCENES)) >= 285
-    grasp = qr.load_scenario("bunny_grasp", ["solver.certify=off"], fast=True)
-    simulator = grasp.simulator()
-    end = grasp.system.q_start
-    count = 0
-    for k in range(40):
-        result = simulator.step(end, grasp.targets(k * H))
-        count += result.step.formed is not None
-        end = result.end
-    assert count >= 38
 
 
 def test_a_copy_and_a_pickle_form_the_same_step_and_a_refusal_changes_nothing():

@@ -34,13 +34,16 @@ class SparseMatrix:
     def of(
         cls, row: Indices, column: Indices, value: Array, shape: tuple[int, ...]
     ) -> SparseMatrix:
-        """Entries (k,) in the order of their rows and columns, in a matrix of a shape (m, n)."""
+        """A matrix of `shape` (m, n) from entries, in the order of their rows and columns.
+
+        `row`, `column` and `value` [any unit] are of shape (k,).
+        """
         m, n = shape
         return cls(np.searchsorted(row, np.arange(m + 1)), column, value + 0.0, n)
 
     @classmethod
     def of_dense(cls, matrix: Array, factor: float = 1.0) -> SparseMatrix:
-        """The entries of an array, shape (m, n), each times a factor."""
+        """The entries of `matrix`, shape (m, n) [any unit], each times a `factor` [-]."""
         row, column = np.nonzero(matrix)
         return cls.of(row, column, factor * matrix[row, column], matrix.shape)
 
@@ -60,7 +63,7 @@ class SparseMatrix:
         return self.column[of_row], self.value[of_row]
 
     def some(self, rows: Indices, columns: Indices) -> SparseMatrix:
-        """The matrix of some rows, (m',), and some columns in increasing order, (n',)."""
+        """The matrix of some `rows`, (m',), and `columns` in increasing order, (n',)."""
         counts = self.counts[rows]
         ends = np.cumsum(counts)
         at = np.repeat(self.start[rows] - (ends - counts), counts) + np.arange(counts.sum())
@@ -79,7 +82,7 @@ class SparseMatrix:
         return whole
 
     def sums(self, x: Array) -> Array:
-        """The product with x, (n,): shape (m,)."""
+        """The product with `x`, shape (n,) [any unit]: shape (m,)."""
         products = self.value * x[self.column]
         return np.bincount(self.row, products, len(self.start) - 1).astype(np.float64)
 
