@@ -1,14 +1,15 @@
-"""Exact optima of public programs, a line of JSON for each: validation/optima/optima.jsonl.
+"""Exact optima of public programs: validation/optima/optima.jsonl, and a file for each answer.
 
     python -m validation.make.optima NAME_OF_SET FOLDER
 
 FOLDER has the set's files, .qps, .mps or .sif, read as decimals. Each program is solved in a
 process of its own, the smallest file first, for at most SECONDS of the processor. Lines of earlier
-runs stay where the file's hash is the same.
+runs stay where the file's hash is the same, and answers are there.
 """
 
 import hashlib
 import json
+import math
 import resource
 import subprocess
 import sys
@@ -19,10 +20,13 @@ from time import process_time
 from typing import Any
 
 import numpy as np
+from flint import fmpq
 from tqdm import tqdm
 
 import quasistatic_ref as qr
-from quasistatic_ref.exact.qp.substitution import exact_x
+from quasistatic_ref.exact.qp.numbers import as_fraction
+from quasistatic_ref.exact.qp.substitution import exact_point
+from quasistatic_ref.numbers.precision import nearest_fraction
 from quasistatic_ref.optional.qp_files.load import file_programs
 from quasistatic_ref.optional.qp_files.qps import qps_names
 from quasistatic_ref.text.content import text_written
@@ -32,6 +36,8 @@ SECONDS = 120
 """Of the processor, for a program [s]."""
 LONGEST = 200
 """Characters of a fraction that is written whole; of longer ones its nearest float64 alone."""
+MOST_CHARACTERS = 100_000
+"""Of an answer in fractions; of longer ones the nearest float64 numbers are written."""
 SUFFIXES = (".qps", ".mps", ".sif")
 FIELDS = {"active", "least_norm", "direction"}
 
@@ -43,7 +49,9 @@ def main(of_set: str, folder: str) -> int:
     for path in tqdm(sorted(files, key=lambda path: path.stat().st_size)):
         key = of_set, path.stem.upper()
         sha256 = hashlib.sha256(path.read_bytes()).hexdigest()
-        if lines.get(key, {}).get("sha256") == sha256:
+        line = lines.get(key, {"status": ""})
+        answer_file = OPTIMA.parent / of_set / f"{key[1]}.json"
+        if line.get("sha256") == sha256 and (line["status"] != "optimal" or answer_file.exists()):
             continue
         head = {"set": of_set, "name": key[1], "sha256": sha256}
         command = [sys.executable, "-m", "validation.make.optima", str(path)]
@@ -51,8 +59,11 @@ def main(of_set: str, folder: str) -> int:
         if done.returncode and done.returncode >= 0:
             print(f"{path.name}: {done.stderr.strip().splitlines()[-1]}")
             continue
-        answer = done.stdout or f'{{"status": "not ended in {SECONDS} s"}}'
-        lines[key] = head | json.loads(answer)
+        answer = json.loads(done.stdout or f'{{"status": "not ended in {SECONDS} s"}}')
+        if (numbers := answer.pop("answer", None)) is not None:
+            answer_file.parent.mkdir(exist_ok=True)
+            text_written(answer_file, f"{json.dumps(numbers)}\n")
+        lines[key] = head | answer
         text_written(OPTIMA, "".join(f"{json.dumps(line)}\n" for _, line in sorted(lines.items())))
     return 0
 
@@ -77,24 +88,46 @@ def line_of(path: str) -> dict[str, Any]:
     except (qr.QPInfeasible, qr.QPUnbounded) as proof:
         return size | {"status": proof.status, "seconds": round(process_time() - start, 2)}
     seconds = process_time() - start
-    objective = exact_objective(answer)
+    x, multipliers = exact_point(program, {name: getattr(answer, name) for name in FIELDS})
+    objective = exact_objective(program, [*map(as_fraction, x)])
     assert answer.obj == float(objective)
     return size | {
         "status": "optimal",
         "objective": answer.obj,
-        "fraction": str(objective) if len(str(objective)) <= LONGEST else None,
+        "fraction": str(objective) if short(objective) else None,
         "x_unique": answer.x_unique,
         "multipliers_unique": answer.multipliers_unique,
         "seconds": round(seconds, 2),
         "active": [names[name] for name in answer.active],
+        "answer": numbers_of(
+            {name: v for name, v in zip(columns(names), x, strict=True) if v},
+            {names[name]: v for name, v in multipliers.items()},
+        ),
     }
 
 
-def exact_objective(answer: qr.ExactQP) -> Fraction:
+def columns(names: dict[str, str]) -> list[str]:
+    """The names of unknowns, in order."""
+    return [name.removesuffix(" >=") for key, name in names.items() if key.startswith("lb")]
+
+
+def numbers_of(x: dict[str, fmpq], multipliers: dict[str, fmpq]) -> dict[str, dict[str, Any]]:
+    """What is not zero of an answer: fractions as texts, or of a long one the nearest float64."""
+    every = {"x": x, "multipliers": multipliers}
+    parts = [part for some in every.values() for v in some.values() for part in (v.p, v.q)]
+    digits = sum(int(part).bit_length() for part in parts) * math.log10(2)
+    write = str if digits + 10 * len(parts) <= MOST_CHARACTERS else nearest_fraction
+    return {key: {name: write(v) for name, v in some.items()} for key, some in every.items()}
+
+
+def short(v: Fraction) -> bool:
+    """Whether a fraction is written whole."""
+    bits = v.numerator.bit_length() + v.denominator.bit_length()
+    return bits < 4 * LONGEST and len(str(v)) <= LONGEST
+
+
+def exact_objective(program: qr.QuadraticProgram, x: list[Fraction]) -> Fraction:
     """The objective in fractions, of x in fractions, which holds every row by substitution."""
-    program = answer.problem
-    x = exact_x(program, {name: getattr(answer, name) for name in FIELDS})
-    x = [Fraction(int(v.p), int(v.q)) for v in x]
     constant = program.exact.get("constant", {}).get(0, program.constant)
     linear = sum((v * x[j] for (j,), v in entries(program, "q")), Fraction(constant))
     return linear + sum((v * x[i] * x[j] for (i, j), v in entries(program, "P")), Fraction(0)) / 2

@@ -17,7 +17,7 @@ from quasistatic_ref.exact.fractions import fractions_read
 from quasistatic_ref.exact.qp.digits import correct_digits, multiplier_digits
 from quasistatic_ref.exact.qp.numbers import texts
 from quasistatic_ref.exact.qp.program import FIELDS, HasAnswer, QuadraticProgram, x_of
-from quasistatic_ref.exact.qp.substitution import exact_x, optimum_verdict
+from quasistatic_ref.exact.qp.substitution import exact_point, optimum_verdict
 from quasistatic_ref.exact.qp.verdict import Proof, row_factors
 from quasistatic_ref.exact.verdict import Verdict
 from quasistatic_ref.numbers.arrays import Array
@@ -136,7 +136,7 @@ class ExactQP(Plain, Shown):
 
     @cached_property
     def _exact_x(self) -> list[fmpq]:
-        return exact_x(self.problem, field_values(self))
+        return exact_point(self.problem, field_values(self))[0]
 
     def save(self, path: str | Path) -> Path:
         """Write the problem and this answer as one JSON file, whole or not at all.

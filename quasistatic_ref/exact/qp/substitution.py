@@ -99,8 +99,12 @@ def _check(problem: QuadraticProgram, claims: Mapping[str, Any]) -> None:
         raise Refuted("obj_error is less than the error of obj")
 
 
-def exact_x(problem: QuadraticProgram, claims: Mapping[str, Any]) -> list[fmpq]:
-    """The exact x of an optimum, n fractions, of the rows that it names.
+def exact_point(
+    problem: QuadraticProgram, claims: Mapping[str, Any]
+) -> tuple[list[fmpq], dict[str, fmpq]]:
+    """The exact x of an optimum, n fractions, and multipliers by the names of rows that bear.
+
+    Those of G, lb and ub are positive; those of A belong to A x - b [any unit].
 
     Raises
     ------
@@ -109,14 +113,19 @@ def exact_x(problem: QuadraticProgram, claims: Mapping[str, Any]) -> list[fmpq]:
     """
     x = [fmpq(0)] * len(problem.q)
     names = problem.rows.names
+    multipliers: dict[str, fmpq] = {}
     for block in blocks_of(problem):
         try:
-            point, *_ = _point(block, [names[i] for i in block.rows], claims)
+            point, _, W, _ = _point(block, [names[i] for i in block.rows], claims)
         except Refuted as refuted:
             raise InputError(f"the answer is not proved: {refuted}") from None
         for j, v in zip(block.coordinates.tolist(), point.X, strict=True):
             x[j] = fmpq(v, point.d)
-    return x
+        for i in W:
+            y = fmpq(point.Y[i]) * block.row(i).unit / block.unit / point.d
+            if y:
+                multipliers[names[block.rows[i]]] = y
+    return x, multipliers
 
 
 def _point(
