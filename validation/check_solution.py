@@ -9,7 +9,12 @@ minimise 1/2 x'Px + q'x subject to G x <= h, A x = b and lb <= x <= ub, with at 
 It claims an optimum, or proves that there is none: rows contradict each other, or the cost falls
 without end along a direction, or P is not convex.
 
-All numbers of the files are float64, hence fractions, and fractions they stay. A step is the
+``python check_solution.py PROGRAM.qps optima.jsonl`` judges a line of a table of public programs,
+and the answer that stands beside the table, SET/NAME.json: fractions x and multipliers are put into
+the decimals of the file. Nothing is solved. Not judged are whether x or multipliers are the only
+ones, and programs where more than 100 unknowns are coupled by P.
+
+All numbers of the other files are float64, hence fractions, and fractions they stay. A step is the
 problem  min 1/2 x'Hx - g'x  subject to  A x >= b,  where x is delta_q. A solution names rows W, its
 ``active``. Eq. (9) and A_W x = b_W are one linear system, which determines x and lam. The file is
 right if these satisfy Eqs. (10)-(12), and if its numbers are theirs, rounded once, and zero is 0.0.
@@ -19,6 +24,7 @@ that an answer without a direction has no other optimum.
 
 import hashlib
 import json
+import os
 import sys
 from fractions import Fraction
 from math import lcm
@@ -536,15 +542,182 @@ def contradicted(factors, rows, n):
     return not any(total) and limit < 0
 
 
+def decimal(text):
+    """A number as it is written; None of an infinite one."""
+    infinite = text.lower().lstrip("+-").startswith("inf")
+    return None if infinite else Fraction(text.upper().replace("D", "E"))
+
+
+def blanks(line):
+    """The fields of a line, which blanks part."""
+    return line.split()
+
+
+def places(line):
+    """The fields of a line by where they stand: names may have blanks."""
+    ends = ((1, 3), (4, 12), (14, 22), (24, 36), (39, 47), (49, 61))
+    return [field for a, b in ends if (field := line[a:b].strip())]
+
+
+class Qps:
+    """The decimals of a QPS file: of each row {column: entry}, its kind, side and range."""
+
+    def __init__(self, text, fields_of):
+        self.kind, self.side, self.range, self.low, self.high = {}, {}, {}, {}, {}
+        self.row, self.columns, self.P = {}, [], {}
+        first, section = {}, ""
+        for line in text.splitlines():
+            if not line.strip() or line[0] == "*":
+                continue
+            if not line[0].isspace():
+                section = line.split()[0].upper()
+                need(section not in ("MAX", "OBJSENSE"), f"{section} is not judged here")
+                continue
+            fields = fields_of(line)
+            if section == "ROWS":
+                self.kind[fields[1]], self.row[fields[1]] = fields[0].upper(), {}
+            elif section == "BOUNDS":
+                free = fields[0].upper() in ("FR", "MI", "PL")
+                named = len(fields) == (3 if free else 4)
+                if first.setdefault(section, fields[1] if named else "") == (
+                    fields[1] if named else ""
+                ):
+                    self.bound(fields[0].upper(), fields[1 + named], None if free else fields[-1])
+            else:
+                named = len(fields) % 2
+                head = fields[0] if named else ""
+                for name, text in zip(fields[named::2], fields[named + 1 :: 2], strict=True):
+                    self.entry(section, head, name, decimal(text), first)
+
+    def entry(self, section, head, name, v, first):
+        """One pair of a name and a number."""
+        if section == "COLUMNS":
+            if head not in self.low:
+                self.columns.append(head)
+                self.low[head], self.high[head] = Fraction(0), None
+            self.row[name][head] = self.row[name].get(head, 0) + v
+        elif section in ("RHS", "RANGES"):
+            if first.setdefault(section, head) == head:
+                {"RHS": self.side, "RANGES": self.range}[section][name] = v
+        else:
+            need(section in ("QUADOBJ", "QSECTION", "QMATRIX"), f"{section} is not known here")
+            need(head in self.low and name in self.low, f"{head}, {name} are no columns")
+            pairs = {(head, name)} if section == "QMATRIX" else {(head, name), (name, head)}
+            for pair in pairs:
+                self.P[pair] = self.P.get(pair, 0) + v
+
+    def bound(self, kind, name, text):
+        """One bound of a column."""
+        need(name in self.low, f"{name} is no column")
+        need(kind in ("LO", "UP", "FX", "FR", "MI", "PL"), f"the bound {kind} is not known here")
+        v = None if text is None else decimal(text)
+        if kind in ("LO", "FX", "FR", "MI"):
+            self.low[name] = v
+        if kind in ("UP", "FX", "FR", "PL"):
+            self.high[name] = v
+        negative = kind == "UP" and v is not None and v < 0 and self.low[name] == 0
+        need(not negative, f"{name} has an upper bound below 0, of which readers differ")
+
+    def limits(self):
+        """By its name in the table, each limit: a row, a side, and 1 for <=, -1 for >= and 0."""
+        for name, kind in self.kind.items():
+            side, size = self.side.get(name, Fraction(0)), self.range.get(name)
+            low, high = (side if kind in "EG" else None), (side if kind in "EL" else None)
+            if size is not None and kind in "EGL":
+                low = side - abs(size) if kind == "L" or (kind == "E" and size < 0) else side
+                high = side + abs(size) if kind == "G" or (kind == "E" and size > 0) else side
+            if kind == "E" and not size:
+                yield name, self.row[name], side, 0
+            elif kind != "N":
+                for end, word, sign in ((high, "<=", 1), (low, ">=", -1)):
+                    if end is not None:
+                        yield f"{name} {word}", self.row[name], end, sign
+        for name in self.columns:
+            for end, word, sign in ((self.high[name], "<=", 1), (self.low[name], ">=", -1)):
+                if end is not None:
+                    yield f"{name} {word}", {name: Fraction(1)}, end, sign
+
+
+def coupled(P):
+    """The blocks of P, a matrix each."""
+    beside, blocks = {}, []
+    for i, j in P:
+        beside.setdefault(i, set()).add(j)
+    while beside:
+        block, todo = [], [next(iter(beside))]
+        while todo:
+            j = todo.pop()
+            if j in beside:
+                block.append(j)
+                todo += beside.pop(j)
+        need(len(block) <= MOST, f"P couples {len(block)} unknowns, more than {MOST}")
+        blocks.append([[P.get((i, j), Fraction(0)) for j in block] for i in block])
+    return blocks
+
+
+def line_verdicts(path, table_path):
+    """Each claim of a line of a table of optima, and whether it holds."""
+    with open(path, "rb") as file:
+        content = file.read()
+    with open(table_path, encoding="utf-8") as file:
+        lines = [json.loads(text) for text in file]
+    sha256 = hashlib.sha256(content).hexdigest()
+    found = [line for line in lines if line["sha256"] == sha256]
+    need(found, "no line of the table has the hash of this file")
+    (line,) = found
+    need(line["status"] == "optimal", f"the line says {line['status']}, of which nothing is kept")
+    answer = table(os.path.join(os.path.dirname(table_path), line["set"], f"{line['name']}.json"))
+    texts = [text for part in answer.values() for text in part.values()]
+    need(all(isinstance(text, str) for text in texts), "the answer is too long for fractions")
+    text = content.decode("utf-8", "replace")
+    try:
+        qps = Qps(text, blanks)
+    except (LookupError, ValueError):  # names with blanks
+        qps = Qps(text, places)
+    x, y = ({name: Fraction(v) for name, v in answer[key].items()} for key in ("x", "multipliers"))
+    need(x.keys() <= {*qps.columns}, "x names what is no column")
+    limits = {name: limit for name, *limit in qps.limits()}
+    need({*y, *line["active"]} <= limits.keys(), "a row is named that the file does not have")
+
+    def off(name):
+        row, side, _ = limits[name]
+        return sum((v * x[j] for j, v in row.items() if j in x), -side)
+
+    yield "P is convex", all(map(semidefinite, coupled(qps.P)))
+    yield "rows", all(off(name) * sign <= 0 if sign else not off(name)
+                      for name, (_, _, sign) in limits.items())  # fmt: skip
+    yield "active rows bear", not any(map(off, {*y, *line["active"]}))
+    yield "multipliers are of active rows", y.keys() <= {*line["active"]}
+    yield "signs of multipliers", all(v > 0 or not limits[name][2] for name, v in y.items())
+    objective = next(name for name, kind in qps.kind.items() if kind == "N")
+    slope = {**qps.row[objective]}
+    linear = sum((v * x[j] for j, v in slope.items() if j in x), -qps.side.get(objective, 0))
+    quadratic = Fraction(0)
+    for (i, j), v in qps.P.items():
+        if j in x:
+            slope[i] = slope.get(i, 0) + v * x[j]
+            quadratic += v * x[j] * x.get(i, 0)
+    for name, v in y.items():
+        row, _, sign = limits[name]
+        for j, a in row.items():
+            slope[j] = slope.get(j, 0) + (sign or -1) * v * a
+    yield "the multipliers balance the cost", not any(slope.values())
+    value = linear + quadratic / 2
+    yield "objective", float(value) == line["objective"]
+    yield "fraction", line["fraction"] in (None, str(value))
+
+
 def main(*paths):
     """Print what holds, up to the first claim that does not; the exit status."""
     try:
         need(len(paths) in (1, 2), "STEP.json and SOLUTION.json are asked for, or ANSWER.json")
-        tables = [table(path) for path in paths]
-        if len(tables) == 1:
-            claims = program_verdicts(program_read(tables[0]))
+        if paths[-1].endswith(".jsonl"):
+            claims = line_verdicts(*paths)
+        elif len(paths) == 1:
+            claims = program_verdicts(program_read(table(*paths)))
         else:
-            claims = verdicts(step_read(tables[0]), solution_read(tables[1]))
+            step, solution = map(table, paths)
+            claims = verdicts(step_read(step), solution_read(solution))
         for claim, holds in claims:
             print(f"{claim}: {'holds' if holds else 'FAILS'}")
             if not holds:
