@@ -21,10 +21,10 @@ HERE = Path(__file__).parent / "mistakes"
 PAGE = (HERE.parents[3] / "docs" / "findings.md").read_text("utf-8")
 GRAVE = {
     name: None if " or " in severity else severity == "grave"
-    for name, severity in re.findall(r"^\| `([\w-]+)` \| ([\w, ]+) \|", PAGE, re.M)
+    for name, severity in re.findall(r"^\| `([\w-]+)` \|.*\| ([\w, ]+) \| \w+ \|$", PAGE, re.M)
 }
 """By the page, of each finding; None of those that may be either."""
-BEFORE = {*re.findall(r"^\| `([\w-]+)` \| [\w, ]+ \| (?:typed|start) \|", PAGE, re.M)}
+BEFORE = {*re.findall(r"^\| `([\w-]+)` \|.*\| (?:typed|start) \|$", PAGE, re.M)}
 """By the page, what is found before a run, of which a few steps show all."""
 SCENES = ("grasp", "push", "turn")
 RADIUS = 0.033
