@@ -25,8 +25,8 @@ BOUNDLESS: Final = 9e19
 """What a .mat file of the Maros-Meszaros set has, or more, where there is no limit."""
 MOST_NUMBERS: Final = 2**24
 """Numbers that are read from a file: 128 MiB."""
-MOST_ENTRIES: Final = 2**28
-"""Entries of P and of all rows, zeros included, which take memory beside others alone."""
+MOST_ENTRIES: Final = {"linear": 2**28, "quadratic": 2**26}
+"""Entries of P and of all rows, zeros included. Of a linear program these take no memory."""
 REMEDIES: Final = {
     ".lp": "write the model as .qps",
     ".qplib": "write the model as .qps",
@@ -92,14 +92,15 @@ def file_programs(path: str | Path) -> dict[str, QuadraticProgram]:
         return READERS[suffix](path)
 
 
-def check_size(n: int, rows: int) -> None:
+def check_size(n: int, rows: int, *, linear: bool) -> None:
     """Refuse a program that is too large to be solved, before its zeros are formed.
 
     InputError if the file asks for more.
     """
-    if n * (n + rows) > MOST_ENTRIES:
-        problem = f"has {n} variables and {rows} rows; at most {MOST_ENTRIES} entries are held"
-        raise InputError(problem)
+    kind = "linear" if linear else "quadratic"
+    if n * (n + rows) > MOST_ENTRIES[kind]:
+        problem = f"has {n} variables and {rows} rows; of a {kind} program at most "
+        raise InputError(f"{problem}{MOST_ENTRIES[kind]} entries are held")
 
 
 def _json(path: Path) -> dict[str, QuadraticProgram]:
@@ -160,7 +161,7 @@ def _mat(path: Path) -> dict[str, QuadraticProgram]:
         if name not in table and name != "r":
             raise InputError("is missing: this is no problem of the Maros-Meszaros set", field=name)
     (n, *_), (m, *_) = np.shape(table["P"]), np.shape(table["A"])
-    check_size(n, m)
+    check_size(n, m, linear=False)
     shapes = {"P": (n, n), "q": (n,), "r": (1,), "A": (m, n), "l": (m,), "u": (m,)}
     array = {name: _dense(table[name], name, shapes[name]) for name in table if name in shapes}
     A, low, high = array["A"], array["l"], array["u"]
@@ -227,7 +228,7 @@ def _of_row(row: dict[str, Any]) -> QuadraticProgram:
     for field, side in (("P", "q"), ("G", "h"), ("A", "b")):
         value, rows = row.get(field), len(row.get(side) or [])
         if value is not None:
-            check_size(n, rows)
+            check_size(n, rows, linear=False)
             flat = np.array(value, dtype=object).ravel()
             if flat.size != n * rows:
                 problem = f"must be {rows} x {n} numbers, row after row"

@@ -181,7 +181,7 @@ class _Qps:
                 if kind != "L" or size is not None:
                     yield row, ">=", low
 
-    def program(self, check_size: Callable[[int, int], None]) -> QuadraticProgram:
+    def program(self, check_size: Callable[..., None]) -> QuadraticProgram:
         """The program of all lines."""
         self._warn_of_sets()
         names = {name: j for j, name in enumerate(self.columns)}
@@ -204,7 +204,7 @@ class _Qps:
                 A.add(by_row[row], side, 1)
             else:
                 G.add(by_row[row], side, 1 if sense == "<=" else -1)
-        check_size(n, len(G.sides) + len(A.sides))
+        check_size(n, len(G.sides) + len(A.sides), linear=not any(self.costs.values()))
         way = -1 if self.maximise else 1
         P: defaultdict[int, Fraction] = defaultdict(Fraction)
         for (one, other), v in self.costs.items():
@@ -300,14 +300,14 @@ def _pairs(fields: Sequence[str]) -> Iterator[tuple[str, Fraction]]:
         yield name, v
 
 
-def qps_program(text: str, check_size: Callable[[int, int], None]) -> QuadraticProgram:
+def qps_program(text: str, check_size: Callable[..., None]) -> QuadraticProgram:
     """The program of a file's text.
 
     Parameters
     ----------
     text : str
     check_size : callable
-        Of numbers of variables and rows; it refuses what is too large.
+        Of numbers of variables and rows, and ``linear``; it refuses what is too large.
 
     Raises
     ------

@@ -136,7 +136,7 @@ BAD = [
     (".mat", {"P": np.eye(3)[:2]}, "P: must be 2 x 2 real numbers"),
     (".mat", {"P": spoilt(EYE)}, "is not P of a problem, or is spoilt"),
     (".mat", {"A": scipy.sparse.csc_array((3, 2))}, "A: must end in a unit matrix"),
-    (".mat", {"P": scipy.sparse.eye_array(18000)}, "has 18000 variables and 3 rows; at most"),
+    (".mat", {"P": scipy.sparse.eye_array(9000)}, "has 9000 variables and 3 rows; of a quadratic"),
     (".mat", {"P": "eye"}, "P: must be 1 x 1 real numbers"),
     (".mat", {"x_l": [0.0], "h_u": [1.0]}, "is a problem of another package"),
     (".json", '{"P": {"m": 2}, "q": [1.0]}', "is no file of ExactQP"),
