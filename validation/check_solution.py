@@ -633,9 +633,11 @@ class Qps:
                     if end is not None:
                         yield f"{name} {word}", self.row[name], end, sign
         for name in self.columns:
-            for end, word, sign in ((self.high[name], "<=", 1), (self.low[name], ">=", -1)):
-                if end is not None:
-                    yield f"{name} {word}", {name: Fraction(1)}, end, sign
+            low, high, itself = self.low[name], self.high[name], {name: Fraction(1)}
+            if low is not None:
+                yield f"{name} >=", itself, low, 0 if low == high else -1
+            if high not in (None, low):
+                yield f"{name} <=", itself, high, 1
 
 
 def coupled(P):

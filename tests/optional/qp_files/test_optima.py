@@ -21,6 +21,7 @@ COLUMNS
     y  high  2.0  sum  .1
     z  sum  -3.D-1  band  1.0
     w  band  1  cost  -.7
+    v  cost  -5  sum  -.1
 RHS
     rhs  cost  -4.0
     rhs  low  2.0  high  6.0
@@ -34,6 +35,7 @@ BOUNDS
  UP bnd  x  20.0
  MI bnd  z
  UP bnd  w  0.7
+ FX bnd  v  2
  FR other  x
 QUADOBJ
     x  x  8.0
