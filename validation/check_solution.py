@@ -24,7 +24,6 @@ that an answer without a direction has no other optimum.
 
 import hashlib
 import json
-import os
 import sys
 from fractions import Fraction
 from math import lcm
@@ -668,7 +667,8 @@ def line_verdicts(path, table_path):
     need(found, "no line of the table has the hash of this file")
     (line,) = found
     need(line["status"] == "optimal", f"the line says {line['status']}, of which nothing is kept")
-    answer = table(os.path.join(os.path.dirname(table_path), line["set"], f"{line['name']}.json"))
+    *folder, _ = table_path.split("/")
+    answer = table("/".join([*folder, line["set"], f"{line['name']}.json"]))
     texts = [text for part in answer.values() for text in part.values()]
     need(all(isinstance(text, str) for text in texts), "the answer is too long for fractions")
     text = content.decode("utf-8", "replace")
