@@ -31,6 +31,11 @@ def folder(tmp_path, monkeypatch):
     library._loaded.cache_clear()
 
 
+def test_compiled_code_is_of_the_sources_that_stand_here():
+    why = library.missing() or ""
+    assert "other sources" not in why, f"{why}: python quasistatic_ref/optional/compiled/build.py"
+
+
 @pytest.mark.parametrize("reason", REASONS)
 def test_a_library_that_is_not_made_leaves_the_reason(folder, reason):
     with pytest.MonkeyPatch.context() as patch:
