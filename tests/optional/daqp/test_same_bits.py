@@ -2,8 +2,8 @@
 
 Random steps are hard to prove: ties, rows that depend on each other, equal groups, loads and gaps
 of sizes from 2^-300 to 2^300.
-Of vectors and of the answers of contact-qp, a share is taken that grows with ``--count``; whole
-runs, whose hashes validation/results/run_hashes.md lists, from 2000 on.
+Of vectors and of the answers of contact-qp, a share is taken that grows with ``--count``. Whole
+runs have the hashes that validation/results/run_hashes.md lists.
 """
 
 import hashlib
@@ -80,11 +80,10 @@ def test_answers_of_contact_qp(count):
             assert bits(plain[0].delta_q) == bits(one.answer.x + 0.0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("fast", [False, True])
 @pytest.mark.parametrize("name", SCENARIOS)
-def test_whole_runs_have_their_hashes(name, fast, count):
-    if count < 2000:
-        pytest.skip("whole runs are taken with --count 2000")
+def test_whole_runs_have_their_hashes(name, fast):
     page = (ROOT / "validation/results/run_hashes.md").read_text("utf-8")
     known = dict(re.findall(r"^\| (\w+) \| `(\w{64})` \|$", page, re.MULTILINE))
     run = load_scenario(name, ["record=light"], fast=fast).run()
