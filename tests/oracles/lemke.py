@@ -4,15 +4,17 @@ Another method than the active set: minimise 1/2 x'Px + q'x subject to a_i x <= 
 x = -P^-1 (q + a'z), where w = M z + r, w >= 0, z >= 0, w'z = 0 with M = a P^-1 a' and
 r = h + a P^-1 q. M is positive semidefinite, so the method ends with such a z, or in a ray if there
 is none (Cottle, Pang, Stone, The Linear Complementarity Problem, section 4.4). Ties are broken by
-the lexicographic rule, and pivots keep whole numbers whole (Edmonds).
+the lexicographic rule, and pivots keep whole numbers whole (Edmonds). FLINT has the numbers of the
+table and of M; the z that it ends with is put into the conditions, in Python's fractions.
 """
 
 from fractions import Fraction
 from functools import cmp_to_key
 
 import numpy as np
+from flint import fmpq, fmpq_mat, fmpz, fmpz_mat
 
-from tests.oracles.rational_kkt import exact, solution, whole
+from tests.oracles.rational_kkt import exact, fractions, solution, whole
 
 
 def optimum(P, q, a, h):
@@ -21,8 +23,18 @@ def optimum(P, q, a, h):
     if not len(h):
         return -by_q, exact([])
     by_a = solution(P, a.T)
-    z = complementary(a @ by_a, h + a @ by_q)
+    z = complementary(product(a, by_a), h + a @ by_q)
     return None if z is None else (-by_q - by_a @ z, z)
+
+
+def product(A, B):
+    """A B by FLINT, for many entries."""
+    if not A.size:
+        return exact(np.zeros((len(A), B.shape[1])))
+    of_A, of_B = (
+        fmpq_mat([[fmpq(v.numerator, v.denominator) for v in row] for row in M]) for M in (A, B)
+    )
+    return np.reshape(exact(fractions((of_A * of_B).entries())), (len(A), B.shape[1]))
 
 
 def optima(P, q, a, h, e):
@@ -93,42 +105,44 @@ def complementary(M, r):
     if all(v >= 0 for v in r):
         return zero
     rows = [whole([*-M_i, r_i]) for M_i, r_i in zip(M, r, strict=True)]  # w_i in a unit of its own
-    one = np.array([[int(i == j) for j in range(m)] for i in range(m)], dtype=object)
-    rows = np.array(rows, dtype=object)
-    cover = np.array([[-1]] * m, dtype=object)
-    table = np.column_stack([one, rows[:, :-1], cover, rows[:, -1]])
+    table = fmpz_mat(
+        [[*(int(i == j) for j in range(m)), *row[:-1], -1, row[-1]] for i, row in enumerate(rows)]
+    )
     basis = [*range(m)]
-    last = 1
-    z0 = 2 * m
-    entering = z0
+    last = fmpz(1)
+    entering = z0 = 2 * m
     pivot = least(table, range(m), [1] * m)
     while True:
         leaving = basis[pivot]
-        row = table[pivot].copy()
-        column = table[:, entering].copy()
+        row = [table[pivot, k] for k in range(z0 + 2)]
+        column = fmpz_mat([[table[i, entering]] for i in range(m)])
         sign = -1 if row[entering] < 0 else 1
-        table = sign * ((table * row[entering] - np.outer(column, row)) // last)
-        table[pivot] = sign * row
+        table = (table * row[entering] - column * fmpz_mat([row])) * sign / last
+        for k, v in enumerate(row):
+            table[pivot, k] = sign * v
         last = abs(row[entering])
         basis[pivot] = entering
         if leaving == z0:
             z = zero.copy()
             for i, variable in enumerate(basis):
                 if m <= variable < z0:
-                    z[variable - m] = Fraction(table[i, -1], last)
+                    z[variable - m] = Fraction(int(table[i, z0 + 1]), int(last))
+            w = M @ z + r
+            assert min(*w, *z) >= 0 == w @ z
             return z
         entering = leaving + m if leaving < m else leaving - m
         rows = [i for i in range(m) if table[i, entering] > 0]
         if not rows:
             return None  # a ray
-        pivot = least(table, rows, table[:, entering])
+        pivot = least(table, rows, [table[i, entering] for i in range(m)])
 
 
 def least(table, rows, shares):
     """The row that is first by the lexicographic rule: its last entry, then the others, shared."""
+    m = table.nrows()
 
     def compared(i, j):
-        for k in (-1, *range(len(table))):
+        for k in (2 * m + 1, *range(m)):
             difference = table[i, k] * shares[j] - table[j, k] * shares[i]
             if difference:
                 return -1 if difference < 0 else 1
