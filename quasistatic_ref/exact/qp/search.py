@@ -2,17 +2,17 @@
 
 Where P is positive definite, the dual active-set method ends with them. Elsewhere the rows of a
 guess are proved to bear on a face of optima, whose point of least norm is the answer. If no guess
-holds, exact programs that are strictly convex decide, one after the other: whether there is a
-feasible point, whether the cost falls without end along a direction, and which rows bear if
-eps |x - x'|^2 / 2 is added to the cost: for small eps these are rows of an optimum.
+holds, exact programs that are strictly convex decide: which rows bear if eps |x - x'|^2 / 2 is
+added to the cost, for small eps those of an optimum; and where some eps show none, whether there is
+a feasible point, and whether the cost falls without end along a direction.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import count
-from typing import Any
+from itertools import count, islice
+from typing import Any, Final
 
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpz
@@ -37,6 +37,8 @@ from quasistatic_ref.numbers.modulo import independent_modulo
 from quasistatic_ref.numbers.precision import working_precision
 
 Guesses = Iterable[tuple[Sequence[int], Array]]
+ROUNDS: Final = 3
+"""Values of eps after which it is asked whether there is an optimum."""
 
 
 class Contradiction(Exception):
@@ -195,11 +197,15 @@ def strict(form: MatrixProgram, warm: Sequence[int] | None = None) -> Minimiser 
 
 def _searched(block: Block, convex: Convex, rows: Sequence[int], centre: Array) -> BlockOptimum:
     held = block.lucky(lambda: _held_equations(block))
+    nearer = _nearer(block, convex, held, rows, centre)
+    for found in islice(nearer, ROUNDS):
+        if found is not None:
+            return found
     x = _feasible(block, held, centre)
     direction = block.lucky(lambda: _endless(block, convex, held))
     if direction is not None:
         raise Endless(x, direction)
-    for found in _nearer(block, convex, held, rows, centre):
+    for found in nearer:
         if found is not None:
             return found
     raise AssertionError  # it ends with an optimum
@@ -289,7 +295,8 @@ def _nearer(
                 P + weight, g + weight * exact_matrix(centre[:, None]), exact, len(held)
             )
         end = strict(form, [at[i] for i in rows if i in at])
-        assert isinstance(end, Minimiser)  # there is a feasible point
+        if isinstance(end, Combination):
+            return  # no point is feasible
         x = end.balls.floats[0]
         rows, centre = [some[t] for t in end.working], np.where(np.isfinite(x), x, 0.0)
         yield optimum_on(block, convex, rows)
