@@ -17,7 +17,7 @@ def found(scenario):
 
 @pytest.mark.shared
 @pytest.mark.parametrize("case", params(CASES))
-def test_findings_are_right_by_hand(case):
+def test_a_scene_has_the_findings_of_its_row_and_no_others(case):
     """A remedy that is applied ends what asked for it."""
     scenario = made(case)
     findings = scenario.findings() if "before" in case else found(scenario)

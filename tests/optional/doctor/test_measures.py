@@ -50,7 +50,7 @@ def test_a_shape_that_is_not_of_a_pair_is_answered_by_the_pairs():
 
 
 @pytest.mark.parametrize("row", params(rows_of("doctor/numbers.toml")))
-def test_numbers_are_those_by_hand(row):
+def test_run_says_the_numbers_that_a_scene_has_in_closed_form(row):
     scenario = made(row)
     said = by_name(numbers_of(scenario.run(progress=False, findings=False), scenario))
     for name, (value, off) in row["numbers"].items():

@@ -27,7 +27,7 @@ def opinion(text, seconds=2.0, keyframe=None, control=None):
 
 
 @pytest.mark.parametrize("row", params(OPINIONS))
-def test_opinions_are_right_by_hand(row):
+def test_an_opinion_has_the_findings_and_forces_of_statics(row):
     text = row.get("mjcf") or SCENES[row["page"]]
     for old, new in row.get("replace", {}).items():
         assert old in text

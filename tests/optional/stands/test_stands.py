@@ -94,14 +94,14 @@ ASKED = [
 
 @pytest.mark.parametrize("also", [dict, backwards], ids=["in order", "backwards"])
 @pytest.mark.parametrize(("row", "ask"), ASKED)
-def test_bodies_stand_or_lack_what_is_right_by_hand_whatever_the_order(row, ask, also):
+def test_a_body_lacks_what_a_clamp_on_it_would_bear_whatever_the_order(row, ask, also):
     scenario = made(row, ask.get("set", {}), also)
     assert_by_hand(scenario, run_of(scenario), ask["stands"])
 
 
 @pytest.mark.shared
 @pytest.mark.parametrize("case", params(one for one in CASES if not {"before", "mjcf"} & {*one}))
-def test_bodies_of_the_doctors_cases_lack_what_is_right_by_hand(case):
+def test_a_body_of_the_doctors_cases_lacks_what_a_clamp_on_it_would_bear(case):
     """`why` derives numbers that a row's name does not say. Others stand in the end, or fall."""
     scenario = made(case)
     run = run_of(scenario)
