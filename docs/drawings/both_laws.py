@@ -41,6 +41,7 @@ PUSH = 4
 """Of the pushes of ``reality_pushes``."""
 ADVANCE, STEPS = 2e-3, 300
 """Of the finger in a step [m]; of the grasp."""
+TITLES = ("a block, one step", "a sphere, one step", "the bunny in its grip", "a measured push")
 STYLES = {CONVEX: "o-", COULOMB: "^--"}
 PEN: dict[str, Any] = {"color": "black", "markerfacecolor": "none", "linewidth": 0.9}
 
@@ -114,7 +115,8 @@ def figure(*, h: float = H) -> Figure:
         axes[3].plot(*outlines[law], style, markevery=0.2, **PEN)
     axes[3].set_aspect("equal", adjustable="datalim")
     label_axes(axes[3], "x [mm]", "y [mm]", key=False)
-    for one in axes:
+    for one, title in zip(axes, TITLES, strict=True):
+        one.set_title(title, loc="left")
         one.locator_params(nbins=4)
     handles = [*axes[0].get_legend_handles_labels()[0], *axes[3].get_legend_handles_labels()[0]]
     legend_below(axes, handles)
