@@ -578,15 +578,14 @@ class Qps:
             elif section == "BOUNDS":
                 free = fields[0].upper() in ("FR", "MI", "PL")
                 named = len(fields) == (3 if free else 4)
-                if first.setdefault(section, fields[1] if named else "") == (
-                    fields[1] if named else ""
-                ):
+                head = fields[1] if named else ""
+                if first.setdefault(section, head) == head:
                     self.bound(fields[0].upper(), fields[1 + named], None if free else fields[-1])
             else:
                 named = len(fields) % 2
                 head = fields[0] if named else ""
-                for name, text in zip(fields[named::2], fields[named + 1 :: 2], strict=True):
-                    self.entry(section, head, name, decimal(text), first)
+                for name, value in zip(fields[named::2], fields[named + 1 :: 2], strict=True):
+                    self.entry(section, head, name, decimal(value), first)
 
     def entry(self, section, head, name, v, first):
         """One pair of a name and a number."""
